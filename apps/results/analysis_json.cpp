@@ -135,6 +135,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis, const std::
   json["assumed"] = device.uncertainty ? device.uncertainty->assumed : std::vector<std::string>{};
   json["trust"] = analysis.trust;
   json["remarks"] = analysis.remarks;
+  json["findings"] = findings_json(analysis.trust, analysis.remarks);
   return json;
 }
 

@@ -34,6 +34,7 @@ Json bode_json(const Device& device, const Bode& bode) {
   json["crossovers"] = bode.analysis.critical.crossovers;
   json["trust"] = bode.analysis.trust;
   json["remarks"] = bode.analysis.remarks;
+  json["findings"] = findings_json(bode.analysis.trust, bode.analysis.remarks);
   return json;
 }
 

@@ -119,6 +119,7 @@ Json design_json(const Device& device, const Design& design) {
   }
   json["branch_switches"] = design.branch_switches;
   json["remarks"] = design.remarks;
+  json["findings"] = findings_json(design.trust, design.remarks);
   return json;
 }
 
@@ -128,6 +129,7 @@ Json sweep_json(const Device& swept, const ParameterSweep& sweep) {
   json["device"] = device.name;
   json["units"] = stiffness_units(device.motion);
   json["trust"] = sweep.trust;
+  json["findings"] = findings_json(sweep.trust);
   json["axes"] = Json::array();
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
     const std::string& key = sweep.axes[i].key;
@@ -175,6 +177,7 @@ Json comparison_json(const DesignComparison& comparison) {
                   {"any_user", best_json(comparison, comparison.best_any_user)},
                   {"with_operator", best_json(comparison, comparison.best_held)}};
   json["trust"] = comparison.trust;
+  json["findings"] = findings_json(comparison.trust);
   return json;
 }
 
@@ -202,6 +205,7 @@ Json notch_json(const Device& device, const NotchOptions& options, const NotchDe
   json["with"] = state_json(design.state_with);
   json["trust"] = design.trust;
   json["remarks"] = design.remarks;
+  json["findings"] = findings_json(design.trust, design.remarks);
   return json;
 }
 

@@ -18,6 +18,7 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
   json["any_user_now"] = targets.any_user_now;
   json["trust"] = targets.trust;
   json["remarks"] = targets.remarks;
+  json["findings"] = findings_json(targets.trust, targets.remarks);
   json["targets"] = Json::array();
   for (const DesignTarget& each : targets.targets) {
     json["targets"].push_back(Json{{"parameter", each.key},

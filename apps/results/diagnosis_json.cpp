@@ -56,6 +56,7 @@ Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   json["changes"] = diagnosis.changes;
   json["trust"] = diagnosis.trust;
   json["remarks"] = diagnosis.remarks;
+  json["findings"] = findings_json(diagnosis.trust, diagnosis.remarks);
   return json;
 }
 

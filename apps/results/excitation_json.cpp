@@ -34,6 +34,7 @@ Json excitation_json(const Excitation& excitation) {
   json["rms_force"] = crest.rms;
   json["crest_factor"] = crest.factor;
   json["remarks"] = excitation.remarks;
+  json["findings"] = findings_json({}, excitation.remarks);
   json["check"] = excitation.check;
   return json;
 }

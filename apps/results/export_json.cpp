@@ -120,7 +120,8 @@ Json export_json(const DeviceModel& model) {
           {"status", critical.status},
           {"critical_stiffness", critical.stiffness},
           {"crossovers", critical.crossovers},
-          {"trust", critical.trust}};
+          {"trust", critical.trust},
+          {"findings", findings_json(critical.trust)}};
 }
 
 }  // namespace zwidth::results

@@ -124,6 +124,7 @@ Json frf_json(const MeasuredResponse& measured, const FrfUnits& units, FrfConten
   json["basis"] = StiffnessBasis{};
   json["trust"] = measured.trust;
   json["remarks"] = measured.remarks;
+  json["findings"] = findings_json(measured.trust, measured.remarks);
   return json;
 }
 

@@ -62,6 +62,7 @@ static void put_limit(Json& json, const Identified& identified, const Json& anal
   json["basis"] = identified.basis;
   json["trust"] = identified.trust;
   json["remarks"] = identified.remarks;
+  json["findings"] = findings_json(identified.trust, identified.remarks);
 }
 
 Json identification_json(const Identification& identified, PointsInJson points) {
@@ -132,6 +133,7 @@ Json identification_json(const RigidBodyIdentification& identified) {
   json["equations"] = fit.equations;
   json["trust"] = identified.trust;
   json["remarks"] = identified.remarks;
+  json["findings"] = findings_json(identified.trust, identified.remarks);
   json["device_toml"] = write_device(identified.device.parameters(), identified.remarks);
   return json;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "zwidth/remark.hpp"
 #include "zwidth/trust.hpp"
@@ -76,5 +77,9 @@ void to_json(Json& json, const Remark& remark);
 
 /// {"verdict": "sound" | "doubtful" | "refused", "reasons": [...]}
 void to_json(Json& json, const Trust& trust);
+
+/// [{"code", "severity": "note" | "doubt" | "refusal", "key", "evidence": {name: number}, "effect": {name: number} | null,
+/// "remedy", "text"}], each once, what speaks against the numbers first. What no code was given for is "stated".
+[[nodiscard]] Json findings_json(const Trust& trust, const std::vector<Remark>& remarks = {});
 
 }  // namespace zwidth::results

@@ -12,6 +12,7 @@ Json recording_json(const RecordingContents& contents) {
     json["columns"].push_back({{"name", each.name}, {"samples", each.size}, {"detail", each.detail}});
   }
   json["remarks"] = contents.remarks;
+  json["findings"] = findings_json({}, contents.remarks);
   return json;
 }
 

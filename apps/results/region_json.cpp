@@ -120,6 +120,7 @@ Json region_json(const Device& device, const WallRegion& walls) {
   json["force_per_count"] = force_per_count_json(walls, parameters.wall);
   json["trust"] = walls.trust;
   json["remarks"] = walls.remarks;
+  json["findings"] = findings_json(walls.trust, walls.remarks);
   return json;
 }
 

@@ -86,6 +86,7 @@ Json relay_json(const RelayResult& result) {
   json["limit_reading"] = result.limit_reading;
   json["trust"] = result.trust;
   json["remarks"] = result.remarks;
+  json["findings"] = findings_json(result.trust, result.remarks);
   return json;
 }
 

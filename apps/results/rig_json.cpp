@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "results/excitation_json.hpp"
 #include "results/frf_json.hpp"
@@ -76,6 +77,11 @@ Json begun(const char* action, const Device& device, const RigSession& session) 
   return json;
 }
 
+std::vector<Remark> together(std::vector<Remark> first, const std::vector<Remark>& then) {
+  first.insert(first.end(), then.begin(), then.end());
+  return first;
+}
+
 Json predicted_json(const CriticalStiffness& predicted) {
   Json json = Json::object();
   add_critical(json, predicted);
@@ -99,6 +105,7 @@ Json rig_json(const Device& device, const RigCheck& check) {
   json["measured_delay_s"] = has_delay ? Json(timing.delay.p50) : Json(nullptr);
   json["measured_jitter_s"] = has_clock ? Json(timing.latency.p99) : Json(nullptr);
   json["trust"] = check.trust;
+  json["findings"] = findings_json(check.trust, check.session.remarks);
   return json;
 }
 
@@ -106,6 +113,7 @@ Json rig_json(const Device& device, const RigMeasurement& measurement) {
   Json json = begun("measure", device, measurement.session);
   add_measurement(json, device, measurement);
   json["trust"] = measurement.trust;
+  json["findings"] = findings_json(measurement.trust, measurement.session.remarks);
   return json;
 }
 
@@ -115,6 +123,7 @@ Json rig_json(const Device& device, const RigIdentification& identification) {
   json["identification"] =
       identification.identification ? identification_json(*identification.identification) : Json(nullptr);
   json["trust"] = identification.trust;
+  json["findings"] = findings_json(identification.trust, identification.measurement.session.remarks);
   return json;
 }
 
@@ -131,6 +140,7 @@ Json rig_json(const Device& device, const RigRelay& relay) {
                            {"trials", mean.trials}};
   }
   json["trust"] = relay.trust;
+  json["findings"] = findings_json(relay.trust, relay.session.remarks);
   return json;
 }
 
@@ -149,6 +159,7 @@ Json rig_json(const Device& device, const RigWall& wall) {
   json["peak_force"] = wall.peak_force;
   json["peak_position"] = wall.peak_position;
   json["trust"] = wall.trust;
+  json["findings"] = findings_json(wall.trust, wall.session.remarks);
   return json;
 }
 
@@ -178,6 +189,7 @@ Json rig_json(const Device& device, const RigLimit& limit) {
   json["trials"] = measured.trials;
   json["trust"] = limit.trust;
   json["remarks"] = limit.remarks;
+  json["findings"] = findings_json(limit.trust, together(limit.session.remarks, limit.remarks));
   return json;
 }
 

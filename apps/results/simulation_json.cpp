@@ -140,6 +140,7 @@ Json simulation_json(const Device& device, const Simulation& result, PointsInJso
   json["linear"] = result.linear;
   json["trust"] = result.trust;
   json["remarks"] = result.remarks;
+  json["findings"] = findings_json(result.trust, result.remarks);
   if (points == PointsInJson::included) json["points"] = points_json(device, result.trajectory);
   return json;
 }

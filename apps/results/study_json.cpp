@@ -159,6 +159,7 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["worst_any_user"] = worst_json(study, study.worst_any_user);
   json["trust"] = study.trust;
   json["remarks"] = study.remarks;
+  json["findings"] = findings_json(study.trust, study.remarks);
   return json;
 }
 

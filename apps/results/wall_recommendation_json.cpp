@@ -64,6 +64,7 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
   }
   json["trust"] = recommendation.trust;
   json["remarks"] = recommendation.remarks;
+  json["findings"] = findings_json(recommendation.trust, recommendation.remarks);
   return json;
 }
 

@@ -4,10 +4,27 @@ from collections import defaultdict
 
 NULL = type(None)
 VERDICTS = ["sound", "doubtful", "refused"]  # of "trust", whichever were seen
+NUMBERS = {"additionalProperties": {"type": ["number", "null"]}}  # by their names
+FINDING = {  # whichever were seen
+    "code": {"type": "string", "description": "what was found: a name of docs/findings.md"},
+    "severity": {"enum": ["note", "doubt", "refusal"], "description": "refusal: no number is given; doubt: the number stands, but something does not carry it; note: anything else"},
+    "key": {"type": ["string", "null"], "description": "the device file's, that it concerns; null where there is none"},
+    "evidence": {"type": "object", **NUMBERS, "description": "the numbers that it rests on, and the threshold that they were held to, in SI units"},
+    "effect": {"type": ["object", "null"], **NUMBERS, "description": "the limit with it, critical_stiffness or critical_damping; null where that is not known"},
+    "remedy": {"type": "string", "description": "what to do about it; may be empty"},
+    "text": {"type": "string", "description": "the sentence that stands in trust.reasons or remarks"},
+}
+FINDINGS = {
+    "type": "array",
+    "description": "what trust and remarks are written from, each once",
+    "items": {"type": "object", "properties": FINDING, "required": list(FINDING), "additionalProperties": False},
+}
 
 
 def schema_of(values, key=""):
     """Every number may be null, as a number that does not exist is; else only what was null somewhere."""
+    if key == "findings":
+        return FINDINGS
     kinds = defaultdict(list)
     for value in values:
         kind = float if isinstance(value, int) and not isinstance(value, bool) else type(value)

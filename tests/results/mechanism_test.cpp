@@ -55,6 +55,33 @@ TEST(Json, TrustAndEnumsHaveTheirNames) {
   EXPECT_EQ(Json(Mechanism{Mechanism::Kind::vibration_mode, 2}).dump(), R"({"kind":"vibration_mode","mode":2})");
 }
 
+TEST(Json, FindingsAreListedOnceWithTheirNumbers) {
+  Trust trust;
+  trust.doubt({.code = FindingCode::file_promises_more,
+               .evidence = {{"at_most", 800.0, "N/m"}, {"promised", infinity, "N/m"}},
+               .key = "wall.stiffness",
+               .effect = {{"critical_stiffness", 800.0}}});
+  trust.refuse("no data");
+  const Remark coarse = warning({.code = FindingCode::encoder_stands_still, .evidence = {{"resolution", 1e-4, "m"}}});
+  const Json findings = findings_json(trust, {coarse, {Remark::Severity::note, "a", "b", "c"}, coarse});
+  ASSERT_EQ(findings.size(), 4U);
+  EXPECT_EQ(
+      findings[0].dump(),
+      R"({"code":"file_promises_more","severity":"doubt","key":"wall.stiffness",)"
+      R"("evidence":{"at_most":800.0,"promised":null},"effect":{"critical_stiffness":800.0},"remedy":"",)"
+      R"("text":"the device's file promises every stiffness, more than was measured: identify the device before any )"
+      R"(of its limits is used"})");
+  EXPECT_EQ(findings[1]["code"], "stated");
+  EXPECT_EQ(findings[1]["severity"], "refusal");
+  EXPECT_EQ(findings[1]["text"], "no data");
+  EXPECT_TRUE(findings[1]["key"].is_null() && findings[1]["effect"].is_null());
+  EXPECT_EQ(findings[2]["code"], "encoder_stands_still");
+  EXPECT_EQ(findings[2]["severity"], "note");
+  EXPECT_EQ(findings[2]["remedy"], coarse.remedy);
+  EXPECT_EQ(findings[3]["code"], "stated");
+  EXPECT_EQ(findings[3]["text"], "a; b; c");
+}
+
 TEST(Json, ADocumentIsOneLineAndBeginsWithItsSchema) {
   Json json = document("zwidth.analysis/1");
   json["device"] = "two\nlines, \xff";

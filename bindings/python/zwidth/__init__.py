@@ -75,7 +75,7 @@ from ._measured_results import (
     RigidBodyIdentification,
     Simulation,
 )
-from ._parts import Crossover, HolderLimit, HoldingLimits, Mechanism, Mode, Remark, StableFor, Trust, WallMargins
+from ._parts import Crossover, Finding, HolderLimit, HoldingLimits, Mechanism, Mode, Remark, StableFor, Trust, WallMargins
 from ._results import Model
 
 if TYPE_CHECKING:
@@ -106,6 +106,7 @@ __all__ = [
     "DoubtfulResult",
     "Error",
     "Excitation",
+    "Finding",
     "FrequencyResponse",
     "HolderLimit",
     "HoldingLimits",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from . import _core
 from ._errors import Error
-from ._parts import Trust, Mechanism, Mode, Crossover, Remark, HoldingLimits, WallMargins, AnyUser, _Limited
+from ._parts import Finding, Trust, Mechanism, Mode, Crossover, Remark, HoldingLimits, WallMargins, AnyUser, _Limited
 from ._record import (
     Record, Result, array, count, interval, intervals, many, maybe, maybe_one, maybe_text, number, one, text, texts,
 )  # fmt: skip
@@ -125,6 +125,7 @@ class Sweep(Result):
     axes = many(SweepAxis, "One or two.")
     points = many(SweepPoint, "The last axis runs fastest.")
     trust = one(Trust, "Of the device, and of the points as a whole; each point has its own.")
+    findings = many(Finding, "What trust and remarks are written from, each once.")
 
 
 class Comparison(Result):
@@ -137,6 +138,7 @@ class Comparison(Result):
     designs = many(Record, "One per value.")
     best = one(Record, "The value that is best, by each limit.")
     trust = one(Trust, "The worst of the designs'.")
+    findings = many(Finding, "What trust and remarks are written from, each once.")
 
 
 class Notch(_Limited):
@@ -251,6 +253,7 @@ class Study(Result):
     tighten_first = maybe_text("The parameter whose halved spread gains most, where that is more than chance; else None.")
     trust = one(Trust, "How far the numbers may be relied on.")
     remarks = many(Remark, "What was left out or noticed.")
+    findings = many(Finding, "What trust and remarks are written from, each once.")
 
     def worst_device(self) -> _core.Device:
         """The worst unit as a device, as study --output-device writes it."""

@@ -6,7 +6,7 @@ from typing import List
 
 from . import _core
 from ._errors import Error
-from ._parts import HoldingLimits, Remark, Mechanism, Mode, _Limited
+from ._parts import Finding, HoldingLimits, Remark, Mechanism, Mode, _Limited
 from ._record import (Array, Record, Result, array, complexes, count, flag, interval, intervals, many, maybe, maybe_count, maybe_flag, maybe_one, maybe_text, number, one, text, texts)
 
 
@@ -195,6 +195,7 @@ class Excitation(Result):
     rms_force = number("N or N m")
     crest_factor = number("Peak over rms.")
     remarks = many(Remark, "What was noticed.")
+    findings = many(Finding, "What the remarks are written from, each once.")
     check = maybe_one(Record, "Played through a device: its motion.")
 
     def force(self) -> Array:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Optional
 
-from ._record import Record, Result, count, flag, interval, many, maybe, maybe_flag, maybe_one, number, one, text, texts
+from ._record import Record, Result, count, flag, interval, many, maybe, maybe_flag, maybe_one, maybe_text, number, one, text, texts
+
+_text = text  # where a key has this name
 
 
 class Trust(Record):
@@ -22,6 +24,18 @@ class Remark(Record):
     meaning = text("Consequence and remedy in one line.")
     consequence = text("What it means for the result; may be empty.")
     remedy = text("What to do about it; may be empty.")
+
+
+class Finding(Record):
+    """Something that zwidth knows about an input or an answer, as data: docs/findings.md."""
+
+    code = text('What was found, as a name: "wall_not_surely_stable".')
+    severity = text('"note", "doubt" or "refusal".')
+    key = maybe_text("The device file's, that it concerns; None where there is none.")
+    evidence = one(Record, "The numbers that it rests on, by name, in SI units.")
+    effect = maybe_one(Record, "The limit with it, by name; None where that is not known.")
+    remedy = text("What to do about it; may be empty.")
+    text = _text("The sentence, as in trust.reasons or remarks.")
 
 
 class Mechanism(Record):
@@ -109,3 +123,4 @@ class AnyUser(Record):
 class _Limited(Result):
     trust = one(Trust, "How far the numbers may be relied on.")
     remarks = many(Remark, "What was left out or noticed.")
+    findings = many(Finding, "What trust and remarks are written from, each once.")

@@ -10,6 +10,16 @@ export interface Remark {
   consequence: string
   remedy: string
 }
+/** What trust and remarks are written from, each once: docs/findings.md. */
+export interface Finding {
+  code: string
+  severity: 'note' | 'doubt' | 'refusal'
+  key: string | null
+  evidence: Record<string, number | null>
+  effect: Record<string, number | null> | null
+  remedy: string
+  text: string
+}
 export interface LimitedBy {
   kind: 'rigid_body' | 'vibration_mode'
   mode?: number
@@ -45,6 +55,7 @@ interface Judged {
   units: { stiffness: string; damping: string }
   trust: Trust
   remarks: Remark[]
+  findings: Finding[]
 }
 export interface Analysis extends Judged {
   status: 'finite' | 'none_stable' | 'unbounded' | 'refused'
@@ -76,6 +87,7 @@ export interface Bode {
   crossovers: Crossover[] | null
   trust: Trust
   remarks: Remark[]
+  findings: Finding[]
 }
 export interface WallPoint {
   stiffness: number
@@ -126,6 +138,7 @@ export interface Sweep {
   units: { stiffness: string }
   trust?: Trust
   remarks?: Remark[]
+  findings?: Finding[]
 }
 /** What a proposal does to the limit with any passive user; null: no limit, or not known where `safe` is null too. */
 export interface ForAnyUser {
@@ -202,6 +215,7 @@ export interface Simulation {
   linear: { wall_share: number | null; wall_stable: boolean | null; agrees: boolean | null }
   trust: Trust
   remarks: Remark[]
+  findings: Finding[]
   points?: {
     time_s: number[]
     measured: number[]
@@ -219,12 +233,14 @@ export interface Relay {
   limit_reading: string | null
   trust: Trust
   remarks: Remark[]
+  findings: Finding[]
 }
 export interface Recording {
   id: string
   format: string
   columns: { name: string; samples: number; detail: string }[]
   remarks: Remark[]
+  findings: Finding[]
 }
 export interface FrequencyResponse {
   status: string
@@ -241,6 +257,7 @@ export interface FrequencyResponse {
   coherence: (number | null)[] | null
   trust: Trust
   remarks: Remark[]
+  findings: Finding[]
 }
 export interface Identification extends Omit<Judged, 'units'> {
   /** Without: of inverse dynamics, which state no limit. */
