@@ -69,7 +69,8 @@ Json with_damper_json(const WallSummary& walls) {
           {"damping", wall.damping},
           {"velocity_filter_hz", wall.velocity_filter_hz},
           {"stable_for", wall.holder == Holder::any_user ? "any_user" : "nobody"},
-          {"trust", wall.trust}};
+          {"trust", wall.trust},
+          {"findings", findings_json(wall.trust)}};
 }
 
 Json with_margins_json(const WallSummary& walls) {

@@ -86,6 +86,7 @@ Json predicted_json(const CriticalStiffness& predicted) {
   Json json = Json::object();
   add_critical(json, predicted);
   json["trust"] = predicted.trust;
+  json["findings"] = findings_json(predicted.trust);
   return json;
 }
 

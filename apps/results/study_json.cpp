@@ -49,6 +49,7 @@ Json worst_json(const Study& study, const std::optional<WorstDevice>& found) {
   json["descents"] = worst.descents;
   json["agreeing"] = worst.agreeing;
   json["trust"] = worst.trust;
+  json["findings"] = findings_json(worst.trust);
   return json;
 }
 
@@ -100,7 +101,8 @@ Json rare_json(const Study& study) {
           {"interval", {rare.lower, rare.upper}},
           {"evaluations", rare.evaluations},
           {"design_points", points},
-          {"trust", rare.trust}};
+          {"trust", rare.trust},
+          {"findings", findings_json(rare.trust)}};
 }
 
 Json regions_json(const Study& study) {
@@ -111,11 +113,9 @@ Json regions_json(const Study& study) {
     contours.push_back(
         {{"share", each.share}, {"stiffness", each.stiffness}, {"lower", each.lower}, {"upper", each.upper}});
   }
-  return {{"units", regions.units},
-          {"damping_step", regions.damping_step},
-          {"dampings", regions.dampings},
-          {"contours", contours},
-          {"trust", regions.trust}};
+  return {{"units", regions.units},       {"damping_step", regions.damping_step},
+          {"dampings", regions.dampings}, {"contours", contours},
+          {"trust", regions.trust},       {"findings", findings_json(regions.trust)}};
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "uncertainty_warning",
                                              "assumed",
                                              "trust",
-                                             "remarks"};
+                                             "remarks",
+                                             "findings"};
   for (const auto& analysed : {lhifam(), lhifam_with_wall(), undamped_paddle(), unlimited_transfer_function()}) {
     EXPECT_EQ(keys_of(document_of(analysed)), expected) << analysed.device.name();
   }

@@ -7,13 +7,12 @@
 
 namespace zwidth::report {
 
-/// Every key of a document, however deep.
+/// Every key of a document, however deep; those of its findings are in docs/findings.md.
 inline void collect_keys(const results::Json& value, std::set<std::string>& keys) {
-  if (value.is_object()) {
-    for (const auto& item : value.items()) keys.insert(item.key());
-  }
-  if (value.is_structured()) {
-    for (const auto& child : value) collect_keys(child, keys);
+  if (!value.is_structured()) return;
+  for (const auto& item : value.items()) {
+    if (value.is_object()) keys.insert(item.key());
+    if (!value.is_object() || item.key() != "findings") collect_keys(item.value(), keys);
   }
 }
 

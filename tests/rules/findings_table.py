@@ -28,6 +28,9 @@ What zwidth may find, as it stands in `findings` of every document that has `tru
 
 Each is listed once, what speaks against the numbers first. A sentence is its code's below; in braces stand its numbers, most of them in
 `evidence`, and names. `tests/rules/findings_table.py . --write` writes this file from the sources.
+
+A new finding is a line in `include/zwidth/finding_code.hpp`, a phrase in `src/words/ROOM_phrases.cpp`, and where it is found
+`trust.doubt({.code = ..., .evidence = ...})`, `trust.refuse()`, or a remark by `note()` or `warning()`.
 """
 
 
