@@ -7,7 +7,10 @@ import { chromiumHere } from './chromium.mjs'
 
 const project = resolve(dirname(fileURLToPath(import.meta.url)), '../..')
 const program = resolve(process.argv[2] ?? `${project}/build/release/bin/zwidth`)
-const server = spawn(program, ['serve', 'devices/lhifam.toml', '--set', 'wall.stiffness=3000', '--set', 'wall.damping=10', '--port', '0'], { cwd: project, stdio: ['ignore', 'pipe', 'inherit'] })
+const server = spawn(program, ['serve', 'devices/lhifam.toml', '--set', 'wall.stiffness=3000', '--set', 'wall.damping=10', '--port', '0'], {
+  cwd: project,
+  stdio: ['ignore', 'pipe', 'inherit'],
+})
 const address = await new Promise((done) => server.stdout.once('data', (data) => done(String(data).trim())))
 const browser = await chromium.launch(chromiumHere())
 const page = await browser.newPage({ viewport: { width: 1280, height: 1180 }, colorScheme: 'light', reducedMotion: 'reduce' })
@@ -19,7 +22,8 @@ const settled = async () => {
 }
 await settled()
 await page.screenshot({ path: `${project}/docs/workbench.png` })
-for (const known of ['body.motor damping', 'body.handle mass', 'body.handle damping']) await page.getByRole('button', { name: `Lock ${known}`, exact: true }).click()
+for (const known of ['body.motor damping', 'body.handle mass', 'body.handle damping'])
+  await page.getByRole('button', { name: `Lock ${known}`, exact: true }).click()
 await page.getByRole('button', { name: 'Recording', exact: true }).click()
 await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
 await page.getByLabel('Fit', { exact: true }).selectOption('device')

@@ -8,13 +8,22 @@ import { chromiumHere } from './chromium.mjs'
 
 const [folder, pictures] = process.argv.slice(2, 4).map((path) => resolve(path))
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
-const pages = readdirSync(folder, { recursive: true }).map((path) => join(folder, path)).filter((path) => path.endsWith('.html') && !path.includes('/_static/'))
+const pages = readdirSync(folder, { recursive: true })
+  .map((path) => join(folder, path))
+  .filter((path) => path.endsWith('.html') && !path.includes('/_static/'))
 const wrong = new Set()
 const browser = await chromium.launch(chromiumHere())
-for (const [width, colorScheme] of [[1280, 'light'], [390, 'dark']]) {
+for (const [width, colorScheme] of [
+  [1280, 'light'],
+  [390, 'dark'],
+]) {
   const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme, reducedMotion: 'reduce' })
   const page = await context.newPage()
-  page.on('request', (request) => request.url().startsWith(`file://${folder}/`) || request.url().startsWith('data:') || wrong.add(`asks for ${request.url()}`))
+  page.on(
+    'request',
+    (request) =>
+      request.url().startsWith(`file://${folder}/`) || request.url().startsWith('data:') || wrong.add(`asks for ${request.url()}`),
+  )
   for (const path of pages) {
     const name = relative(folder, path)
     await page.goto(`file://${path}`)

@@ -61,7 +61,10 @@ interface Refused {
 }
 const problemOf = (body: Refused | null, status: number): Problem => {
   const error = body?.error
-  return new Problem(error?.where ?? '', error?.what ?? `the server says ${status}`, error?.allowed ?? '', status, { line: error?.line ?? undefined, column: error?.column })
+  return new Problem(error?.where ?? '', error?.what ?? `the server says ${status}`, error?.allowed ?? '', status, {
+    line: error?.line ?? undefined,
+    column: error?.column,
+  })
 }
 
 const wait = (ms: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, ms))

@@ -67,7 +67,11 @@ export interface Analysis extends Judged {
   stable_intervals: [number, number | null][] | null
   crossovers: Crossover[] | null
   modes: { frequency_hz: number; damping_ratio: number }[]
-  any_user: { critical_stiffness: number | null; frequency_rad_s: number | null; critical_stiffness_interval?: [number, number | null] | null } | null
+  any_user: {
+    critical_stiffness: number | null
+    frequency_rad_s: number | null
+    critical_stiffness_interval?: [number, number | null] | null
+  } | null
   rigid_approximation: { mass: number } | null
   wall: (Margins & { stiffness: number; damping: number; stable_for: StableFor }) | null
   force_per_count: { largest: number | null } | null
@@ -121,16 +125,18 @@ export interface Design extends Judged {
   any_user_stiffness: number | null
   sensitivities: Sensitivity[]
   /** null: not searched, above 8 bodies. */
-  branch_switches: {
-    parameter: string
-    value: number
-    critical_stiffness: number
-    critical_stiffness_beyond: number | null
-    limited_by: LimitedBy
-    limited_by_beyond: LimitedBy | null
-    frequency_rad_s: number
-    frequency_beyond_rad_s: number | null
-  }[] | null
+  branch_switches:
+    | {
+        parameter: string
+        value: number
+        critical_stiffness: number
+        critical_stiffness_beyond: number | null
+        limited_by: LimitedBy
+        limited_by_beyond: LimitedBy | null
+        frequency_rad_s: number
+        frequency_beyond_rad_s: number | null
+      }[]
+    | null
 }
 export interface Sweep {
   axes: { parameter: string; unit: string; values: number[] }[]

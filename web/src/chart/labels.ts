@@ -34,7 +34,10 @@ export function placeLabels(points: { x: number; y: number; label: string }[], w
       .find((each) => {
         const { left, right, top, bottom } = box(each)
         const isWithin = left >= within.left && right <= within.right && top >= within.top && bottom <= within.bottom
-        return isWithin && taken.every((other, i) => i === own || left >= other.right || right <= other.left || top >= other.bottom || bottom <= other.top)
+        return (
+          isWithin &&
+          taken.every((other, i) => i === own || left >= other.right || right <= other.left || top >= other.bottom || bottom <= other.top)
+        )
       })
     if (!place) return null
     taken.push(box(place))

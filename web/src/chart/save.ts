@@ -5,7 +5,21 @@ export interface Table {
   rows: (string | number | null)[][]
 }
 
-const kept = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'opacity', 'fill-opacity', 'font-size', 'font-weight', 'font-family', 'text-anchor', 'dominant-baseline', 'paint-order']
+const kept = [
+  'fill',
+  'stroke',
+  'stroke-width',
+  'stroke-dasharray',
+  'stroke-linejoin',
+  'opacity',
+  'fill-opacity',
+  'font-size',
+  'font-weight',
+  'font-family',
+  'text-anchor',
+  'dominant-baseline',
+  'paint-order',
+]
 
 /** The figure for paper: in the light colours, whichever the page has, with its title above and its legend below. */
 function standalone(svg: SVGSVGElement, title: string): Drawn {
@@ -46,7 +60,9 @@ function drawn(svg: SVGSVGElement, title: string): Drawn {
   copy.setAttribute('width', String(width))
   copy.setAttribute('height', String(height))
   copy.setAttribute('viewBox', `0 ${-titleHeight} ${width} ${height}`)
-  copy.append(textOf(title, { x: 4, y: 16 - titleHeight, fill: getComputedStyle(document.body).color, 'font-size': 13, 'font-weight': 600 }))
+  copy.append(
+    textOf(title, { x: 4, y: 16 - titleHeight, fill: getComputedStyle(document.body).color, 'font-size': 13, 'font-weight': 600 }),
+  )
   const ground = document.createElementNS('http://www.w3.org/2000/svg', 'rect')
   ground.setAttribute('y', String(-titleHeight))
   ground.setAttribute('width', '100%')
@@ -58,7 +74,8 @@ function drawn(svg: SVGSVGElement, title: string): Drawn {
 
 function textOf(content: string, attributes: Record<string, string | number>): SVGTextElement {
   const text = document.createElementNS('http://www.w3.org/2000/svg', 'text')
-  for (const [name, value] of Object.entries({ 'font-family': 'system-ui, sans-serif', ...attributes })) text.setAttribute(name, String(value))
+  for (const [name, value] of Object.entries({ 'font-family': 'system-ui, sans-serif', ...attributes }))
+    text.setAttribute(name, String(value))
   text.textContent = content
   return text
 }
@@ -72,7 +89,8 @@ function legend(svg: SVGSVGElement, copy: SVGSVGElement, top: number): number {
     const line = item.querySelector('line')
     const sample = document.createElementNS('http://www.w3.org/2000/svg', 'path')
     sample.setAttribute('d', `M${x} ${y}h26`)
-    for (const name of ['stroke', 'stroke-width', 'stroke-dasharray']) sample.setAttribute(name, line ? getComputedStyle(line).getPropertyValue(name) : color)
+    for (const name of ['stroke', 'stroke-width', 'stroke-dasharray'])
+      sample.setAttribute(name, line ? getComputedStyle(line).getPropertyValue(name) : color)
     copy.append(sample, textOf(item.textContent ?? '', { x: x + 32, y: y + 4, fill: color, 'font-size': 12 }))
   })
   return items.length > 0 ? 10 + 18 * Math.ceil(items.length / 3) : 0
@@ -116,4 +134,8 @@ export function saveCsv(table: Table, name: string): void {
   download(`${name}.csv`, new Blob([csvOf(table)], { type: 'text/csv' }))
 }
 
-export const fileName = (text: string): string => text.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^_|_$/g, '') || 'figure'
+export const fileName = (text: string): string =>
+  text
+    .toLowerCase()
+    .replace(/[^\p{L}\p{N}]+/gu, '_')
+    .replace(/^_|_$/g, '') || 'figure'

@@ -137,14 +137,25 @@ export function pathOf(xs: readonly number[], ys: readonly (number | null)[], x:
 }
 
 /** The area between two curves, a closed piece for each run of upper values; a lower one that is none lies below the axis. */
-export function bandOf(xs: readonly number[], low: readonly (number | null)[], high: readonly (number | null)[], x: Scale, y: Scale): string {
+export function bandOf(
+  xs: readonly number[],
+  low: readonly (number | null)[],
+  high: readonly (number | null)[],
+  x: Scale,
+  y: Scale,
+): string {
   let path = ''
   for (let start = 0; start < xs.length; ++start) {
     if (typeof high[start] !== 'number') continue
     let end = start
     while (end < xs.length && typeof high[end] === 'number') ++end
     const run = xs.slice(start, end)
-    const lower = pathOf(run, low.slice(start, end).map((each) => each ?? y.from), x, y)
+    const lower = pathOf(
+      run,
+      low.slice(start, end).map((each) => each ?? y.from),
+      x,
+      y,
+    )
     path += `${lower}${pathOf([...run].reverse(), high.slice(start, end).reverse(), x, y).replace(/^M/, 'L')}Z`
     start = end
   }

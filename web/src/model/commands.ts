@@ -11,9 +11,13 @@ const hasControls = (text: string): boolean => /[\u0000-\u0008\u000b-\u001f\u007
 
 /** Between the single quotes of a shell, for printf: every byte of a control character as \ooo. */
 const printfFormat = (text: string): string =>
-  text.replaceAll('\\', '\\\\').replaceAll('%', '%%').replaceAll("'", "'\\''").replace(/[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/g, (c) =>
-    [...new TextEncoder().encode(c)].map((byte) => `\\${byte.toString(8).padStart(3, '0')}`).join(''),
-  )
+  text
+    .replaceAll('\\', '\\\\')
+    .replaceAll('%', '%%')
+    .replaceAll("'", "'\\''")
+    .replace(/[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/g, (c) =>
+      [...new TextEncoder().encode(c)].map((byte) => `\\${byte.toString(8).padStart(3, '0')}`).join(''),
+    )
 
 const quoted = (text: string): string =>
   /^[\w./:=,+-]+$/.test(text) ? text : hasControls(text) ? `"$(printf '${printfFormat(text)}')"` : `'${text.replaceAll("'", "'\\''")}'`
@@ -33,7 +37,12 @@ export function setsFrom(example: string, text: string): string[] | null {
     const old = before.get(id)
     before.delete(id)
     const key = keyOf.get(id)
-    if (old === undefined ? key !== undefined && isDefault(key, entry.value) : old === rawOf(text, entry) || (typeof entry.value === 'number' && Number(old) === entry.value)) continue
+    if (
+      old === undefined
+        ? key !== undefined && isDefault(key, entry.value)
+        : old === rawOf(text, entry) || (typeof entry.value === 'number' && Number(old) === entry.value)
+    )
+      continue
     if (!key || hasControls(rawOf(text, entry)) || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
     sets.push(`${key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
   }
@@ -71,7 +80,8 @@ export function commandLine(command: string, options: Options = {}, text = workb
   const words = command === 'recommend' ? ['design'] : [command]
   const all = command === 'recommend' ? { recommend: true, ...options } : options
   const from = source(text)
-  if (from) return ['zwidth', ...words, quoted(from.file), ...from.sets.flatMap((each) => ['--set', quoted(each)]), ...optionsText(all)].join(' ')
+  if (from)
+    return ['zwidth', ...words, quoted(from.file), ...from.sets.flatMap((each) => ['--set', quoted(each)]), ...optionsText(all)].join(' ')
   const line = ['zwidth', ...words, '-', ...optionsText(all)].join(' ')
   if (hasControls(text)) return `printf '${printfFormat(text)}' | ${line}`
   const lines = new Set(text.split('\n'))
@@ -107,7 +117,10 @@ int main() {
 
 export function pythonCode(toml = workbench.toml): string {
   const escape = (quotes: string): string => quotes.replaceAll('"', '\\"')
-  const text = toml.replaceAll('\\', '\\\\').replace(/"{3,}|"+$/g, escape).replace(/[\u0000\r]/g, (c) => (c === '\r' ? '\\r' : '\\x00'))
+  const text = toml
+    .replaceAll('\\', '\\\\')
+    .replace(/"{3,}|"+$/g, escape)
+    .replace(/[\u0000\r]/g, (c) => (c === '\r' ? '\\r' : '\\x00'))
   // One line alone would be the name of a file.
   return `import zwidth
 

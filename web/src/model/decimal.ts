@@ -63,7 +63,8 @@ export function shown(value: number, unit: string, digits?: number): Shown {
   // Beyond the prefixes a power of ten says more than a prefix beside one.
   if (decimal.exponent < -12 || decimal.exponent > 12) return { number: textOf(decimal), unit, places: 0 }
   // From 0.1 to 1000 a number reads best without a prefix.
-  const [places, prefix] = decimal.exponent === -1 ? [0, ''] : (prefixes.find(([power]) => decimal.exponent >= power) ?? prefixes[prefixes.length - 1]!)
+  const [places, prefix] =
+    decimal.exponent === -1 ? [0, ''] : (prefixes.find(([power]) => decimal.exponent >= power) ?? prefixes[prefixes.length - 1]!)
   return { number: textOf({ ...decimal, exponent: decimal.exponent - places }), unit: prefix + unit, places }
 }
 

@@ -22,7 +22,9 @@ function assume(text: string, keys: string[]): string {
   if (keys.length > 0) return set(text, assumedPath, `[${keys.map((key) => JSON.stringify(key)).join(', ')}]`)
   const { entries } = scan(text)
   if (!find(scan(text), assumedPath)) return text
-  return entries.filter((each) => each.path[0] === 'uncertainty').length > 1 ? set(text, assumedPath, '[]') : `${removeTable(text, ['uncertainty']).trimEnd()}\n`
+  return entries.filter((each) => each.path[0] === 'uncertainty').length > 1
+    ? set(text, assumedPath, '[]')
+    : `${removeTable(text, ['uncertainty']).trimEnd()}\n`
 }
 const assumeMore = (text: string, keys: string[]): string => assume(text, [...assumedKeys(text), ...keys])
 
@@ -64,11 +66,16 @@ export function addBody(text: string, name: string, to: string, as: 'free' | 'he
 export function addLink(text: string, a: string, b: string): string {
   const stiffness = isRotary(scan(text)) ? '1.0' : '1000.0'
   const { length } = shape(text).links
-  const added = append(text, [length > 0 ? 'link' : 'body'], `[[link]]\nbetween = ${JSON.stringify([a, b])}\nstiffness = ${stiffness}\ndamping = 0.0`)
+  const added = append(
+    text,
+    [length > 0 ? 'link' : 'body'],
+    `[[link]]\nbetween = ${JSON.stringify([a, b])}\nstiffness = ${stiffness}\ndamping = 0.0`,
+  )
   return assumeMore(added, [`link.${length}.stiffness`, `link.${length}.damping`])
 }
 
-export const connect = (text: string, link: number, a: string, b: string): string => set(text, ['link', String(link), 'between'], JSON.stringify([a, b]))
+export const connect = (text: string, link: number, a: string, b: string): string =>
+  set(text, ['link', String(link), 'between'], JSON.stringify([a, b]))
 /** The links behind it move up, with what is assumed of them. */
 export function removeLink(text: string, link: number): string {
   const keys = assumedKeys(text).flatMap((key) => {
@@ -88,6 +95,9 @@ export function removeBody(text: string, name: string): string {
     if (next !== undefined) out = choose(out, role, given[role] === name ? next : (given[role] ?? next))
   }
   for (let i = links.length - 1; i >= 0; --i) if (links[i]!.includes(name)) out = removeLink(out, i)
-  out = assume(out, assumedKeys(out).filter((key) => key.replace(/\.[^.]*$/, '') !== `body.${name}`))
+  out = assume(
+    out,
+    assumedKeys(out).filter((key) => key.replace(/\.[^.]*$/, '') !== `body.${name}`),
+  )
   return removeTable(out, ['body', String(bodies.indexOf(name))])
 }

@@ -247,7 +247,11 @@ export function unset(text: string, path: string[]): string {
   const isInline = parent?.kind === 'inline'
   const before = text.slice(0, entry.start).replace(isInline ? /[^{,]*$/ : /[^\n]*$/, '')
   const after = isInline ? text.slice(entry.end) : text.slice(lineEnd(text, entry.end) + 1)
-  const without = isInline ? (before.trimEnd().endsWith(',') ? before.trimEnd().slice(0, -1) + after : before + after.replace(/^\s*,/, '')) : before + after
+  const without = isInline
+    ? before.trimEnd().endsWith(',')
+      ? before.trimEnd().slice(0, -1) + after
+      : before + after.replace(/^\s*,/, '')
+    : before + after
   const others = (entries: Entry[]): string => JSON.stringify(entries.map((each) => [each.path, each.value]))
   const left = scan(without)
   return left.complete && others(left.entries) === others(scanned.entries.filter((each) => each !== entry)) ? without : text
@@ -259,5 +263,8 @@ export function withoutComments(text: string): string {
   for (const comment of [...scan(text).comments].reverse()) {
     out = out.slice(0, comment.start) + out.slice(comment.end)
   }
-  return out.replace(/[ \t]+$/gm, '').replace(/\n{2,}/g, '\n').replace(/^\n/, '')
+  return out
+    .replace(/[ \t]+$/gm, '')
+    .replace(/\n{2,}/g, '\n')
+    .replace(/^\n/, '')
 }

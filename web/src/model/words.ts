@@ -82,7 +82,9 @@ const movedWord = (factor: number): string => {
 /** What would have to be otherwise for a cause to fit. */
 export const otherwiseWord = (factors: { limit: number; frequency: number; amplitude: number }): string => {
   const names = { limit: 'its limit', frequency: 'its frequency', amplitude: 'its swing' } as const
-  const parts = (['limit', 'frequency', 'amplitude'] as const).filter((name) => factors[name] !== 1).map((name) => `${names[name]} is ${movedWord(factors[name])}`)
+  const parts = (['limit', 'frequency', 'amplitude'] as const)
+    .filter((name) => factors[name] !== 1)
+    .map((name) => `${names[name]} is ${movedWord(factors[name])}`)
   return `it fits where ${parts.length > 0 ? parts.join(' and ') : 'the user of the file lets go'}`
 }
 
@@ -98,10 +100,12 @@ export const rigidBodyWord: Record<string, string> = {
 export const glossary: Record<string, string> = {
   'critical stiffness': 'The stiffest wall that the device renders stably.',
   'nobody holding': 'The stiffest wall that the device renders stably when nobody holds it: any stiffer, and it oscillates by itself.',
-  'the file’s user': 'The stiffest wall that stays stable while the user of the device file holds it. A person lets go: build on the lesser.',
+  'the file’s user':
+    'The stiffest wall that stays stable while the user of the device file holds it. A person lets go: build on the lesser.',
   'any passive user': 'The stiffest wall that stays stable whoever holds the device, as long as the hand only takes energy and gives none.',
   'limited by': 'Which motion goes unstable first: the device as one rigid mass, or one of its vibration modes.',
-  trust: 'Sound: data and model carry the number. Doubtful: the number stands, but something it rests on does not carry it. Refused: no number is given.',
+  trust:
+    'Sound: data and model carry the number. Doubtful: the number stands, but something it rests on does not carry it. Refused: no number is given.',
   crossover: 'A stiffness and frequency at which the loop just oscillates; the least one usually is the critical stiffness.',
   'gain margin': 'By how much the wall’s whole force may grow before the loop oscillates.',
   'phase margin': 'How much more phase lag the loop bears before it oscillates.',
@@ -109,6 +113,7 @@ export const glossary: Record<string, string> = {
   'virtual damping': 'The damper that the controller computes from differences of sampled positions.',
   'force per count': 'By how much the force jumps when the encoder counts one step.',
   coherence: 'How much of the motion the force explains at a frequency: 1 all, 0 nothing.',
-  'relay experiment': 'A switch in place of the wall makes the device oscillate by itself; the swing shows a stiffness, which is not always the limit.',
+  'relay experiment':
+    'A switch in place of the wall makes the device oscillate by itself; the swing shows a stiffness, which is not always the limit.',
   sensitivity: 'What the limit gains or loses when the number grows by 10 %, all else as it is, by the slope here.',
 }

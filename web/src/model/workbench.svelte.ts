@@ -38,7 +38,9 @@ class Workbench {
   rotary = $derived(isRotary(this.scanned))
   /** Who holds the device where no other user is named: nobody, or the [operator] of the file. */
   holder = $derived(
-    this.groups.some((group) => group.id === 'operator' && group.rows.some((row) => row.value !== undefined && row.value !== 0)) ? holderName.user : holderName.nobody,
+    this.groups.some((group) => group.id === 'operator' && group.rows.some((row) => row.value !== undefined && row.value !== 0))
+      ? holderName.user
+      : holderName.nobody,
   )
   stiffnessUnit = $derived(this.rotary ? 'N m/rad' : 'N/m')
   dampingUnit = $derived(this.rotary ? 'N m s/rad' : 'N s/m')

@@ -15,7 +15,8 @@ export function play(force: readonly number[], time: readonly number[], frequenc
   stop()
   context ??= new AudioContext()
   const period = (time.at(-1)! - time[0]!) / Math.max(1, time.length - 1)
-  const faster = frequency !== null && frequency > 0 && frequency < audible ? Math.min(64, 2 ** Math.ceil(Math.log2(audible / frequency))) : 1
+  const faster =
+    frequency !== null && frequency > 0 && frequency < audible ? Math.min(64, 2 ** Math.ceil(Math.log2(audible / frequency))) : 1
   const rate = context.sampleRate
   const length = Math.min(Math.max(1, Math.floor((force.length * period * rate) / faster)), rate * 10)
   const buffer = context.createBuffer(1, length, rate)

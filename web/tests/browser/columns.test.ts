@@ -14,7 +14,18 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
   // The position of the recording in whole steps of 2 um.
   const [head, ...lines] = readFileSync(`${project}/recordings/locked_chirp.csv`, 'utf8').trim().split('\n')
   const at = head!.split(',').indexOf('position')
-  writeFileSync(file, [head, ...lines.map((line) => line.split(',').map((cell, i) => (i === at ? String(Math.round(Number(cell) / 2e-6)) : cell)).join(','))].join('\n'))
+  writeFileSync(
+    file,
+    [
+      head,
+      ...lines.map((line) =>
+        line
+          .split(',')
+          .map((cell, i) => (i === at ? String(Math.round(Number(cell) / 2e-6)) : cell))
+          .join(','),
+      ),
+    ].join('\n'),
+  )
   const { page, complaints } = await openPage(here, 1280)
   await runPalette(page, 'show: from a recording')
   await page.getByLabel(/choose it/).setInputFiles(file)
@@ -28,8 +39,23 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
   await page.keyboard.press('Tab')
   await page.getByRole('button', { name: 'Use this device' }).waitFor()
   await settled(page)
-  const fitted = documentOf('identify', file, '--force', 'force', '--position', 'position', '--position-scale', '2e-6', '--structure', 'two-body', '--motion', 'linear')
-  await expect.poll(() => page.locator('#body-recording').innerText()).toContain(`The device fitted: critical stiffness ${say(Number(fitted.critical_stiffness), 'N/m')}`)
+  const fitted = documentOf(
+    'identify',
+    file,
+    '--force',
+    'force',
+    '--position',
+    'position',
+    '--position-scale',
+    '2e-6',
+    '--structure',
+    'two-body',
+    '--motion',
+    'linear',
+  )
+  await expect
+    .poll(() => page.locator('#body-recording').innerText())
+    .toContain(`The device fitted: critical stiffness ${say(Number(fitted.critical_stiffness), 'N/m')}`)
   expect(complaints).toEqual([])
   await page.context().close()
 })
@@ -37,21 +63,33 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
 it.each([1280, 390])('breaks no number of a wall over lines, %i pixels wide', async (width) => {
   const { page, complaints } = await openPage(here, width)
   await runPalette(page, 'new motor and wheel, rotary')
-  for (const [key, text] of [['body.motor.mass', '1.2e-4'], ['body.motor.damping', '2e-3'], ['body.wheel.mass', '22 kg cm2'], ['link.0.stiffness', '900'], ['loop.delay', '0.2 ms']] as const) await type(page, key, text)
+  for (const [key, text] of [
+    ['body.motor.mass', '1.2e-4'],
+    ['body.motor.damping', '2e-3'],
+    ['body.wheel.mass', '22 kg cm2'],
+    ['link.0.stiffness', '900'],
+    ['loop.delay', '0.2 ms'],
+  ] as const)
+    await type(page, key, text)
   await runPalette(page, 'go to encoder step')
   await page.keyboard.type('1 turn/10000')
   await page.keyboard.press('Enter')
   await runPalette(page, 'show: which wall')
   await page.getByRole('button', { name: 'Use this wall: recommended' }).waitFor()
   await settled(page)
-  const broken = await page.locator('#body-recommend td:not(.words)').evaluateAll((cells) => 
-    cells.filter((cell) => {
-      const text = document.createRange()
-      text.selectNodeContents(cell)
-      return new Set([...text.getClientRects()].map((each) => Math.round(each.top))).size > 1
-    }).map((cell) => cell.textContent))
+  const broken = await page.locator('#body-recommend td:not(.words)').evaluateAll((cells) =>
+    cells
+      .filter((cell) => {
+        const text = document.createRange()
+        text.selectNodeContents(cell)
+        return new Set([...text.getClientRects()].map((each) => Math.round(each.top))).size > 1
+      })
+      .map((cell) => cell.textContent),
+  )
   expect(broken).toEqual([])
-  await expect.poll(() => page.locator('#body-recommend .scroll-x').evaluate((each) => each.scrollWidth - each.clientWidth)).toBeLessThanOrEqual(0)
+  await expect
+    .poll(() => page.locator('#body-recommend .scroll-x').evaluate((each) => each.scrollWidth - each.clientWidth))
+    .toBeLessThanOrEqual(0)
   expect(complaints).toEqual([])
   await page.context().close()
 })
@@ -102,8 +140,16 @@ it('takes a file that is dropped anywhere', async () => {
   await drop('wheel.csv', 'time_s,torque_N_m,angle\n0,0,0\n0.001,1,0\n0.002,0,1e-6\n')
   await page.getByRole('button', { name: 'Fit', exact: true }).waitFor()
   await expect.poll(() => page.locator('#body-recording').innerText()).toContain('wheel.csv: text, 3 columns of 3 samples')
-  await expect.poll(() => page.getByRole('button', { name: 'Fit', exact: true }).evaluate((each) => each.getBoundingClientRect().bottom < innerHeight)).toBe(true)
-  expect([await page.getByLabel('Force (commanded)').inputValue(), await page.getByLabel('Position', { exact: true }).inputValue(), await page.getByLabel('Motion').inputValue()]).toEqual(['torque_N_m', 'angle', 'rotary'])
+  await expect
+    .poll(() =>
+      page.getByRole('button', { name: 'Fit', exact: true }).evaluate((each) => each.getBoundingClientRect().bottom < innerHeight),
+    )
+    .toBe(true)
+  expect([
+    await page.getByLabel('Force (commanded)').inputValue(),
+    await page.getByLabel('Position', { exact: true }).inputValue(),
+    await page.getByLabel('Motion').inputValue(),
+  ]).toEqual(['torque_N_m', 'angle', 'rotary'])
   await drop('mine.TOML', 'name = "dropped"\n[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n')
   await page.getByRole('heading', { name: 'dropped' }).waitFor()
   expect(complaints).toEqual([])
@@ -130,7 +176,9 @@ it('does not call a device sure whose numbers are assumed, in a link neither', a
   await told.waitFor()
   await type(page, 'body.wheel.mass', '0.04 kg m^2')
   await settled(page)
-  await expect.poll(() => told.innerText()).toContain('Body “motor”: inertia, damping; Link motor – wheel: stiffness, damping; Loop: sampling period.')
+  await expect
+    .poll(() => told.innerText())
+    .toContain('Body “motor”: inertia, damping; Link motor – wheel: stiffness, damping; Loop: sampling period.')
   await expect.poll(() => trust()).toBe('! doubtful')
   await expect.poll(() => row(page, 'loop.sampling_period').locator('input[type="text"]').inputValue()).toBe('1 ms')
   await type(page, 'loop.sampling_period', '1 ms') // the same, but said
@@ -147,10 +195,18 @@ it('does not call a device sure whose numbers are assumed, in a link neither', a
   await settled(page)
   await expect.poll(() => trust()).toBe('✓ sound')
   // No bar of an effect lies on its slider.
-  const over = await page.locator('.row').evaluateAll((rows) => rows.filter((each) => {
-    const [effect, slider] = [each.querySelector('.effect svg'), each.querySelector('input[type="range"]')]
-    return effect && slider && effect.getBoundingClientRect().left < slider.getBoundingClientRect().right && effect.getBoundingClientRect().top < slider.getBoundingClientRect().bottom
-  }).length)
+  const over = await page.locator('.row').evaluateAll(
+    (rows) =>
+      rows.filter((each) => {
+        const [effect, slider] = [each.querySelector('.effect svg'), each.querySelector('input[type="range"]')]
+        return (
+          effect &&
+          slider &&
+          effect.getBoundingClientRect().left < slider.getBoundingClientRect().right &&
+          effect.getBoundingClientRect().top < slider.getBoundingClientRect().bottom
+        )
+      }).length,
+  )
   expect(over).toBe(0)
   expect(complaints).toEqual([])
   await page.context().close()
@@ -193,7 +249,19 @@ it('reads a text as it is stated', async () => {
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
   await page.getByRole('button', { name: 'Use this device' }).waitFor()
   await settled(page)
-  const stated = ['--delimiter', 'semicolon', '--decimal', 'comma', '--header', '--force', 'force', '--position', 'position', '--segment', '512']
+  const stated = [
+    '--delimiter',
+    'semicolon',
+    '--decimal',
+    'comma',
+    '--header',
+    '--force',
+    'force',
+    '--position',
+    'position',
+    '--segment',
+    '512',
+  ]
   const fitted = documentOf('identify', file, ...stated, '--structure', 'two-body', '--motion', 'linear')
   const measured = documentOf('frf', file, ...stated)
   const shown = await panel.innerText()
@@ -231,10 +299,13 @@ it('draws no label of a crossover over another, 390 pixels wide', async () => {
     await type(page, 'loop.delay', delay)
     await runPalette(page, 'show: frequency response')
     await settled(page)
-    const boxes = await page.locator('svg[aria-label="Bode magnitude"] g.mark text').evaluateAll((all) => all.map((each) => each.getBoundingClientRect()))
+    const boxes = await page
+      .locator('svg[aria-label="Bode magnitude"] g.mark text')
+      .evaluateAll((all) => all.map((each) => each.getBoundingClientRect()))
     expect(boxes.length).toBeGreaterThan(1)
     for (const [i, a] of boxes.entries()) {
-      for (const b of boxes.slice(i + 1)) expect(a.left >= b.right || a.right <= b.left || a.top >= b.bottom || a.bottom <= b.top).toBe(true)
+      for (const b of boxes.slice(i + 1))
+        expect(a.left >= b.right || a.right <= b.left || a.top >= b.bottom || a.bottom <= b.top).toBe(true)
     }
   }
   expect(complaints).toEqual([])

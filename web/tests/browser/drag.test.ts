@@ -68,7 +68,9 @@ it('through a drag: one request in flight per panel, nothing goes backwards, not
     last = at
   }
   // What every panel asked last is what stands there now.
-  const damping = /name = "handle"[^[]*\ndamping = (\S+)/.exec((JSON.parse(analyses.at(-1)!.body) as { device_toml: string }).device_toml)![1]!
+  const damping = /name = "handle"[^[]*\ndamping = (\S+)/.exec(
+    (JSON.parse(analyses.at(-1)!.body) as { device_toml: string }).device_toml,
+  )![1]!
   const newest = new Map(log.asked.map((each) => [each.panel, each.body]))
   for (const [panel, body] of newest) expect(body, panel).toContain(`damping = ${damping}`)
   const answer = documentOf('analyze', 'devices/lhifam.toml', '--set', `${key}=${damping}`)

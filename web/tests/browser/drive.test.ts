@@ -17,8 +17,19 @@ it.each([1280, 390])('is written with its units, judged at its fields, and taken
   for (const [key, value] of Object.entries(given)) await type(page, `driver.${key}`, value)
   await settled(page)
   await expect.poll(() => nobody(page)).toBe(answer)
-  const device = JSON.parse(execFileSync(program, ['export', '-', '--format', 'json'], { input: await text(), encoding: 'utf8' })) as { device_file: { driver: unknown } }
-  expect(device.device_file.driver).toEqual({ travel: 0.025, gear: 2, sign: -1, torque_constant: 0.05, torque_per_volt: 0.2, id: 3, command: 'K', baud: 921600 })
+  const device = JSON.parse(execFileSync(program, ['export', '-', '--format', 'json'], { input: await text(), encoding: 'utf8' })) as {
+    device_file: { driver: unknown }
+  }
+  expect(device.device_file.driver).toEqual({
+    travel: 0.025,
+    gear: 2,
+    sign: -1,
+    torque_constant: 0.05,
+    torque_per_volt: 0.2,
+    id: 3,
+    command: 'K',
+    baud: 921600,
+  })
   // What is no such drive is said at its field.
   for (const [key, value, said] of [
     ['sign', '3', 'must be 1'],

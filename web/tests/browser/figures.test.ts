@@ -15,13 +15,29 @@ it('saves every figure as SVG, PNG and CSV, with what they show', async () => {
   await page.getByRole('button', { name: 'Use this device' }).waitFor()
   await page.setViewportSize({ width: 1280, height: 9000 }) // what is out of view waits
   await settled(page)
-  const buttons = await page.locator('.figure-tools button[aria-label^="Save"]').evaluateAll((all) => all.map((each) => each.getAttribute('aria-label')!))
+  const buttons = await page
+    .locator('.figure-tools button[aria-label^="Save"]')
+    .evaluateAll((all) => all.map((each) => each.getAttribute('aria-label')!))
   const figures = buttons.flatMap((each) => /^Save (.*) as SVG$/.exec(each)?.[1] ?? [])
-  for (const name of ['Device', 'Which stiffness is stable', 'Stiff and damped walls', 'Bode magnitude', 'Bode phase', 'Position over time', 'Force over time', 'Limits over delay', 'Response, magnitude', 'Response, phase', 'Coherence']) {
+  for (const name of [
+    'Device',
+    'Which stiffness is stable',
+    'Stiff and damped walls',
+    'Bode magnitude',
+    'Bode phase',
+    'Position over time',
+    'Force over time',
+    'Limits over delay',
+    'Response, magnitude',
+    'Response, phase',
+    'Coherence',
+  ]) {
     expect(figures).toContain(name)
   }
   // Every plot that is drawn has them.
-  await expect.poll(() => page.locator('figure.plot').evaluateAll((all) => all.filter((each) => !each.querySelector('.figure-tools')).length)).toBe(0)
+  await expect
+    .poll(() => page.locator('figure.plot').evaluateAll((all) => all.filter((each) => !each.querySelector('.figure-tools')).length))
+    .toBe(0)
   const saved = async (label: string): Promise<Buffer> => {
     const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: label, exact: true }).click()])
     return readFileSync(await download.path())
@@ -32,7 +48,11 @@ it('saves every figure as SVG, PNG and CSV, with what they show', async () => {
     expect(svg, name).not.toContain('class=')
     const shown = await page.evaluate((text) => {
       const parsed = new DOMParser().parseFromString(text, 'image/svg+xml')
-      return { problem: parsed.querySelector('parsererror')?.textContent, marks: parsed.querySelectorAll('path, rect, circle').length, texts: [...parsed.querySelectorAll('text')].map((each) => each.textContent) }
+      return {
+        problem: parsed.querySelector('parsererror')?.textContent,
+        marks: parsed.querySelectorAll('path, rect, circle').length,
+        texts: [...parsed.querySelectorAll('text')].map((each) => each.textContent),
+      }
     }, svg)
     expect(shown.problem, name).toBeUndefined()
     expect(shown.marks, name).toBeGreaterThan(1)
@@ -47,10 +67,15 @@ it('saves every figure as SVG, PNG and CSV, with what they show', async () => {
     const [head, ...lines] = (await saved(label)).toString('utf8').trim().split('\n')
     expect(head!.split(',').length, label).toBeGreaterThan(1)
     expect(lines.length, label).toBeGreaterThan(1)
-    expect(lines.some((line) => /\d/.test(line)), label).toBe(true)
+    expect(
+      lines.some((line) => /\d/.test(line)),
+      label,
+    ).toBe(true)
   }
   // The closing of an area along an axis is told from the limit.
-  expect((await saved('Save the numbers of Stiff and damped walls as CSV')).toString('utf8')).toMatch(/^stable with nobody holding,oscillation,.*\n(.*\n)*stable with nobody holding,no damping,0,/m)
+  expect((await saved('Save the numbers of Stiff and damped walls as CSV')).toString('utf8')).toMatch(
+    /^stable with nobody holding,oscillation,.*\n(.*\n)*stable with nobody holding,no damping,0,/m,
+  )
   expect(complaints).toEqual([])
   await context.close()
 })
@@ -63,14 +88,29 @@ it('prints the answer, its numbers and every open panel, without what is only fo
   await settled(page)
   await page.emulateMedia({ media: 'print' })
   await page.setViewportSize({ width: 718, height: 1000 }) // A4 less its margins
-  await expect.poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
-  const seen = async (selector: string): Promise<number> => page.locator(selector).evaluateAll((all) => all.filter((each) => (each as HTMLElement).checkVisibility()).length)
-  for (const selector of ['nav', 'input[type="range"]', '.figure-tools', '.row .icon', '.panel-body button.small']) await expect.poll(() => seen(selector), { message: selector }).toBe(0)
-  for (const selector of ['[data-answer="nobody"]', '[data-answer="trust"]', '#body-region svg', '#body-recommend table']) await expect.poll(() => seen(selector), { message: selector }).toBeGreaterThan(0)
+  await expect
+    .poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth))
+    .toBeLessThanOrEqual(0)
+  const seen = async (selector: string): Promise<number> =>
+    page.locator(selector).evaluateAll((all) => all.filter((each) => (each as HTMLElement).checkVisibility()).length)
+  for (const selector of ['nav', 'input[type="range"]', '.figure-tools', '.row .icon', '.panel-body button.small'])
+    await expect.poll(() => seen(selector), { message: selector }).toBe(0)
+  for (const selector of ['[data-answer="nobody"]', '[data-answer="trust"]', '#body-region svg', '#body-recommend table'])
+    await expect.poll(() => seen(selector), { message: selector }).toBeGreaterThan(0)
   await expect.poll(() => page.evaluate(() => getComputedStyle(document.body).backgroundColor)).toBe('rgb(255, 255, 255)')
-  const cut = await page.locator('.panel table, figure svg').evaluateAll((all) => all.filter((each) => each.getBoundingClientRect().right > document.documentElement.clientWidth + 1).map((each) => each.closest('.panel')?.id))
+  const cut = await page
+    .locator('.panel table, figure svg')
+    .evaluateAll((all) =>
+      all
+        .filter((each) => each.getBoundingClientRect().right > document.documentElement.clientWidth + 1)
+        .map((each) => each.closest('.panel')?.id),
+    )
   expect(cut).toEqual([])
-  const pdf = await page.pdf({ format: 'A4', margin: { top: '10mm', bottom: '10mm', left: '10mm', right: '10mm' }, ...(process.env.ZWIDTH_PDF ? { path: process.env.ZWIDTH_PDF } : {}) })
+  const pdf = await page.pdf({
+    format: 'A4',
+    margin: { top: '10mm', bottom: '10mm', left: '10mm', right: '10mm' },
+    ...(process.env.ZWIDTH_PDF ? { path: process.env.ZWIDTH_PDF } : {}),
+  })
   expect(pdf.subarray(0, 4).toString('latin1')).toBe('%PDF')
   expect(complaints).toEqual([])
   await context.close()

@@ -65,7 +65,10 @@ it('says why a relay has no reading in the program’s words, and shows what it 
   await runPalette(page, 'show: relay')
   await page.getByLabel(/Force of the relay/).fill('1e-4')
   await page.keyboard.press('Enter')
-  const relay = documentOf('relay', 'devices/capstan_paddle.toml', '--amplitude', '1e-4') as { trust: { reasons: string[] }; predictions: { crossovers: unknown[] } }
+  const relay = documentOf('relay', 'devices/capstan_paddle.toml', '--amplitude', '1e-4') as {
+    trust: { reasons: string[] }
+    predictions: { crossovers: unknown[] }
+  }
   const panel = page.locator('#body-relay')
   await panel.locator('.refused', { hasText: relay.trust.reasons[0]! }).waitFor()
   await expect.poll(() => panel.locator('tbody tr').count()).toBe(relay.predictions.crossovers.length)
@@ -102,9 +105,26 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   await page.getByLabel('By', { exact: true }).selectOption('time-domain')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
   await page.locator('#body-recording', { hasText: 'Body “body”: dry friction' }).waitFor()
-  const inTime = documentOf('identify', 'recordings/free_motion.csv', '--force', 'force', '--position', 'position', '--time', 'time', '--method', 'time-domain', '--structure', 'rigid', '--motion', 'linear') as { critical_stiffness: number }
+  const inTime = documentOf(
+    'identify',
+    'recordings/free_motion.csv',
+    '--force',
+    'force',
+    '--position',
+    'position',
+    '--time',
+    'time',
+    '--method',
+    'time-domain',
+    '--structure',
+    'rigid',
+    '--motion',
+    'linear',
+  ) as { critical_stiffness: number }
   await settled(page)
-  await expect.poll(() => page.locator('#body-recording').innerText()).toContain(`The device fitted: critical stiffness ${(inTime.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+  await expect
+    .poll(() => page.locator('#body-recording').innerText())
+    .toContain(`The device fitted: critical stiffness ${(inTime.critical_stiffness / 1000).toPrecision(4)} kN/m`)
   await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
   await page.getByLabel('By', { exact: true }).selectOption('frequency-response')
   await page.getByLabel('Fit', { exact: true }).selectOption('two-body')
@@ -112,8 +132,21 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
   await page.getByRole('button', { name: 'Use this device' }).waitFor()
   await settled(page)
-  const held = documentOf('identify', 'recordings/locked_chirp.csv', '--force', 'force', '--position', 'position', '--structure', 'two-body', '--locked', 'handle') as { critical_stiffness: number }
-  await expect.poll(() => page.locator('#body-recording').innerText()).toContain(`The device fitted: critical stiffness ${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+  const held = documentOf(
+    'identify',
+    'recordings/locked_chirp.csv',
+    '--force',
+    'force',
+    '--position',
+    'position',
+    '--structure',
+    'two-body',
+    '--locked',
+    'handle',
+  ) as { critical_stiffness: number }
+  await expect
+    .poll(() => page.locator('#body-recording').innerText())
+    .toContain(`The device fitted: critical stiffness ${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
   await page.getByRole('button', { name: 'Use this device' }).click()
   await settled(page)
   await expect.poll(() => page.locator('[data-answer="example"]').count()).toBe(0)
@@ -141,7 +174,9 @@ it('shows the limits while one works further down, and with a user the limit tha
     await page.locator('[data-answer="nobody"]', { hasText: '8.849 kN/m' }).waitFor()
     const held = documentOf('analyze', 'devices/lhifam.toml', '--set', 'operator.damping=10') as { critical_stiffness: number }
     await settled(page)
-    await expect.poll(() => page.locator('[data-answer="user"]').innerText()).toBe(`${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    await expect
+      .poll(() => page.locator('[data-answer="user"]').innerText())
+      .toBe(`${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
     expect(complaints).toEqual([])
     await context.close()
   }
@@ -155,7 +190,16 @@ it('fits one rigid body by inverse dynamics', async () => {
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
   await page.getByRole('button', { name: 'Use this device' }).waitFor()
   await settled(page)
-  const found = documentOf('identify', 'recordings/free_motion.csv', '--force', 'force', '--position', 'position', '--method', 'inverse-dynamics') as { parameters: { value: number; unit: string }[] }
+  const found = documentOf(
+    'identify',
+    'recordings/free_motion.csv',
+    '--force',
+    'force',
+    '--position',
+    'position',
+    '--method',
+    'inverse-dynamics',
+  ) as { parameters: { value: number; unit: string }[] }
   const shown = await page.locator('#body-recording').innerText()
   for (const each of found.parameters) expect(shown).toContain(say(each.value, each.unit))
   expect(shown).toContain('trust: sound')
@@ -163,11 +207,17 @@ it('fits one rigid body by inverse dynamics', async () => {
   await page.locator('#body-recording .legend', { hasText: 'fitted, without dry friction' }).first().waitFor()
   await settled(page)
   await page.getByRole('button', { name: 'Table of Response, magnitude' }).click()
-  const drawn = (await page.locator('#body-recording .table-scroll tbody tr').filter({ hasText: 'fitted' }).last().locator('td').allInnerTexts()).slice(1).map(Number)
+  const drawn = (
+    await page.locator('#body-recording .table-scroll tbody tr').filter({ hasText: 'fitted' }).last().locator('td').allInnerTexts()
+  )
+    .slice(1)
+    .map(Number)
   expect(drawn[1]).toBeCloseTo(-20 * Math.log10(found.parameters[0]!.value * (2 * Math.PI * drawn[0]!) ** 2), 0)
   await page.getByRole('button', { name: 'Use this device' }).click()
   await settled(page)
-  await expect.poll(() => row(page, 'body.body.coulomb').locator('input[type="text"]').inputValue()).toBe(say(found.parameters[2]!.value, 'N'))
+  await expect
+    .poll(() => row(page, 'body.body.coulomb').locator('input[type="text"]').inputValue())
+    .toBe(say(found.parameters[2]!.value, 'N'))
   expect(complaints).toEqual([])
   await context.close()
 })
@@ -183,14 +233,23 @@ it('asks of a device fitted with a body held for that body’s numbers, until th
   await assumed.waitFor()
   await expect.poll(() => assumed.innerText()).toContain('Body “handle”: mass, damping.')
   // In the page's words, not the file's keys.
-  await expect.poll(() => page.locator('[data-panel="answer"]').innerText()).toContain('the data do not determine Body “motor”: damping, Link motor – handle: damping')
+  await expect
+    .poll(() => page.locator('[data-panel="answer"]').innerText())
+    .toContain('the data do not determine Body “motor”: damping, Link motor – handle: damping')
   await type(page, 'body.handle.mass', '5.1')
   await type(page, 'body.handle.damping', '3.4')
   await assumed.waitFor({ state: 'detached' })
   // What only its sum showed: of a new device what is known is typed and locked, the rest fitted.
   await runPalette(page, 'new motor and handle, linear')
-  for (const [key, value] of [['body.motor.damping', '0.1'], ['body.handle.mass', '5.1'], ['body.handle.damping', '3.4'], ['loop.sampling_period', '1 ms']] as const) await type(page, key, value)
-  for (const key of ['body.motor damping', 'body.handle mass', 'body.handle damping']) await page.getByRole('button', { name: `Lock ${key}`, exact: true }).click()
+  for (const [key, value] of [
+    ['body.motor.damping', '0.1'],
+    ['body.handle.mass', '5.1'],
+    ['body.handle.damping', '3.4'],
+    ['loop.sampling_period', '1 ms'],
+  ] as const)
+    await type(page, key, value)
+  for (const key of ['body.motor damping', 'body.handle mass', 'body.handle damping'])
+    await page.getByRole('button', { name: `Lock ${key}`, exact: true }).click()
   await page.getByLabel('Fit', { exact: true }).selectOption('device')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
   await page.locator('#body-recording', { hasText: /trust: doubtful[^]*trust: sound/ }).waitFor()

@@ -29,7 +29,9 @@ it.each([1280, 390])('says what limits my wheel and what wall to run, at %d px',
   const set = ['devices/quanser_torsion.toml', '--set', 'body.servo.mass=22 kg cm^2']
   const answer = documentOf('analyze', ...set) as { critical_stiffness: number; limited_by: { kind: string; mode?: number } }
   await expect.poll(() => nobody(page)).toBe(say(answer.critical_stiffness, 'N m/rad'))
-  await expect.poll(() => page.locator('[data-answer="limited-by"]').innerText()).toContain(answer.limited_by.kind === 'rigid_body' ? 'the rigid body' : `vibration mode ${answer.limited_by.mode}`)
+  await expect
+    .poll(() => page.locator('[data-answer="limited-by"]').innerText())
+    .toContain(answer.limited_by.kind === 'rigid_body' ? 'the rigid body' : `vibration mode ${answer.limited_by.mode}`)
   await runPalette(page, 'which wall')
   await tabTo(page, page.getByRole('button', { name: 'Use this wall: recommended' }))
   await page.keyboard.press('Enter')
@@ -62,7 +64,18 @@ it('makes a device of a recording', async () => {
   await tabTo(page, use)
   await page.keyboard.press('Enter')
   await page.waitForFunction(() => /between/.test(document.querySelector('.answer')?.textContent ?? ''))
-  const fitted = documentOf('identify', 'recordings/locked_chirp.csv', '--force', 'force', '--position', 'position', '--structure', 'devices/lhifam.toml', '--locked', 'handle')
+  const fitted = documentOf(
+    'identify',
+    'recordings/locked_chirp.csv',
+    '--force',
+    'force',
+    '--position',
+    'position',
+    '--structure',
+    'devices/lhifam.toml',
+    '--locked',
+    'handle',
+  )
   await expect.poll(() => nobody(page)).toBe(say(Number(fitted.critical_stiffness), 'N/m'))
   expect(complaints).toEqual([])
   await context.close()
@@ -109,7 +122,9 @@ it('sounds as the oscillation swings', async () => {
     }
     return best.hertz
   })
-  const { oscillation } = documentOf('simulate', 'devices/lhifam.toml', '--set', 'wall.stiffness=8800') as { oscillation: { frequency_hz: number } }
+  const { oscillation } = documentOf('simulate', 'devices/lhifam.toml', '--set', 'wall.stiffness=8800') as {
+    oscillation: { frequency_hz: number }
+  }
   console.log(`heard ${heard} Hz, ${factor} times the oscillation's ${oscillation.frequency_hz} Hz`)
   expect(Math.abs(heard / factor / oscillation.frequency_hz - 1)).toBeLessThan(0.02)
   expect(complaints).toEqual([])

@@ -17,18 +17,29 @@ it('takes the wall recommended with its notch in one step', async () => {
   await runPalette(page, 'show: which wall')
   await page.getByRole('button', { name: 'Use this wall: recommended' }).click()
   await settled(page)
-  const asked = documentOf('design', 'devices/quanser_torsion.toml', '--recommend') as unknown as { wall: Wall; margins: { gain_margin_db: number; phase_margin_rad: number } }
+  const asked = documentOf('design', 'devices/quanser_torsion.toml', '--recommend') as unknown as {
+    wall: Wall
+    margins: { gain_margin_db: number; phase_margin_rad: number }
+  }
   await runPalette(page, 'show: device file')
   const toml = await page.locator('#toml').inputValue()
   const notch = asked.wall.filters[0]!
-  for (const [key, value] of Object.entries({ stiffness: asked.wall.stiffness, damping: asked.wall.damping, frequency_hz: notch.frequency_hz, damping_ratio: notch.damping_ratio, depth: notch.depth })) {
+  for (const [key, value] of Object.entries({
+    stiffness: asked.wall.stiffness,
+    damping: asked.wall.damping,
+    frequency_hz: notch.frequency_hz,
+    damping_ratio: notch.damping_ratio,
+    depth: notch.depth,
+  })) {
     expect(toml).toMatch(new RegExp(`\n${key} = ${String(value).replace('.', '\\.')}\n`))
   }
   const margin = `${Number(asked.margins.gain_margin_db.toPrecision(3))} dB`
   await expect.poll(() => page.locator('[data-answer="wall"]').innerText()).toContain(margin)
   await page.getByRole('button', { name: 'Undo' }).click()
   await expect.poll(() => page.locator('#toml').inputValue()).not.toContain('notch')
-  await expect.poll(() => row(page, 'wall.stiffness').locator('input[type="text"]').inputValue()).not.toContain(String(asked.wall.stiffness))
+  await expect
+    .poll(() => row(page, 'wall.stiffness').locator('input[type="text"]').inputValue())
+    .not.toContain(String(asked.wall.stiffness))
   expect(complaints).toEqual([])
   await context.close()
 })
@@ -46,8 +57,17 @@ it('shows no number of a device whose answer is refused, in no panel', async () 
   await settled(page)
   const numbers = (): Promise<string[]> =>
     page.evaluate(() => {
-      const parts = ['.answer dl', '.answer .wall-word', '.numbers .effect', ...['bar', 'limits', 'region', 'time', 'bode', 'recommend', 'sweep', 'diagnose', 'relay'].map((id) => `#body-${id}`)]
-      return parts.flatMap((part) => [...document.querySelectorAll<HTMLElement>(part)].filter((each) => /\d/.test(each.innerText) || each.querySelector('svg path.curve')).map(() => part))
+      const parts = [
+        '.answer dl',
+        '.answer .wall-word',
+        '.numbers .effect',
+        ...['bar', 'limits', 'region', 'time', 'bode', 'recommend', 'sweep', 'diagnose', 'relay'].map((id) => `#body-${id}`),
+      ]
+      return parts.flatMap((part) =>
+        [...document.querySelectorAll<HTMLElement>(part)]
+          .filter((each) => /\d/.test(each.innerText) || each.querySelector('svg path.curve'))
+          .map(() => part),
+      )
     })
   await expect.poll(async () => (await numbers()).length).toBeGreaterThan(10)
   await replaceText(page, (toml) => `${toml}\n[uncertainty]\nverdict = "refused"\nwarning = "the record was cut off"\n`)
@@ -55,7 +75,8 @@ it('shows no number of a device whose answer is refused, in no panel', async () 
   await settled(page)
   await expect.poll(() => numbers()).toEqual([])
   await expect.poll(() => page.locator('.answer').innerText()).toContain('the record was cut off')
-  for (const panel of ['time', 'bode', 'relay']) await expect.poll(() => page.locator(`#body-${panel}`).innerText()).toMatch(/refused:.*cut off[^]*No number is given/)
+  for (const panel of ['time', 'bode', 'relay'])
+    await expect.poll(() => page.locator(`#body-${panel}`).innerText()).toMatch(/refused:.*cut off[^]*No number is given/)
   await page.getByRole('button', { name: 'Save the wall as C' }).click()
   await page.locator('#body-file .problem', { hasText: 'REFUSED' }).waitFor()
   expect(complaints).toEqual([])
@@ -90,7 +111,9 @@ it('leads from an error of the text to its line', async () => {
   await expect.poll(() => page.locator('#toml').getAttribute('aria-invalid')).toBe('true')
   await page.getByRole('button', { name: 'Show the line' }).click()
   await page.waitForFunction(() => document.activeElement?.id === 'toml')
-  await expect.poll(() => page.locator('#toml').evaluate((field: HTMLTextAreaElement) => field.value.slice(field.selectionStart, field.selectionEnd))).toBe('[loop')
+  await expect
+    .poll(() => page.locator('#toml').evaluate((field: HTMLTextAreaElement) => field.value.slice(field.selectionStart, field.selectionEnd)))
+    .toBe('[loop')
   await context.close()
 })
 
@@ -148,7 +171,9 @@ it.each([1280, 390])('cuts no unit from a number, %i pixels wide', async (width)
   for (const key of ['loop.delay', 'wall.stiffness', 'wall.damping']) await type(page, key, digits)
   await runPalette(page, 'show: device file')
   await replaceText(page, (toml) => toml.replace(/^(inertia|damping|stiffness) = [^\n#]*/gm, `$1 = ${digits}`))
-  const cut = await page.locator('.numbers input[type="text"]').evaluateAll((all) => all.filter((each) => each.scrollWidth > each.clientWidth + 1).map((each) => (each as HTMLInputElement).value))
+  const cut = await page
+    .locator('.numbers input[type="text"]')
+    .evaluateAll((all) => all.filter((each) => each.scrollWidth > each.clientWidth + 1).map((each) => (each as HTMLInputElement).value))
   expect(cut).toEqual([])
   expect(complaints).toEqual([])
   await context.close()
@@ -194,14 +219,22 @@ it.each([1280, 390])('cuts no wall recommended, no label and no long name, %i pi
   await expect.poll(() => table.evaluate((each) => each.scrollWidth - each.clientWidth)).toBeLessThanOrEqual(0)
   await expect.poll(() => table.innerText()).not.toContain('m^2')
   await runPalette(page, 'show: device file')
-  await replaceText(page, (toml) => toml.replace(/^name = .*/m, `name = "${'W'.repeat(200)}"`).replace(/^inertia = .*/m, 'inertia = "1234.5678 kg cm^2"'))
+  await replaceText(page, (toml) =>
+    toml.replace(/^name = .*/m, `name = "${'W'.repeat(200)}"`).replace(/^inertia = .*/m, 'inertia = "1234.5678 kg cm^2"'),
+  )
   await settled(page)
-  await expect.poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
+  await expect
+    .poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth))
+    .toBeLessThanOrEqual(0)
   await expect.poll(() => page.locator('h1').evaluate((each) => each.scrollWidth - each.clientWidth)).toBeLessThanOrEqual(0)
   const outside = await page.locator('.schematic svg .part').evaluateAll((parts) =>
     parts.flatMap((part) => {
       const box = part.querySelector('rect.box')?.getBoundingClientRect()
-      return box ? [...part.querySelectorAll('text')].filter((text) => text.getBoundingClientRect().right > box.right || text.getBoundingClientRect().left < box.left).map((text) => text.textContent) : []
+      return box
+        ? [...part.querySelectorAll('text')]
+            .filter((text) => text.getBoundingClientRect().right > box.right || text.getBoundingClientRect().left < box.left)
+            .map((text) => text.textContent)
+        : []
     }),
   )
   expect(outside).toEqual([])

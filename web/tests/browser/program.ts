@@ -18,7 +18,10 @@ export interface Served {
 /** `zwidth serve` on a free port; it must have the page built in. */
 export const serve = (...files: string[]): Promise<Served> => serveAt(0, ...files)
 export async function serveAt(port: number, ...files: string[]): Promise<Served> {
-  const child: ChildProcess = spawn(program, ['serve', ...files, '--port', String(port)], { cwd: project, stdio: ['ignore', 'pipe', 'inherit'] })
+  const child: ChildProcess = spawn(program, ['serve', ...files, '--port', String(port)], {
+    cwd: project,
+    stdio: ['ignore', 'pipe', 'inherit'],
+  })
   const address = await new Promise<string>((done, failed) => {
     let text = ''
     child.stdout!.on('data', (data: Buffer) => {
@@ -66,7 +69,12 @@ export interface Opened {
 }
 
 export async function openPage({ browser, served }: Place, width: number, hash = '', scheme: 'light' | 'dark' = 'light'): Promise<Opened> {
-  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme, reducedMotion: 'reduce', acceptDownloads: true })
+  const context = await browser.newContext({
+    viewport: { width, height: 900 },
+    colorScheme: scheme,
+    reducedMotion: 'reduce',
+    acceptDownloads: true,
+  })
   await context.grantPermissions(['clipboard-read', 'clipboard-write'])
   const page = await context.newPage()
   page.setDefaultTimeout(90_000)
@@ -83,7 +91,9 @@ export async function openPage({ browser, served }: Place, width: number, hash =
   // When the first answer is painted: in the frame after the one in which it is there.
   await page.addInitScript(() => {
     const look = (): unknown =>
-      document.querySelector('[data-answer="nobody"]') ? requestAnimationFrame(() => performance.mark('first answer')) : requestAnimationFrame(look)
+      document.querySelector('[data-answer="nobody"]')
+        ? requestAnimationFrame(() => performance.mark('first answer'))
+        : requestAnimationFrame(look)
     look()
   })
   await page.goto(served.address + hash)

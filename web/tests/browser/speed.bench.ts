@@ -18,7 +18,8 @@ it('how fast a drag is drawn, all panels open', async () => {
   const session = await page.context().newCDPSession(page)
   await session.send('Performance.setTimeDomain', { timeDomain: 'threadTicks' }) // the page's own work, whatever else the machine does
   await session.send('Performance.enable')
-  const work = async (): Promise<number> => (await session.send('Performance.getMetrics')).metrics.find((each) => each.name === 'TaskDuration')!.value * 1000
+  const work = async (): Promise<number> =>
+    (await session.send('Performance.getMetrics')).metrics.find((each) => each.name === 'TaskDuration')!.value * 1000
   const [steps, before] = [200, await work()]
   // From the input of a slider to the frame that shows its answer; it begins with a frame, so these are whole frames.
   const found = await page.evaluate(
@@ -50,9 +51,12 @@ it('how fast a drag is drawn, all panels open', async () => {
     },
     [`[data-key="${key}"] input[type="range"]`, steps] as const,
   )
-  const at = (values: number[], share: number): string => [...values].sort((a, b) => a - b)[Math.floor(share * (values.length - 1))]!.toFixed(1)
+  const at = (values: number[], share: number): string =>
+    [...values].sort((a, b) => a - b)[Math.floor(share * (values.length - 1))]!.toFixed(1)
   const say = (values: number[]): string => `median ${at(values, 0.5)} ms, p95 ${at(values, 0.95)} ms, worst ${at(values, 1)} ms`
-  console.log(`drag to picture (33 ms are promised): ${say(found.times)}\n  of these the request: ${say(found.requests)}\n  work of the page: ${((await work()) / steps - before / steps).toFixed(1)} ms a step`)
+  console.log(
+    `drag to picture (33 ms are promised): ${say(found.times)}\n  of these the request: ${say(found.requests)}\n  work of the page: ${((await work()) / steps - before / steps).toFixed(1)} ms a step`,
+  )
   expect(Math.max(...found.times)).toBeLessThan(2000)
   await end()
 })

@@ -88,7 +88,10 @@ it.each([1280, 390])('says in every panel of long work how far it is, and lets n
         if (text.includes('37 %') && !seen.told.includes(name)) seen.told.push(name)
       }
       const top = (selector: string): number => document.querySelector(selector)!.getBoundingClientRect().top
-      const place = [top('[data-key="loop.delay"]') - top('.numbers'), ...[...document.querySelectorAll('.panel > header')].map((each) => each.getBoundingClientRect().height)].join()
+      const place = [
+        top('[data-key="loop.delay"]') - top('.numbers'),
+        ...[...document.querySelectorAll('.panel > header')].map((each) => each.getBoundingClientRect().height),
+      ].join()
       if (!seen.places.includes(place)) seen.places.push(place)
       requestAnimationFrame(look)
     }
@@ -97,7 +100,21 @@ it.each([1280, 390])('says in every panel of long work how far it is, and lets n
   await type(page, 'body.handle.mass', '4.8')
   await settled(page)
   const seen = await page.evaluate(() => (window as unknown as { seen: { told: string[]; places: string[] } }).seen)
-  expect(seen.told.sort()).toEqual(['answer', 'bar', 'bode', 'compare', 'diagnose', 'file', 'limits', 'numbers', 'recommend', 'region', 'relay', 'sweep', 'time'])
+  expect(seen.told.sort()).toEqual([
+    'answer',
+    'bar',
+    'bode',
+    'compare',
+    'diagnose',
+    'file',
+    'limits',
+    'numbers',
+    'recommend',
+    'region',
+    'relay',
+    'sweep',
+    'time',
+  ])
   expect(seen.places).toHaveLength(1)
   await expect.poll(() => page.locator('main').innerText()).not.toContain('37 %')
   expect(complaints).toEqual([])

@@ -14,7 +14,9 @@ export function everythingAt(width: number): void {
     await expect.poll(() => page.locator('[data-answer="trust"]').innerText()).toContain('sound')
     await expect.poll(() => page.evaluate(() => performance.getEntriesByType('resource').length)).toBeLessThan(20)
     await settled(page)
-    await expect.poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
+    await expect
+      .poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth))
+      .toBeLessThanOrEqual(0)
     expect(complaints).toEqual([])
     await context.close()
   })
@@ -144,9 +146,13 @@ export function everythingAt(width: number): void {
     await expect.poll(() => row(page, 'body.motor.mass').locator('input[type="text"]').getAttribute('aria-invalid')).toBe('true')
     await expect.poll(() => page.locator('[data-answer="nobody"]').count()).toBe(0)
     await type(page, 'body.motor.mass', '3 N')
-    await page.waitForFunction(() => /no unit of a mass/.test(document.querySelector('[data-key="body.motor.mass"] .problem')?.textContent ?? ''))
+    await page.waitForFunction(() =>
+      /no unit of a mass/.test(document.querySelector('[data-key="body.motor.mass"] .problem')?.textContent ?? ''),
+    )
     await type(page, 'body.motor.mass', '0,3')
-    await page.waitForFunction(() => /has a comma; the decimal mark is a point/.test(document.querySelector('[data-key="body.motor.mass"] .problem')?.textContent ?? ''))
+    await page.waitForFunction(() =>
+      /has a comma; the decimal mark is a point/.test(document.querySelector('[data-key="body.motor.mass"] .problem')?.textContent ?? ''),
+    )
     await expect.poll(() => row(page, 'body.motor.mass').locator('input[type="text"]').inputValue()).toBe('0,3')
     for (let i = 0; i < 3; ++i) await page.keyboard.press('Control+z')
     await page.waitForSelector('[data-answer="nobody"]')
@@ -186,10 +192,18 @@ export function everythingAt(width: number): void {
     await page.evaluate(axe.source)
     const found = await page.evaluate(async () => {
       const results = await (window as unknown as { axe: typeof axe }).axe.run(document, { resultTypes: ['violations'] })
-      return results.violations.map((each) => `${each.id}: ${each.nodes.slice(0, 3).map((node) => `${node.html.slice(0, 160)} ${node.failureSummary ?? ''}`).join(' | ')} (${each.nodes.length})`)
+      return results.violations.map(
+        (each) =>
+          `${each.id}: ${each.nodes
+            .slice(0, 3)
+            .map((node) => `${node.html.slice(0, 160)} ${node.failureSummary ?? ''}`)
+            .join(' | ')} (${each.nodes.length})`,
+      )
     })
     expect(found, scheme).toEqual([])
-    await expect.poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
+    await expect
+      .poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth))
+      .toBeLessThanOrEqual(0)
     expect(complaints).toEqual([])
     await context.close()
   })
@@ -207,7 +221,18 @@ export function everythingAt(width: number): void {
     await settled(page)
     await page.getByRole('button', { name: 'Use this device' }).click()
     await page.waitForFunction(() => /interval|between/i.test(document.querySelector('.answer')?.textContent ?? ''))
-    const fitted = documentOf('identify', 'recordings/locked_chirp.csv', '--force', 'force', '--position', 'position', '--structure', 'devices/lhifam.toml', '--locked', 'handle')
+    const fitted = documentOf(
+      'identify',
+      'recordings/locked_chirp.csv',
+      '--force',
+      'force',
+      '--position',
+      'position',
+      '--structure',
+      'devices/lhifam.toml',
+      '--locked',
+      'handle',
+    )
     await settled(page)
     expect(fits).toBe(1)
     await expect.poll(() => nobody(page)).toBe(`${(Number(fitted.critical_stiffness) / 1000).toPrecision(4)} kN/m`)

@@ -15,14 +15,24 @@ describe('work habits', () => {
     await settled(page)
     const path = `${dirname(program)}:${process.env.PATH}`
     const numberOf = (command: string): number =>
-      (JSON.parse(execFileSync('bash', ['-c', command.replace(/(zwidth analyze .*)/, '$1 --json')], { cwd: project, encoding: 'utf8', env: { ...process.env, PATH: path } })) as { critical_stiffness: number }).critical_stiffness
+      (
+        JSON.parse(
+          execFileSync('bash', ['-c', command.replace(/(zwidth analyze .*)/, '$1 --json')], {
+            cwd: project,
+            encoding: 'utf8',
+            env: { ...process.env, PATH: path },
+          }),
+        ) as { critical_stiffness: number }
+      ).critical_stiffness
     await runPalette(page, 'copy as command: analyze')
     const short = await page.evaluate(() => navigator.clipboard.readText())
-    expect(short).toBe('zwidth analyze devices/lhifam.toml --set body.handle.damping=4.2 --set \'loop.delay=0.3 ms\'')
+    expect(short).toBe("zwidth analyze devices/lhifam.toml --set body.handle.damping=4.2 --set 'loop.delay=0.3 ms'")
     expect(`${(numberOf(short) / 1000).toPrecision(4)} kN/m`).toBe(await nobody(page))
     // A device of one's own goes with the command.
     await runPalette(page, 'show: device file')
-    await page.locator('#toml').fill((await page.locator('#toml').inputValue()).replace('name = "LHIfAM, translational axis"', 'name = "It\'s mine"'))
+    await page
+      .locator('#toml')
+      .fill((await page.locator('#toml').inputValue()).replace('name = "LHIfAM, translational axis"', 'name = "It\'s mine"'))
     await page.locator('#toml').blur()
     await runPalette(page, 'copy as command: analyze')
     const long = await page.evaluate(() => navigator.clipboard.readText())

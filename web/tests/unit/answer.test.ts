@@ -11,7 +11,9 @@ const install = (): void => {
   asked = []
   vi.stubGlobal('fetch', (_: string, init: RequestInit) => {
     const toml = (JSON.parse(init.body as string) as { device_toml: string }).device_toml
-    return new Promise<Response>((done) => asked.push({ toml, reply: (status, body) => done(new Response(JSON.stringify(body), { status })) }))
+    return new Promise<Response>((done) =>
+      asked.push({ toml, reply: (status, body) => done(new Response(JSON.stringify(body), { status })) }),
+    )
   })
 }
 const turn = (): Promise<void> => new Promise((done) => setTimeout(done, 5))

@@ -32,7 +32,9 @@ describe('scale', () => {
   })
 
   it('ends at round numbers', () => {
-    expect([roundEnd(3, false), roundEnd(3, true), roundEnd(5000, true), roundEnd(0.07, true), roundEnd(2e-4, false)]).toEqual([2, 5, 5000, 0.1, 2e-4])
+    expect([roundEnd(3, false), roundEnd(3, true), roundEnd(5000, true), roundEnd(0.07, true), roundEnd(2e-4, false)]).toEqual([
+      2, 5, 5000, 0.1, 2e-4,
+    ])
   })
 
   it('covers the values, whatever is missing', () => {
@@ -55,21 +57,35 @@ describe('scale', () => {
 describe('labels of marks', () => {
   const within = { left: 52, right: 360, top: 0, bottom: 196 }
   it('stand beside their marks, and none over another or over a mark', () => {
-    const points = [[200, 100], [206, 103], [212, 98], [340, 20], [345, 12]].map(([x, y], i) => ({ x: x!, y: y!, label: `${i}5.8 kN/m` }))
+    const points = [
+      [200, 100],
+      [206, 103],
+      [212, 98],
+      [340, 20],
+      [345, 12],
+    ].map(([x, y], i) => ({ x: x!, y: y!, label: `${i}5.8 kN/m` }))
     const places = placeLabels(points, within)
     const boxes = places.map((place, i) => {
       const width = points[i]!.label.length * 6.4
-      return { left: place!.anchor === 'start' ? place!.x : place!.x - width, right: place!.anchor === 'start' ? place!.x + width : place!.x, top: place!.y - 10, bottom: place!.y + 3 }
+      return {
+        left: place!.anchor === 'start' ? place!.x : place!.x - width,
+        right: place!.anchor === 'start' ? place!.x + width : place!.x,
+        top: place!.y - 10,
+        bottom: place!.y + 3,
+      }
     })
     for (const [i, a] of boxes.entries()) {
       expect(a.left >= within.left && a.right <= within.right && a.top >= within.top && a.bottom <= within.bottom).toBe(true)
-      for (const b of boxes.slice(i + 1)) expect(a.left >= b.right || a.right <= b.left || a.top >= b.bottom || a.bottom <= b.top).toBe(true)
+      for (const b of boxes.slice(i + 1))
+        expect(a.left >= b.right || a.right <= b.left || a.top >= b.bottom || a.bottom <= b.top).toBe(true)
     }
     expect(places[0]).toEqual({ x: 193, y: 94, anchor: 'end' })
   })
 
   it('leave out what has no place', () => {
-    expect(placeLabels([{ x: 60, y: 10, label: 'far too long for so narrow a plot as this' }], { left: 52, right: 100, top: 0, bottom: 40 })).toEqual([null])
+    expect(
+      placeLabels([{ x: 60, y: 10, label: 'far too long for so narrow a plot as this' }], { left: 52, right: 100, top: 0, bottom: 40 }),
+    ).toEqual([null])
   })
 })
 
@@ -77,20 +93,33 @@ describe('a band', () => {
   const y: Scale = { log: false, from: 0, to: 10, start: 100, end: 0 }
   it('is one closed piece per run, down to the axis where it has no lower end', () => {
     // x 0 to 4: pixels 50, 90, ... ; the lower end of the third is none, the fourth is not measured at all.
-    expect(bandOf([0, 1, 2, 3, 4], [1, 2, null, null, 3], [3, 4, 5, null, 6], linear, y)).toBe('M50 90L90 80L130 100L130 50L90 60L50 70ZM210 70L210 40Z')
+    expect(bandOf([0, 1, 2, 3, 4], [1, 2, null, null, 3], [3, 4, 5, null, 6], linear, y)).toBe(
+      'M50 90L90 80L130 100L130 50L90 60L50 70ZM210 70L210 40Z',
+    )
   })
 })
 
 describe('out of the page', () => {
   it('writes CSV that others read', () => {
-    expect(csvOf({ head: ['a, b', 'c'], rows: [[1.5, null], ['say "x"', 2]] })).toBe('"a, b",c\n1.5,\n"say ""x""",2\n')
+    expect(
+      csvOf({
+        head: ['a, b', 'c'],
+        rows: [
+          [1.5, null],
+          ['say "x"', 2],
+        ],
+      }),
+    ).toBe('"a, b",c\n1.5,\n"say ""x""",2\n')
   })
 
   it('finds what --set makes of an example', () => {
     const example = 'name = "x"\nmotion = "linear"\n[[body]]\nname = "a"\nmass = 1.0\n[loop]\nsampling_period = 1e-3\n'
     expect(setsFrom(example, example)).toEqual([])
     expect(setsFrom(example, example.replace('1e-3', '0.001'))).toEqual([])
-    expect(setsFrom(example, example.replace('mass = 1.0', 'mass = "3 lb"\ncoulomb = 0.5\ndamping = 0.0'))).toEqual(['body.a.mass=3 lb', 'body.a.coulomb=0.5'])
+    expect(setsFrom(example, example.replace('mass = 1.0', 'mass = "3 lb"\ncoulomb = 0.5\ndamping = 0.0'))).toEqual([
+      'body.a.mass=3 lb',
+      'body.a.coulomb=0.5',
+    ])
     expect(setsFrom(example, `${example}[wall]\nstiffness = 0.0\n`)).toEqual(['wall.stiffness=0.0'])
     expect(setsFrom(example, example.replace('"x"', '"y"'))).toBeNull()
     expect(setsFrom(example, example.replace('[loop]\nsampling_period = 1e-3\n', ''))).toBeNull()

@@ -25,8 +25,20 @@ describe('commands', () => {
       expect(ended(got), command).toBe(ended(text))
       expect(run('bash', '-c', `zwidth() { printf '%s' "$*"; cat >/dev/null; }\n${command}`), command).toBe('analyze -')
     }
-    expect(run('bash', '-c', `zwidth() { printf '%s|' "$@"; cat >/dev/null; }\n${commandLine('design', { target: "a\u0003'\\ $HOME %" }, hostile[0]!)}`)).toBe("design|-|--target|a\u0003'\\ $HOME %|")
-    expect(run('bash', '-c', `zwidth() { printf '%s|' "$@"; cat >/dev/null; }\n${commandLine('design', { target: "1 'N/m'; echo RAN" }, hostile[0]!)}`)).toBe("design|-|--target|1 'N/m'; echo RAN|")
+    expect(
+      run(
+        'bash',
+        '-c',
+        `zwidth() { printf '%s|' "$@"; cat >/dev/null; }\n${commandLine('design', { target: "a\u0003'\\ $HOME %" }, hostile[0]!)}`,
+      ),
+    ).toBe("design|-|--target|a\u0003'\\ $HOME %|")
+    expect(
+      run(
+        'bash',
+        '-c',
+        `zwidth() { printf '%s|' "$@"; cat >/dev/null; }\n${commandLine('design', { target: "1 'N/m'; echo RAN" }, hostile[0]!)}`,
+      ),
+    ).toBe("design|-|--target|1 'N/m'; echo RAN|")
   })
 
   it('give C++ one raw string', () => {
@@ -41,7 +53,17 @@ describe('commands', () => {
 
   it('give C++ that compiles against the library, and prints every digit', () => {
     const code = cppCode('name = "a"\n[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n')
-    const words = ['-std=c++20', '-fsyntax-only', '-I', fileURLToPath(new URL('../../../include', import.meta.url)), '-isystem', '/usr/include/eigen3', '-x', 'c++', '-']
+    const words = [
+      '-std=c++20',
+      '-fsyntax-only',
+      '-I',
+      fileURLToPath(new URL('../../../include', import.meta.url)),
+      '-isystem',
+      '/usr/include/eigen3',
+      '-x',
+      'c++',
+      '-',
+    ]
     execFileSync('c++', words, { input: code, stdio: ['pipe', 'inherit', 'inherit'] })
     expect(code).toContain('setprecision(17) << analysis.critical.stiffness')
   })
@@ -49,7 +71,8 @@ describe('commands', () => {
   it('give Python one text', () => {
     for (const text of hostile) {
       const code = pythonCode(text)
-      const print = 'import ast, sys\ntree = ast.parse(sys.argv[1])\nassert [type(each).__name__ for each in tree.body] == ["Import", "Assign", "Assign", "Expr"]\nsys.stdout.buffer.write(tree.body[1].value.args[0].value.encode())'
+      const print =
+        'import ast, sys\ntree = ast.parse(sys.argv[1])\nassert [type(each).__name__ for each in tree.body] == ["Import", "Assign", "Assign", "Expr"]\nsys.stdout.buffer.write(tree.body[1].value.args[0].value.encode())'
       expect(run('python3', '-c', print, code), code).toBe(text.includes('\n') ? text : `${text}\n`)
     }
   })

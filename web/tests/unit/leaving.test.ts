@@ -65,7 +65,11 @@ it('says how far long work is, and takes document and error from the last line',
     const { readable, writable } = new TransformStream<Uint8Array, Uint8Array>()
     const writer = writable.getWriter()
     const response = new Response(readable, { headers: { 'Content-Type': 'application/x-ndjson' } })
-    return { response, put: async (text) => (await writer.write(new TextEncoder().encode(text)), vi.advanceTimersByTimeAsync(1)), end: async () => (await writer.close(), vi.advanceTimersByTimeAsync(1)) }
+    return {
+      response,
+      put: async (text) => (await writer.write(new TextEncoder().encode(text)), vi.advanceTimersByTimeAsync(1)),
+      end: async () => (await writer.close(), vi.advanceTimersByTimeAsync(1)),
+    }
   }
   answer.ask({ path: 'design', toml: 'x = 1' })
   await vi.advanceTimersByTimeAsync(1)

@@ -55,7 +55,10 @@ describe('address', () => {
   it('leaves out comments first, then pins, then says no', () => {
     let seed = 3
     const noise = (length: number): string =>
-      Array.from({ length }, () => String.fromCharCode(33 + (seed = (seed * 48271) % 2147483647) % 90)).join('').replaceAll('\\', '/').replaceAll('"', "'")
+      Array.from({ length }, () => String.fromCharCode(33 + ((seed = (seed * 48271) % 2147483647) % 90)))
+        .join('')
+        .replaceAll('\\', '/')
+        .replaceAll('"', "'")
     const long = `${lhifam}# ${noise(3000)}\n`
     const address = encode(empty(long))!
     expect(address.left).toBe('comments')
@@ -65,7 +68,8 @@ describe('address', () => {
   })
 
   it('refuses what is not its own, and says why', () => {
-    for (const text of ['', '%', 'b', 'bAAAA', 'bAAAAAAAA', 'b%%%', 'b'.repeat(3000), 'b' + btoa('{}')]) expect(problemOf(text), text).toMatch(/changed or cut off/)
+    for (const text of ['', '%', 'b', 'bAAAA', 'bAAAAAAAA', 'b%%%', 'b'.repeat(3000), 'b' + btoa('{}')])
+      expect(problemOf(text), text).toMatch(/changed or cut off/)
     expect(problemOf('aXXXX')).toMatch(/older version/)
     expect(problemOf('cXXXX')).toMatch(/newer version/)
   })

@@ -1,7 +1,18 @@
 import { readFileSync, readdirSync } from 'node:fs'
 import { describe, expect, it } from 'vitest'
 import { groupsOf, shapeOf } from '../../src/model/keys'
-import { addBody, assumedKeys, choose, confirm, connect, freeName, newDevice, newLinkedDevice, removeBody, removeLink } from '../../src/model/parts'
+import {
+  addBody,
+  assumedKeys,
+  choose,
+  confirm,
+  connect,
+  freeName,
+  newDevice,
+  newLinkedDevice,
+  removeBody,
+  removeLink,
+} from '../../src/model/parts'
 import { find, scan, set, unset, withoutComments } from '../../src/model/toml'
 
 const devices = new URL('../../../devices/', import.meta.url)
@@ -34,7 +45,9 @@ describe('toml', () => {
 
   it('takes a value out, and leaves all else as it was', () => {
     expect(unset(lhifam, ['link', '0', 'damping'])).toBe(lhifam.replace(/damping = 15\.0.*\n/, ''))
-    expect(set(unset('a = 1\n[wall]\nstiffness = 5 # why\ndamping = 2\n', ['wall', 'stiffness']), ['a'], '2')).toBe('a = 2\n[wall]\ndamping = 2\n')
+    expect(set(unset('a = 1\n[wall]\nstiffness = 5 # why\ndamping = 2\n', ['wall', 'stiffness']), ['a'], '2')).toBe(
+      'a = 2\n[wall]\ndamping = 2\n',
+    )
     for (const [text, path, left] of [
       ['wall = { stiffness = 5 , damping = 2 }', ['wall', 'stiffness'], 'wall = { damping = 2 }'],
       ['wall = { stiffness = 5 , damping = 2 }', ['wall', 'damping'], 'wall = { stiffness = 5 }'],
@@ -48,7 +61,8 @@ describe('toml', () => {
   })
 
   it('reads inline tables, dotted and quoted keys, arrays over lines, long texts', () => {
-    const text = 'loop.delay = 1e-3 # why\nwall = { stiffness = 5 , damping = 2 }\n"a b" = [1,\n 2, # two\n]\nnote = """x = 1\n"""\nlast = true'
+    const text =
+      'loop.delay = 1e-3 # why\nwall = { stiffness = 5 , damping = 2 }\n"a b" = [1,\n 2, # two\n]\nnote = """x = 1\n"""\nlast = true'
     const scanned = scan(text)
     expect(scanned.complete).toBe(true)
     expect(scanned.entries.map((each) => [each.path.join('.'), each.value])).toEqual([
@@ -88,13 +102,27 @@ describe('toml', () => {
 
   it('adds and removes bodies and links, and leaves the rest as it was', () => {
     const three = addBody(lhifam, 'finger "1"', 'handle')
-    expect(shapeOf(scan(three))).toMatchObject({ bodies: ['motor', 'handle', 'finger "1"'], links: [['motor', 'handle'], ['handle', 'finger "1"']], actuated: 'motor', held: 'handle' })
+    expect(shapeOf(scan(three))).toMatchObject({
+      bodies: ['motor', 'handle', 'finger "1"'],
+      links: [
+        ['motor', 'handle'],
+        ['handle', 'finger "1"'],
+      ],
+      actuated: 'motor',
+      held: 'handle',
+    })
     expect(removeBody(three, 'finger "1"').replace(/\n+/g, '\n')).toBe(lhifam.replace(/\n+/g, '\n'))
     const alone = removeBody(lhifam, 'handle')
     expect(shapeOf(scan(alone))).toMatchObject({ bodies: ['motor'], links: [], actuated: 'motor', sensed: 'motor', held: 'motor' })
     expect(alone).toContain('# LHIfAM, a large haptic interface')
     const other = connect(choose(three, 'sensed', 'handle'), 1, 'motor', 'finger "1"')
-    expect(shapeOf(scan(other))).toMatchObject({ links: [['motor', 'handle'], ['motor', 'finger "1"']], sensed: 'handle' })
+    expect(shapeOf(scan(other))).toMatchObject({
+      links: [
+        ['motor', 'handle'],
+        ['motor', 'finger "1"'],
+      ],
+      sensed: 'handle',
+    })
     expect(shapeOf(scan(removeLink(other, 0))).links).toEqual([['motor', 'finger "1"']])
     expect(freeName(three)).toBe('body 4')
   })
@@ -103,7 +131,14 @@ describe('toml', () => {
 describe('assumed numbers', () => {
   it('are told until they are changed or said to be right', () => {
     const wheel = newLinkedDevice('rotary')
-    expect(assumedKeys(wheel)).toEqual(['body.motor.mass', 'body.motor.damping', 'loop.sampling_period', 'body.wheel.mass', 'link.0.stiffness', 'link.0.damping'])
+    expect(assumedKeys(wheel)).toEqual([
+      'body.motor.mass',
+      'body.motor.damping',
+      'loop.sampling_period',
+      'body.wheel.mass',
+      'link.0.stiffness',
+      'link.0.damping',
+    ])
     expect(assumedKeys(withoutComments(wheel))).toEqual(assumedKeys(wheel))
     const one = confirm(wheel, 'body.wheel.mass')
     expect(assumedKeys(one)).toHaveLength(5)

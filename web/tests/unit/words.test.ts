@@ -7,13 +7,19 @@ describe('words', () => {
   it('say what is stable where there is no limit', () => {
     expect(limitWord({ status: 'none_stable', stable_intervals: [] })).toBe('none: no wall is stable, however soft')
     expect(limitWord({ status: 'none_stable', stable_intervals: null })).toBe('none: no wall is stable, however soft')
-    expect(limitWord({ status: 'none_stable', stable_intervals: [[500, 2000]] })).toBe('none: the softest walls are unstable, stiffer ones are stable')
+    expect(limitWord({ status: 'none_stable', stable_intervals: [[500, 2000]] })).toBe(
+      'none: the softest walls are unstable, stiffer ones are stable',
+    )
     expect(limitWord({ status: 'unbounded', stable_intervals: [[0, null]] })).toBe('every wall is stable')
     expect(limitWord({ status: 'refused', stable_intervals: null })).toBe('refused')
   })
 
   it('name numbers as the page does, in the texts of the program', () => {
-    const groups = groupsOf(scan('motion = "rotary"\n[[body]]\nname = "a"\ninertia = 1\n[[body]]\nname = "a b"\ninertia = 1\n[[link]]\nbetween = ["a", "a b"]\nstiffness = 1\n[loop]\nsampling_period = 1e-3\n'))
+    const groups = groupsOf(
+      scan(
+        'motion = "rotary"\n[[body]]\nname = "a"\ninertia = 1\n[[body]]\nname = "a b"\ninertia = 1\n[[link]]\nbetween = ["a", "a b"]\nstiffness = 1\n[loop]\nsampling_period = 1e-3\n',
+      ),
+    )
     expect(inWords('the data do not determine body.a b.mass, link.0.damping, body.a.damping: taken as they stand', groups)).toBe(
       'the data do not determine Body “a b”: inertia, Link a – a b: damping, Body “a”: damping: taken as they stand',
     )
