@@ -125,9 +125,9 @@ std::optional<InputError> problem_of_line(std::string_view text, std::string_vie
   const bool is_plain_key = !key.empty() && std::ranges::all_of(key, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
-  const bool has_comma = value.find(',') != std::string_view::npos &&
-                         value.find_first_not_of("+-.,0123456789eE") == std::string_view::npos;
-  if (!is_plain_key || !(has_comma || is_bare_text(value)) || value.find_first_of("[]{}'") != std::string_view::npos ||
+  const bool is_number = value.find_first_not_of("+-.,0123456789eE_") == std::string_view::npos;
+  const bool has_comma = is_number && value.find(',') != std::string_view::npos;
+  if (!is_plain_key || !(has_comma || (is_bare_text(value) && !is_number)) || value.find_first_of("[]{}'") != std::string_view::npos ||
       toml::parse(fmt::format("value = {}", value)).succeeded()) {
     return std::nullopt;
   }
