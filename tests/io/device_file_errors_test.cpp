@@ -277,7 +277,7 @@ const Slip slips[] = {
      "0.5 ms"},
     {"counts_for_a_step", body("") + loop() + "[sensor]\nresolution = \"200 counts/mm\"\n", 9, 14, "sensor.resolution",
      "1 mm/200"},
-    {"misspelt_body", two_body_text + "[wall]\nstiffness = 1\n[operator]\nmas = 1\n", 14, 1, "operator.mas", ""},
+    {"misspelt_body", two_body_text + "[wall]\nstiffness = 1\n[operator]\nmas = 1\n", 15, 1, "operator.mas", ""},
     {"motion", "motion = \"Rotary\"\n" + body_of("\"22 g cm^2\"") + loop(), 1, 10, "motion", "rotary"},
 };
 
