@@ -137,8 +137,7 @@ TEST_F(BadInput, EveryBadFileIsNamedAndNothingIsComputed) {
 }
 
 TEST_F(BadInput, EveryProblemOfAFileHasALineOfItsOwn) {
-  write("device.toml",
-        "[[body]]\nname = \"a\"\nmass = -1\ndamping = \"5 kg\"\n[loop]\nsampling_period = \"2 kHz\"\n");
+  write("device.toml", "[[body]]\nname = \"a\"\nmass = -1\ndamping = \"5 kg\"\n[loop]\nsampling_period = \"2 kHz\"\n");
   const Outcome outcome = run("zwidth analyze --json device.toml");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.output, IsEmpty());

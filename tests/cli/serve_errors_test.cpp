@@ -184,7 +184,8 @@ TEST_F(ServedErrors, AnErrorHasItsPlaceAndAllProblemsAsFields) {
   EXPECT_EQ(field(2, "place"), place(3, 8, "body.a.mass"));
   EXPECT_EQ(field(2, "suggestion"), nullptr);
   EXPECT_EQ(field(2, "where"), "device.body.a.mass");
-  for (const char* name : {"where", "what", "allowed", "place", "suggestion"}) EXPECT_EQ(error.at(name), field(0, name));
+  for (const char* name : {"where", "what", "allowed", "place", "suggestion"})
+    EXPECT_EQ(error.at(name), field(0, name));
   // Of an option, and of a key that is overridden: there is no line.
   const std::string device = contents("devices/lhifam.toml");
   json other = error_of("simulate", {{"contact", "bilaterl"}}, device);
@@ -192,11 +193,9 @@ TEST_F(ServedErrors, AnErrorHasItsPlaceAndAllProblemsAsFields) {
   EXPECT_EQ(other.at("suggestion"), "bilateral") << other;
   other = error_of("analyze", {{"set", "loop.delay=2 kHz"}}, device);
   EXPECT_EQ(other.at("where"), "device.loop.delay") << other;
-  EXPECT_EQ(other.at("place"), (json{{"file", "device"},
-                                     {"line", nullptr},
-                                     {"column", nullptr},
-                                     {"key", "loop.delay"},
-                                     {"option", nullptr}}));
+  EXPECT_EQ(
+      other.at("place"),
+      (json{{"file", "device"}, {"line", nullptr}, {"column", nullptr}, {"key", "loop.delay"}, {"option", nullptr}}));
   EXPECT_EQ(other.at("suggestion"), "0.5 ms") << other;
   other = error_of("relay", {{"amplitude", 5}, {"variation", "0,25"}}, device);
   EXPECT_EQ(other.at("place").at("option"), "variation") << other;
