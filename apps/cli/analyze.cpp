@@ -54,7 +54,8 @@ ValueRange range_in(const std::string& key, const std::string& text, Measure mea
                                  : !greatest_given ? &greatest_given.error()
                                                    : nullptr;
     InputProblem refused = problem_of_value(
-        "--users", fmt::format("'{}' must be LEAST:GREATEST or one number{}", text, problem ? ": " + problem->what : ""),
+        "--users",
+        fmt::format("'{}' must be LEAST:GREATEST or one number{}", text, problem ? ": " + problem->what : ""),
         problem ? problem->allowed : "");
     refused.place.key = key;
     throw BadInput(std::move(refused));
@@ -83,7 +84,8 @@ UserRanges user_ranges(const std::string& text, Motion motion) {
     if (named.range == nullptr) {
       const std::string nearest =
           nearest_word(key, std::vector<std::string>{"mass", "inertia", "damping", "stiffness"});
-      throw BadInput("--users", fmt::format("there is no key '{}'", key), nearest.empty() ? "one of mass, damping, stiffness" : "did you mean " + nearest + "?");
+      throw BadInput("--users", fmt::format("there is no key '{}'", key),
+                     nearest.empty() ? "one of mass, damping, stiffness" : "did you mean " + nearest + "?");
     }
     if (*named.range) throw BadInput("--users", fmt::format("{} is given twice", key));
     *named.range = range_in(key, part.substr(equals + 1), named.measure, motion);
@@ -95,16 +97,17 @@ UserRanges user_ranges(const std::string& text, Motion motion) {
 constexpr std::pair<std::string_view, std::string_view> options_of_analysis[] = {
     {"worst_user", "--worst-user"},
     {"family", "--users"},
-    {"family.mass", "--users"},
-    {"family.damping", "--users"},
-    {"family.stiffness", "--users"},
 };
 
 /// What is asked of one device. Throws BadInput where it cannot be answered.
 AnalysisOptions options_for(const AnalyzeOptions& options, const std::string& file, const Device& device) {
   AnalysisOptions asked{.worst_user = options.worst_user};
   if (!options.users.empty()) asked.family = user_ranges(options.users, device.parameters().motion);
-  if (const auto problem = find_problem(asked, device)) refuse(*problem, options_of_analysis, file);
+  if (const auto problem = find_problem(asked, device)) {
+    constexpr std::string_view of_family = "family.";
+    if (!problem->member.starts_with(of_family)) refuse(*problem, options_of_analysis, file);
+    refuse_input({file, 0, 0, problem->member.substr(of_family.size()), problem->what, problem->allowed}, "--users");
+  }
   return asked;
 }
 

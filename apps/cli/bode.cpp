@@ -51,7 +51,8 @@ std::string crossovers_text(const std::vector<AnalysedDevice>& devices) {
 void check_devices(const std::vector<AnalysedDevice>& devices, bool in_one_figure) {
   if (in_one_figure) {
     if (devices.size() > report::most_curves) {
-      throw BadInput("", fmt::format("{} devices in one figure", devices.size()), fmt::format("at most {} can be told apart", report::most_curves));
+      throw BadInput("", fmt::format("{} devices in one figure", devices.size()),
+                     fmt::format("at most {} can be told apart", report::most_curves));
     }
     const Motion motion = devices.front().device.parameters().motion;
     for (const AnalysedDevice& each : devices) {

@@ -53,7 +53,8 @@ constexpr std::pair<std::string_view, std::string_view> options_of_design[] = {{
                                                                                {"times_now", "--target"}};
 
 [[noreturn]] void refuse_sweep(const std::string& argument, const std::string& why) {
-  throw BadInput("--sweep", fmt::format("{}: {}", in_quotes(argument), why), "write KEY=FIRST:LAST:COUNT or KEY=FIRST:LAST:COUNT:log, for instance loop.delay=0:8e-3:81");
+  throw BadInput("--sweep", fmt::format("{}: {}", in_quotes(argument), why),
+                 "write KEY=FIRST:LAST:COUNT or KEY=FIRST:LAST:COUNT:log, for instance loop.delay=0:8e-3:81");
 }
 
 double end_of(const std::string& argument, const std::string& text, std::string_view which, Measure measure,
@@ -195,7 +196,8 @@ void set_target(const std::string& text, Motion motion, DesignTargetOptions& opt
   }
   const bool is_multiple = text.ends_with('x') || text.ends_with('%');
   if (is_multiple && !options.times_now) {
-    throw BadInput("--target", fmt::format("{} is no multiple of today's limit", in_quotes(text)), "write 2x or \"200 %\", or the stiffness to reach: 12000, \"12 kN/m\"");
+    throw BadInput("--target", fmt::format("{} is no multiple of today's limit", in_quotes(text)),
+                   "write 2x or \"200 %\", or the stiffness to reach: 12000, \"12 kN/m\"");
   }
 }
 

@@ -30,7 +30,8 @@ NotchOptions notch_options(const NotchArguments& arguments) {
   NotchOptions options;
   if (arguments.goal == "any-user") options.goal = StiffnessGoal::any_user_limit;
   if (arguments.goal && *arguments.goal != "any-user" && *arguments.goal != "critical-stiffness") {
-    throw BadInput("--goal", fmt::format("{} is not for a notch", *arguments.goal), "critical-stiffness or any-user is");
+    throw BadInput("--goal", fmt::format("{} is not for a notch", *arguments.goal),
+                   "critical-stiffness or any-user is");
   }
   if (arguments.drift_percent) options.drift = *arguments.drift_percent / 100.0;
   if (arguments.gain_margin_db) options.gain_margin = ratio_of_decibels(*arguments.gain_margin_db);

@@ -31,7 +31,8 @@ RecommendationOptions recommendation_options(const RecommendArguments& arguments
   if (shared.goal) {
     const auto goal = goals.find(*shared.goal);
     if (goal == goals.end()) {
-      throw BadInput("--goal", fmt::format("{} is not for a recommendation", *shared.goal), "stiffness, width, critical-damping or damper is");
+      throw BadInput("--goal", fmt::format("{} is not for a recommendation", *shared.goal),
+                     "stiffness, width, critical-damping or damper is");
     }
     options.goal = goal->second;
   }

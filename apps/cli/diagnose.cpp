@@ -33,7 +33,8 @@ struct DiagnoseArguments {
 };
 
 Recording read_position(const RecordingArguments& arguments) {
-  if (arguments.position.name.empty()) throw BadInput("--position", "missing", "name the column of the sensed position");
+  if (arguments.position.name.empty())
+    throw BadInput("--position", "missing", "name the column of the sensed position");
   RecordingOptions reading = recording_options(arguments);
   reading.columns = {arguments.position};
   constexpr std::pair<std::string_view, std::string_view> scale[] = {{"columns.0.scale", "--position-scale"}};

@@ -68,7 +68,8 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
   }
   if (arguments.units) {
     if (command.count("--safety-factor") == 0) return;
-    throw BadInput("--safety-factor", "the limit on the drive is not known well enough to take a share of", "give --stiffness");
+    throw BadInput("--safety-factor", "the limit on the drive is not known well enough to take a share of",
+                   "give --stiffness");
   }
   only_for("--stiffness", {"c"});
   only_for("--safety-factor", {"c", "chai3d"});
@@ -91,7 +92,7 @@ void check_share(const ExportArguments& arguments, const SafeWall& wall) {
       "{}: there is no limit to take a share of",
       wall.status == SafeWall::Status::unbounded ? "every wall is stable" : "no wall is stable from K = 0 on");
   if (arguments.format == "chai3d") throw WorkFailed(file, "there is no ceiling to declare: " + why);
-  refuse_input({file, 0, 0, "", why, "give --stiffness"}, "--safety-factor");
+  throw BadInput("--safety-factor", why, "give --stiffness");
 }
 
 /// Says how K was chosen.
@@ -110,15 +111,15 @@ WallToRun released_wall(const ExportArguments& arguments) {
   const WallToRunOptions options{arguments.stiffness, arguments.safety_factor, arguments.accept_doubt};
   if (const auto problem = find_problem(options, device)) {
     if (!problem->member.empty()) refuse(*problem, options_of_wall);
-    refuse_input({file, 0, 0, "", problem->what,
-                  fmt::format("{}, or give --stiffness or --safety-factor", problem->allowed)});
+    refuse_input(
+        {file, 0, 0, "", problem->what, fmt::format("{}, or give --stiffness or --safety-factor", problem->allowed)});
   }
   WallToRun wall = worked(arguments.devices.files.front(), [&] { return wall_to_run(device, options); });
   if (wall.share) check_share(arguments, *wall.share);
   if (!wall.released) {
     const Trust& trust = wall.analysis.trust;
-    throw WorkFailed(file, report::verdict_text(trust) +
-                     (trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
+    throw WorkFailed(
+        file, report::verdict_text(trust) + (trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
   }
   return wall;
 }
@@ -149,7 +150,8 @@ std::string exported_for_drive(const ExportArguments& arguments) {
   DriveLoopOptions loop = arguments.drive_loop;
   if (const auto rate = arguments.drive_rate) {
     if (!(*rate >= lowest_rate && *rate <= highest_rate)) {
-      throw BadInput("--drive-rate", fmt::format("is {} Hz", *rate), fmt::format("must be {} to {:g}", lowest_rate, highest_rate));
+      throw BadInput("--drive-rate", fmt::format("is {} Hz", *rate),
+                     fmt::format("must be {} to {:g}", lowest_rate, highest_rate));
     }
     loop.sampling_period = 1.0 / *rate;
   }

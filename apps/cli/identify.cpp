@@ -72,7 +72,8 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
       if (group == of_group && method != only) throw BadInput(name, fmt::format("is for --method {}", only));
     }
     if (const auto why = why_not(*option, method)) {
-      throw BadInput(name, fmt::format("is not for --method {}, which {}", method, *why), "leave it out, or the method");
+      throw BadInput(name, fmt::format("is not for --method {}, which {}", method, *why),
+                     "leave it out, or the method");
     }
   }
   if (method == "inverse-dynamics") {

@@ -1,8 +1,8 @@
 #include "cli/input_problem.hpp"
 
 #include <array>
-#include <string_view>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cli/subcommand.hpp"

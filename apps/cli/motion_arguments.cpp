@@ -32,17 +32,20 @@ std::vector<double> motion_of_bodies(const std::vector<std::string>& texts, cons
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     const std::string_view number = std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1);
-    const double value =
-        measured_number(option, number, measure, device.parameters().motion);
+    auto value = measured_number(number, measure, device.parameters().motion);
+    if (!value) {
+      value.error().what = fmt::format("'{}': {}", text, value.error().what);
+      throw BadInput(problem_of_value(option, value.error()));
+    }
     if (equals == std::string::npos) {
-      values.assign(values.size(), value);
+      values.assign(values.size(), *value);
       continue;
     }
     const std::string name = text.substr(0, equals);
     std::string names;
     bool found = false;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (device.bodies()[i].name == name) values[i] = value, found = true;
+      if (device.bodies()[i].name == name) values[i] = *value, found = true;
       names += (i == 0 ? "" : ", ") + device.bodies()[i].name;
     }
     if (!found) throw BadInput(option, fmt::format("no body '{}'", name), fmt::format("the device has {}", names));

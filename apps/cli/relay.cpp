@@ -58,7 +58,8 @@ std::optional<Device> delayed_device(const RelayArguments& arguments) {
   auto device = with_added_delay(read_devices(arguments.devices).front(), arguments.delay);
   if (device) return *std::move(device);
   const DeviceProblem& problem = device.error();
-  throw BadInput("--delay", fmt::format("{}{}{}", problem.key, problem.key.empty() ? "" : " ", problem.what), problem.allowed);
+  throw BadInput("--delay", fmt::format("{}{}{}", problem.key, problem.key.empty() ? "" : " ", problem.what),
+                 problem.allowed);
 }
 
 RelayResult simulated(const RelayArguments& arguments, const Device& device) {

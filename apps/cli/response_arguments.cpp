@@ -138,7 +138,8 @@ void add_lines(const std::string& text, std::vector<double>& lines) {
     const auto [end, error] = std::from_chars(last.data(), last.data() + last.size(), count);
     const bool is_count = error == std::errc{} && end == last.data() + last.size() && count >= 2 && count <= 4096;
     if (parts.size() != 3 || !is_count) {
-      throw BadInput("--lines", in_quotes(text), "a frequency, or FIRST:LAST:COUNT with a COUNT of 2 to 4096, such as \"1 Hz:40 Hz:40\"");
+      throw BadInput("--lines", in_quotes(text),
+                     "a frequency, or FIRST:LAST:COUNT with a COUNT of 2 to 4096, such as \"1 Hz:40 Hz:40\"");
     }
   }
   const double first = line_in_hertz(parts[0]);
@@ -166,7 +167,8 @@ void check_table_options(const CLI::App& command) {
        {"--force", "--position", "--velocity", "--acceleration", "--time", "--timer-bits", "--period", "--skip-periods",
         "--aperiodic", "--segment", "--overlap", "--window", "--estimator", "--no-detrend", "--lines", "MORE"}) {
     if (command.count(option) > 0) {
-      throw BadInput(std::string_view(option) == "MORE" ? "more than one file" : option, "is for a recording, not for a table of a response", "leave it out, or --table");
+      throw BadInput(std::string_view(option) == "MORE" ? "more than one file" : option,
+                     "is for a recording, not for a table of a response", "leave it out, or --table");
     }
   }
 }

@@ -71,7 +71,8 @@ void check_duration(const std::optional<double>& duration, const Device& device)
   if (!duration) return;
   const double cycles = *duration / device.loop().sampling_period;
   if (!(cycles >= 1.0 && cycles <= max_simulated_samples)) {
-    throw BadInput("--duration", fmt::format("is {} s", *duration), fmt::format("1 to {:.0e} sampling periods", max_simulated_samples));
+    throw BadInput("--duration", fmt::format("is {} s", *duration),
+                   fmt::format("1 to {:.0e} sampling periods", max_simulated_samples));
   }
 }
 
@@ -79,8 +80,8 @@ void check_duration(const std::optional<double>& duration, const Device& device)
 void check_permission(const RigArguments& arguments, const Trust& trust) {
   const std::string& file = arguments.devices.files.front();
   if (trust.sound() || (!trust.refused() && arguments.accept_doubt)) return;
-  throw WorkFailed(file, report::verdict_text(trust) +
-                   (trust.refused() ? "" : "; --accept-doubt acts on it all the same"));
+  throw WorkFailed(file,
+                   report::verdict_text(trust) + (trust.refused() ? "" : "; --accept-doubt acts on it all the same"));
 }
 
 rig::RigOptions rig_options(const RigArguments& arguments, const Device& device) {
@@ -89,7 +90,8 @@ rig::RigOptions rig_options(const RigArguments& arguments, const Device& device)
   const auto declared = device.parameters().actuator.force_limit;
   if (!options.limits.force) options.limits.force = declared;
   if (declared && options.limits.force && *options.limits.force > *declared) {
-    throw BadInput("--force-limit", fmt::format("is {}", *options.limits.force), fmt::format("at most actuator.force_limit, {}", *declared));
+    throw BadInput("--force-limit", fmt::format("is {}", *options.limits.force),
+                   fmt::format("at most actuator.force_limit, {}", *declared));
   }
   if (const auto problem = find_problem(options.limits)) refuse(*problem, options_of_rig);
   if (arguments.driver == "simulated") return options;
@@ -105,7 +107,8 @@ double amplitude_of(const Rig& rig) {
     throw BadInput("--amplitude", fmt::format("is {}", amplitude), "a force in N or N m above 0");
   }
   if (rig.options.limits.force && amplitude > *rig.options.limits.force) {
-    throw BadInput("--amplitude", fmt::format("is {}", amplitude), fmt::format("at most the force limit, {}", *rig.options.limits.force));
+    throw BadInput("--amplitude", fmt::format("is {}", amplitude),
+                   fmt::format("at most the force limit, {}", *rig.options.limits.force));
   }
   return amplitude;
 }
@@ -284,7 +287,8 @@ Device rig_device(const RigArguments& arguments) {
 void check_wall(const RigArguments& arguments, const Device& device, const Analysis& analysis) {
   const std::string& file = arguments.devices.files.front();
   if (!device.parameters().wall.stiffness) {
-    refuse_input({file, 0, 0, "wall.stiffness", "is missing: there is no wall to render", "set it, or give --stiffness"});
+    refuse_input(
+        {file, 0, 0, "wall.stiffness", "is missing: there is no wall to render", "set it, or give --stiffness"});
   }
   if (!analysis.wall_stable_for || arguments.accept_unstable) return;
   if (const std::string holders = unstable_with(*analysis.wall_stable_for); !holders.empty()) {

@@ -44,7 +44,8 @@ Structure structure_by_name(const StructureArguments& arguments, std::optional<d
 
 Device structure_from_file(const StructureArguments& arguments) {
   if (!arguments.motion.empty()) {
-    throw BadInput("--motion", "is for a named structure", "a device file says itself what its motion is; leave out the option");
+    throw BadInput("--motion", "is for a named structure",
+                   "a device file says itself what its motion is; leave out the option");
   }
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.sampling_period) {

@@ -54,12 +54,15 @@ Surroundings* surroundings() { return of_this_thread; }
 
 void check_samples(const char* option, double samples) {
   if (of_this_thread == nullptr || !(samples > of_this_thread->bounds.samples)) return;
-  throw BadInput(option, fmt::format("makes {:.9g} samples", samples), fmt::format("a request may make at most {:.9g}, the command line more", of_this_thread->bounds.samples));
+  throw BadInput(
+      option, fmt::format("makes {:.9g} samples", samples),
+      fmt::format("a request may make at most {:.9g}, the command line more", of_this_thread->bounds.samples));
 }
 
 void check_threads(const char* option, std::size_t threads) {
   if (of_this_thread == nullptr || threads <= of_this_thread->bounds.threads) return;
-  throw BadInput(option, fmt::format("is {}", threads), fmt::format("a request may have at most {}", of_this_thread->bounds.threads));
+  throw BadInput(option, fmt::format("is {}", threads),
+                 fmt::format("a request may have at most {}", of_this_thread->bounds.threads));
 }
 
 void hand_over_device(const std::string& text) {

@@ -67,11 +67,11 @@ InputProblem problem_of_cli11(const std::string& message) {
   const auto too_few = parted(message, ": At least ");
   if (const auto& wrong = too_many ? too_many : too_few) {
     if (const auto counts = parted(wrong->after, " required but received ")) {
-      return too_many ? problem_of_value(wrong->before, fmt::format("has {} values", counts->after),
-                                         fmt::format("at most {}", counts->before))
-                      : problem_of_value(wrong->before,
-                                         fmt::format("has {} of {} values", counts->after, counts->before),
-                                         "all of them");
+      return too_many
+                 ? problem_of_value(wrong->before, fmt::format("has {} values", counts->after),
+                                    fmt::format("at most {}", counts->before))
+                 : problem_of_value(wrong->before, fmt::format("has {} of {} values", counts->after, counts->before),
+                                    "all of them");
     }
   }
   const auto required = parted(message, " required ");

@@ -61,7 +61,8 @@ void raise_input_error(const InputError& error) {
 }
 
 void raise_input_error(const DeviceProblem& problem) {
-  raise_input_error(server::Problem{problem.key, InputProblem{{"", 0, 0, problem.key, ""}, problem.what, problem.allowed, {}}});
+  raise_input_error(
+      server::Problem{problem.key, InputProblem{{"", 0, 0, problem.key, ""}, problem.what, problem.allowed, {}}});
 }
 
 void raise_work_failed(const std::string& what) { raise("WorkFailed", py::make_tuple(what)); }

@@ -50,10 +50,8 @@ void DeviceReading::refuse(const toml::source_region& place, const std::string& 
 }
 
 InputError DeviceReading::error() const {
-  std::vector<InputProblem> sorted = problems_;
-  std::ranges::stable_sort(sorted, {}, [](const InputProblem& each) { return each.place.line; });
-  InputError first(sorted.front());
-  first.others.assign(sorted.begin() + 1, sorted.end());
+  InputError first(problems_.front());
+  first.others.assign(problems_.begin() + 1, problems_.end());
   return first;
 }
 

@@ -38,7 +38,7 @@ class DeviceReading {
 
   [[nodiscard]] bool passed() const noexcept { return problems_.empty(); }
   [[nodiscard]] std::size_t count() const noexcept { return problems_.size(); }
-  /// All that is refused, in the order of the file's lines. Requires that something is.
+  /// All that is refused, in the order of reading. Requires that something is.
   [[nodiscard]] InputError error() const;
 
  private:

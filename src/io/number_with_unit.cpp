@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "io/number_cell.hpp"
 #include "io/toml_text.hpp"
@@ -126,7 +128,7 @@ std::optional<std::string> inverse_of(double number, const std::string& unit, Me
 /// A unit of the measure whose factors stand without a space between them, with it: "g cm2" of "gcm2". Nothing where two
 /// readings differ.
 std::optional<std::string> separated_unit(const std::string& unit, const MeasuredUnit& wanted) {
-  constexpr std::size_t longest = 24;
+  constexpr std::size_t longest = 16;
   if (unit.size() > longest) return std::nullopt;
   std::optional<std::string> found;
   std::optional<double> factor;
@@ -137,9 +139,16 @@ std::optional<std::string> separated_unit(const std::string& unit, const Measure
     is_one = is_one && own == factor.value_or(*own);
     if (!found) found = candidate, factor = own;
   };
-  for (std::size_t i = 1; i < unit.size(); ++i) try_unit(std::string(unit).insert(i, " "));
-  for (std::size_t i = 1; i < unit.size() && !found; ++i) {
-    for (std::size_t k = i + 1; k < unit.size(); ++k) try_unit(std::string(unit).insert(k, " ").insert(i, " "));
+  std::vector<std::size_t> gaps;  // between two letters
+  const auto is_letter_at = [&](std::size_t at) { return std::isalpha(static_cast<unsigned char>(unit[at])) != 0; };
+  for (std::size_t i = 1; i < unit.size(); ++i) {
+    if (is_letter_at(i - 1) && is_letter_at(i)) gaps.push_back(i);
+  }
+  for (const std::size_t gap : gaps) try_unit(std::string(unit).insert(gap, " "));
+  for (std::size_t i = 0; i < gaps.size() && !found; ++i) {
+    for (std::size_t k = i + 1; k < gaps.size(); ++k) {
+      try_unit(std::string(unit).insert(gaps[k], " ").insert(gaps[i], " "));
+    }
   }
   return is_one ? found : std::nullopt;
 }

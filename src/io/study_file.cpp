@@ -139,8 +139,7 @@ class StudyReader {
     const auto number = [&](std::string_view of) { return reader.number(of, measure); };
     const auto required = [&](std::string_view of, std::optional<double> otherwise) {
       const auto value = number(of);
-      if (!value && !otherwise && !reader.has(of))
-        reader.refuse_missing(of, "must be given: the device has none");
+      if (!value && !otherwise && !reader.has(of)) reader.refuse_missing(of, "must be given: the device has none");
       return value.value_or(otherwise.value_or(1.0));
     };
     Distribution result;

@@ -118,16 +118,18 @@ std::string meant_by(std::string_view key, std::string_view value) {
 /// The two slips that make a line no TOML: a text without quotes, and a comma for the decimal mark.
 std::optional<InputError> problem_of_line(std::string_view text, std::string_view source, std::size_t number) {
   std::size_t begin = 0;
-  for (std::size_t i = 1; i < number && begin < text.size(); ++i) begin = std::min(text.find('\n', begin), text.size()) + 1;
+  for (std::size_t i = 1; i < number && begin < text.size(); ++i)
+    begin = std::min(text.find('\n', begin), text.size()) + 1;
   if (begin >= text.size()) return std::nullopt;
   const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
   const auto [key, value] = assignment_of(line);
   const bool is_plain_key = !key.empty() && std::ranges::all_of(key, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
-  const bool has_comma = value.find(',') != std::string_view::npos &&
-                         value.find_first_not_of("+-.,0123456789eE") == std::string_view::npos;
-  if (!is_plain_key || !(has_comma || is_bare_text(value)) || value.find_first_of("[]{}'") != std::string_view::npos ||
+  const bool is_number = value.find_first_not_of("+-.,0123456789eE_") == std::string_view::npos;
+  const bool has_comma = is_number && value.find(',') != std::string_view::npos;
+  if (!is_plain_key || !(has_comma || (is_bare_text(value) && !is_number)) ||
+      value.find_first_of("[]{}'") != std::string_view::npos ||
       toml::parse(fmt::format("value = {}", value)).succeeded()) {
     return std::nullopt;
   }
@@ -164,11 +166,11 @@ tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::str
     const std::size_t line = std::max<std::size_t>(1, error.source().begin.line);
     if (auto problem = problem_of_line(text, source, line)) return tl::unexpected(*std::move(problem));
     const bool is_out_of_range = is_number_out_of_range(error.description());
-    return tl::unexpected(InputError{
-        std::string(source), line, std::max<std::size_t>(1, error.source().begin.column), "",
-        is_out_of_range ? std::string(number_out_of_range)
-                        : fmt::format("is not TOML: {}", without_macro(error.description())),
-        is_out_of_range ? std::string(number_range) : fmt::format("must be the TOML text of {}", of)});
+    return tl::unexpected(
+        InputError{std::string(source), line, std::max<std::size_t>(1, error.source().begin.column), "",
+                   is_out_of_range ? std::string(number_out_of_range)
+                                   : fmt::format("is not TOML: {}", without_macro(error.description())),
+                   is_out_of_range ? std::string(number_range) : fmt::format("must be the TOML text of {}", of)});
   }
   return std::move(parsed).table();
 }

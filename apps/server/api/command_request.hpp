@@ -22,7 +22,8 @@ namespace zwidth::server {
 /// asked calls it; lines are those of a text that the request holds.
 struct Problem : InputProblem {
   Problem(std::string place_in_request, std::string what_is_wrong, std::string what_is_allowed)
-      : InputProblem{{}, std::move(what_is_wrong), std::move(what_is_allowed), {}}, where(std::move(place_in_request)) {}
+      : InputProblem{{}, std::move(what_is_wrong), std::move(what_is_allowed), {}},
+        where(std::move(place_in_request)) {}
   Problem(std::string place_in_request, InputProblem problem)
       : InputProblem(std::move(problem)), where(std::move(place_in_request)) {}
 

@@ -24,7 +24,7 @@ struct InputError : InputProblem {
                      std::nullopt} {}
   /// The same, as it is.
   explicit InputError(InputProblem problem) : InputProblem(std::move(problem)) {}
-  /// All problems of one file, in the order of its lines.
+  /// All problems of one file, in the order in which it is read.
   [[nodiscard]] std::vector<InputProblem> problems() const;
 
   std::vector<InputProblem> others;  ///< behind the first

@@ -27,8 +27,8 @@ enum class Measure {
 
 /// Why a text is not a number with a unit of what is measured.
 struct UnitProblem {
-  std::string what;     ///< "\"kg\" is no unit of stiffness"
-  std::string allowed;  ///< "must be in N/m, such as \"5 kN/m\", or a number in N/m"
+  std::string what;                                      ///< "\"kg\" is no unit of stiffness"
+  std::string allowed;                                   ///< "must be in N/m, such as \"5 kN/m\", or a number in N/m"
   std::optional<std::string> suggestion = std::nullopt;  ///< what was probably meant: "22 g cm2" of "22 gcm2"
 };
 
