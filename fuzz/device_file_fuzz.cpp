@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!device) {
     const std::string message = device.error().str();
     require(!device.error().what.empty() && message.find('\n') == std::string::npos && message.size() < 4096);
-    require(device.error().source == "an override" || device.error().line > 0);
+    require(device.error().place.file == "an override" || device.error().place.line > 0);
     return 0;
   }
   const std::string text = zwidth::write_device(device->parameters());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "zwidth/error.hpp"
 #include "zwidth/option_problem.hpp"
@@ -11,7 +12,9 @@ namespace zwidth::internal {
 inline void require_valid(const std::optional<OptionProblem>& problem) {
   if (!problem) return;
   const std::string member = problem->member + (problem->member.empty() ? "" : " ");
-  throw Error(ErrorCode::invalid_argument, member + problem->what + "; " + problem->allowed);
+  InputProblem told{{}, problem->what, problem->allowed, {}};
+  told.place.option = problem->member;
+  throw Error(ErrorCode::invalid_argument, member + problem->what + "; " + problem->allowed, {std::move(told)});
 }
 
 }  // namespace zwidth::internal

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/input_problem.hpp"
 #include "cli/number_text.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/option_units.hpp"
@@ -46,15 +47,18 @@ struct Named {
 
 ValueRange range_in(const std::string& key, const std::string& text, Measure measure, Motion motion) {
   const std::vector<std::string> ends = parts_of(text, ':');
-  const std::string option = "--users: " + key;
   const auto least_given = measured_number(ends.front(), measure, motion);
   const auto greatest_given = measured_number(ends.back(), measure, motion);
   if (ends.size() > 2 || !least_given || !greatest_given) {
     const UnitProblem* problem = !least_given      ? &least_given.error()
                                  : !greatest_given ? &greatest_given.error()
                                                    : nullptr;
-    throw BadInput(fmt::format("{}: '{}' must be LEAST:GREATEST or one number{}", option, text,
-                               problem ? ": " + problem->what + "; " + problem->allowed : ""));
+    InputProblem refused = problem_of_value(
+        "--users",
+        fmt::format("'{}' must be LEAST:GREATEST or one number{}", text, problem ? ": " + problem->what : ""),
+        problem ? problem->allowed : "");
+    refused.place.key = key;
+    throw BadInput(std::move(refused));
   }
   return {*least_given, *greatest_given};
 }
@@ -73,18 +77,17 @@ UserRanges user_ranges(const std::string& text, Motion motion) {
   for (const std::string& part : parts_of(text, ',')) {
     const std::size_t equals = part.find('=');
     if (equals == std::string::npos) {
-      throw BadInput(fmt::format("--users: '{}' must be KEY=LEAST:GREATEST; {}", part, example_of_users));
+      throw BadInput("--users", fmt::format("'{}' must be KEY=LEAST:GREATEST", part), std::string(example_of_users));
     }
     const std::string key = part.substr(0, equals);
     const Named named = place_of(ranges, key);
     if (named.range == nullptr) {
       const std::string nearest =
           nearest_word(key, std::vector<std::string>{"mass", "inertia", "damping", "stiffness"});
-      throw BadInput(
-          fmt::format("--users: there is no key '{}'; {}", key,
-                      nearest.empty() ? "one of mass, damping, stiffness" : "did you mean " + nearest + "?"));
+      throw BadInput("--users", fmt::format("there is no key '{}'", key),
+                     nearest.empty() ? "one of mass, damping, stiffness" : "did you mean " + nearest + "?");
     }
-    if (*named.range) throw BadInput(fmt::format("--users: {} is given twice", key));
+    if (*named.range) throw BadInput("--users", fmt::format("{} is given twice", key));
     *named.range = range_in(key, part.substr(equals + 1), named.measure, motion);
   }
   return ranges;
@@ -94,16 +97,17 @@ UserRanges user_ranges(const std::string& text, Motion motion) {
 constexpr std::pair<std::string_view, std::string_view> options_of_analysis[] = {
     {"worst_user", "--worst-user"},
     {"family", "--users"},
-    {"family.mass", "--users: mass"},
-    {"family.damping", "--users: damping"},
-    {"family.stiffness", "--users: stiffness"},
 };
 
 /// What is asked of one device. Throws BadInput where it cannot be answered.
 AnalysisOptions options_for(const AnalyzeOptions& options, const std::string& file, const Device& device) {
   AnalysisOptions asked{.worst_user = options.worst_user};
   if (!options.users.empty()) asked.family = user_ranges(options.users, device.parameters().motion);
-  if (const auto problem = find_problem(asked, device)) refuse(*problem, options_of_analysis, file);
+  if (const auto problem = find_problem(asked, device)) {
+    constexpr std::string_view of_family = "family.";
+    if (!problem->member.starts_with(of_family)) refuse(*problem, options_of_analysis, file);
+    refuse_input({file, 0, 0, problem->member.substr(of_family.size()), problem->what, problem->allowed}, "--users");
+  }
   return asked;
 }
 
@@ -141,20 +145,25 @@ std::string holders_of_unstable(const Analysis& analysis) {
   return holders + (holders.empty() ? "" : " and with ") + std::string(words_of(Holder::user));
 }
 
+[[noreturn]] void refuse_without_wall(const std::string& file) {
+  refuse_input({file, 0, 0, "wall.stiffness", "is missing: there is no wall to judge", "set it"}, "--require-stable");
+}
+
 /// For scripts: every wall given stands, and its verdict with it.
 void require_stable(const AnalyzeOptions& options, const std::vector<report::AnalysedDevice>& analysed) {
   for (std::size_t i = 0; i < analysed.size(); ++i) {
     const Analysis& analysis = analysed[i].analysis;
-    const std::string place = "--require-stable: " + options.devices.files[i] + ": ";
+    const std::string& file = options.devices.files[i];
+    const std::string place = "--require-stable: " + file;
     switch (verdict_on_wall(analysis)) {
       case WallVerdict::stable:
         break;
       case WallVerdict::unstable:
-        throw WorkFailed(place + "the wall is unstable with " + holders_of_unstable(analysis));
+        throw WorkFailed(place + ": the wall is unstable with " + holders_of_unstable(analysis));
       case WallVerdict::unsure:
-        throw WorkFailed(place + "the answer is " + report::verdict_text(analysis.trust));
+        throw WorkFailed(place + ": the answer is " + report::verdict_text(analysis.trust));
       case WallVerdict::no_wall:
-        throw BadInput(place + "wall.stiffness: is missing: there is no wall to judge; set it");
+        refuse_without_wall(file);
     }
   }
 }
@@ -162,8 +171,7 @@ void require_stable(const AnalyzeOptions& options, const std::vector<report::Ana
 void check_walls(const AnalyzeOptions& options, const std::vector<report::AnalysedDevice>& analysed) {
   for (std::size_t i = 0; i < analysed.size(); ++i) {
     if (analysed[i].device.parameters().wall.stiffness) continue;
-    throw BadInput("--require-stable: " + options.devices.files[i] +
-                   ": wall.stiffness: is missing: there is no wall to judge; set it");
+    refuse_without_wall(options.devices.files[i]);
   }
 }
 

@@ -51,17 +51,17 @@ std::string crossovers_text(const std::vector<AnalysedDevice>& devices) {
 void check_devices(const std::vector<AnalysedDevice>& devices, bool in_one_figure) {
   if (in_one_figure) {
     if (devices.size() > report::most_curves) {
-      throw BadInput(
-          fmt::format("{} devices in one figure; at most {} can be told apart", devices.size(), report::most_curves));
+      throw BadInput("", fmt::format("{} devices in one figure", devices.size()),
+                     fmt::format("at most {} can be told apart", report::most_curves));
     }
     const Motion motion = devices.front().device.parameters().motion;
     for (const AnalysedDevice& each : devices) {
       if (each.device.parameters().motion != motion) {
-        throw BadInput("linear and rotary devices in one figure; draw each kind by itself");
+        throw BadInput("", "linear and rotary devices in one figure", "draw each kind by itself");
       }
     }
   } else if (devices.size() > 1) {
-    throw BadInput("--output: a csv file holds one device; give one FILE, or use --json");
+    throw BadInput("--output", "a csv file holds one device", "give one FILE, or use --json");
   }
 }
 
@@ -116,7 +116,7 @@ void add_bode(CLI::App& app) {
   command->callback([arguments, command] {
     for (const char* option : {"--from", "--to", "--points"}) {
       if (command->count(option) > 0 && arguments->output.figure.empty() && !arguments->output.json) {
-        throw BadInput(fmt::format("{}: is for a figure or its numbers; add --output FILE or --json", option));
+        throw BadInput(option, "is for a figure or its numbers", "add --output FILE or --json");
       }
     }
     run_bode(*arguments);

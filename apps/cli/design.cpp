@@ -53,10 +53,8 @@ constexpr std::pair<std::string_view, std::string_view> options_of_design[] = {{
                                                                                {"times_now", "--target"}};
 
 [[noreturn]] void refuse_sweep(const std::string& argument, const std::string& why) {
-  throw BadInput(
-      fmt::format("--sweep: {}: {}; write KEY=FIRST:LAST:COUNT or KEY=FIRST:LAST:COUNT:log, for instance "
-                  "loop.delay=0:8e-3:81",
-                  in_quotes(argument), why));
+  throw BadInput("--sweep", fmt::format("{}: {}", in_quotes(argument), why),
+                 "write KEY=FIRST:LAST:COUNT or KEY=FIRST:LAST:COUNT:log, for instance loop.delay=0:8e-3:81");
 }
 
 double end_of(const std::string& argument, const std::string& text, std::string_view which, Measure measure,
@@ -94,7 +92,7 @@ SweepAxis sweep_axis(const std::string& argument, Motion motion) {
 
 void run_sensitivities(const DesignArguments& arguments) {
   if (!arguments.output.figure.empty())
-    throw BadInput("--output: is for a sweep or a notch; add --sweep KEY=FIRST:LAST:COUNT or --notch");
+    throw BadInput("--output", "is for a sweep or a notch", "add --sweep KEY=FIRST:LAST:COUNT or --notch");
   const std::vector<Device> devices = read_devices(arguments.devices);
   std::string text;
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -112,7 +110,7 @@ void run_sensitivities(const DesignArguments& arguments) {
 }
 
 Device only_device(const DesignArguments& arguments, const std::string& option) {
-  if (arguments.devices.files.size() != 1) throw BadInput(option + ": takes one device file");
+  if (arguments.devices.files.size() != 1) throw BadInput(option, "takes one device file");
   return std::move(read_devices(arguments.devices).front());
 }
 
@@ -123,7 +121,7 @@ void run_sweep(const DesignArguments& arguments) {
   std::vector<SweepAxis> axes;
   for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each, device.parameters().motion));
   if (const auto problem = find_sweep_problem(device, axes)) {
-    throw BadInput(fmt::format("--sweep: {}: {}; {}", problem->key, problem->what, problem->allowed));
+    throw BadInput("--sweep", fmt::format("{}: {}", problem->key, problem->what), problem->allowed);
   }
   // The figure of one parameter shows the any-user limit beside it.
   const bool is_curve = outputs.figure("--output").has_value() && axes.size() == 1;
@@ -145,16 +143,18 @@ void run_sweep(const DesignArguments& arguments) {
 }
 
 void run_comparison(const DesignArguments& arguments) {
-  if (!arguments.output.figure.empty()) throw BadInput("--output: is for a sweep, not for --compare");
+  if (!arguments.output.figure.empty()) throw BadInput("--output", "is for a sweep, not for --compare");
   const Device device = only_device(arguments, "--compare");
   const auto variants = device_variants(device, arguments.compare);
   if (!variants) {
-    std::string problems;
-    for (InputError error : variants.error()) {
-      error.source = "--compare";
-      problems += (problems.empty() ? "" : "\n") + error.str();
+    std::vector<InputProblem> problems;
+    for (const InputError& error : variants.error()) {
+      for (InputProblem& each : error.problems()) {
+        each.place = {"", 0, 0, each.place.key, "--compare"};
+        problems.push_back(std::move(each));
+      }
     }
-    throw BadInput(problems);
+    throw BadInput(std::move(problems));
   }
   std::optional<Operator> user;
   if (!arguments.user.empty()) {
@@ -196,10 +196,8 @@ void set_target(const std::string& text, Motion motion, DesignTargetOptions& opt
   }
   const bool is_multiple = text.ends_with('x') || text.ends_with('%');
   if (is_multiple && !options.times_now) {
-    throw BadInput(fmt::format(
-        "--target: {} is no multiple of today's limit; write 2x or \"200 %\", or the stiffness to reach: 12000, \"12 "
-        "kN/m\"",
-        in_quotes(text)));
+    throw BadInput("--target", fmt::format("{} is no multiple of today's limit", in_quotes(text)),
+                   "write 2x or \"200 %\", or the stiffness to reach: 12000, \"12 kN/m\"");
   }
 }
 
@@ -212,12 +210,12 @@ void set_goal(const DesignArguments& arguments, DesignTargetOptions& options) {
   } else if (goal == "any-user") {
     options.goal = StiffnessGoal::any_user_limit;
   } else if (goal != "stiffness" && goal != "critical-stiffness") {
-    throw BadInput(fmt::format("--goal: {} is not for a target; stiffness, any-user or damper is", goal));
+    throw BadInput("--goal", fmt::format("{} is not for a target", goal), "stiffness, any-user or damper is");
   }
 }
 
 void run_target(const DesignArguments& arguments) {
-  if (!arguments.output.figure.empty()) throw BadInput("--output: is for a sweep, not for --target");
+  if (!arguments.output.figure.empty()) throw BadInput("--output", "is for a sweep, not for --target");
   const Device device = only_device(arguments, "--target");
   DesignTargetOptions options;
   set_goal(arguments, options);
@@ -236,20 +234,20 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
   if (arguments.recommend.wanted) {
     return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output.json);
   }
-  if (arguments.recommend.ripple) throw BadInput("--ripple: is for a recommendation; add --recommend");
+  if (arguments.recommend.ripple) throw BadInput("--ripple", "is for a recommendation", "add --recommend");
   if (arguments.notch.wanted) {
     if (!arguments.sweeps.empty() || !arguments.compare.empty()) {
-      throw BadInput("--notch: excludes --sweep and --compare");
+      throw BadInput("--notch", "excludes --sweep and --compare");
     }
-    if (arguments.devices.files.size() != 1) throw BadInput("--notch: takes one device file");
-    if (arguments.target) throw BadInput("--notch: excludes --target");
+    if (arguments.devices.files.size() != 1) throw BadInput("--notch", "takes one device file");
+    if (arguments.target) throw BadInput("--notch", "excludes --target");
     return run_notch(arguments.devices, arguments.notch, arguments.output);
   }
   refuse_notch_options(command, arguments.target.has_value());
   if (!arguments.sweeps.empty()) return run_sweep(arguments);
   if (!arguments.compare.empty()) return run_comparison(arguments);
   if (arguments.target) return run_target(arguments);
-  if (arguments.any_user) throw BadInput("--any-user: is for a sweep or a target; add --sweep or --target");
+  if (arguments.any_user) throw BadInput("--any-user", "is for a sweep or a target", "add --sweep or --target");
   run_sensitivities(arguments);
 }
 

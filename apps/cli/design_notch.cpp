@@ -30,7 +30,8 @@ NotchOptions notch_options(const NotchArguments& arguments) {
   NotchOptions options;
   if (arguments.goal == "any-user") options.goal = StiffnessGoal::any_user_limit;
   if (arguments.goal && *arguments.goal != "any-user" && *arguments.goal != "critical-stiffness") {
-    throw BadInput(fmt::format("--goal: {} is not for a notch; critical-stiffness or any-user is", *arguments.goal));
+    throw BadInput("--goal", fmt::format("{} is not for a notch", *arguments.goal),
+                   "critical-stiffness or any-user is");
   }
   if (arguments.drift_percent) options.drift = *arguments.drift_percent / 100.0;
   if (arguments.gain_margin_db) options.gain_margin = ratio_of_decibels(*arguments.gain_margin_db);
@@ -95,7 +96,7 @@ void refuse_notch_options(const CLI::App& command, bool goal_is_used) {
   for (const std::string_view option : options_of_notch) {
     if (goal_is_used && option == "--goal") continue;
     if (command.count(std::string(option)) > 0)
-      throw BadInput(fmt::format("{}: is for a notch or a recommendation; add --notch or --recommend", option));
+      throw BadInput(option, "is for a notch or a recommendation", "add --notch or --recommend");
   }
 }
 

@@ -31,8 +31,8 @@ RecommendationOptions recommendation_options(const RecommendArguments& arguments
   if (shared.goal) {
     const auto goal = goals.find(*shared.goal);
     if (goal == goals.end()) {
-      throw BadInput(fmt::format(
-          "--goal: {} is not for a recommendation; stiffness, width, critical-damping or damper is", *shared.goal));
+      throw BadInput("--goal", fmt::format("{} is not for a recommendation", *shared.goal),
+                     "stiffness, width, critical-damping or damper is");
     }
     options.goal = goal->second;
   }
@@ -71,12 +71,12 @@ void add_recommend_options(CLI::App& command, RecommendArguments& arguments) {
 
 void run_recommend(const CLI::App& command, const DeviceArguments& devices, const RecommendArguments& arguments,
                    const NotchArguments& shared, bool json) {
-  if (devices.files.size() != 1) throw BadInput("--recommend: takes one device file");
+  if (devices.files.size() != 1) throw BadInput("--recommend", "takes one device file");
   for (const char* option : {"--notch", "--sweep", "--compare", "--target", "--output", "--any-user"}) {
-    if (command.count(option) > 0) throw BadInput(fmt::format("--recommend: excludes {}", option));
+    if (command.count(option) > 0) throw BadInput("--recommend", fmt::format("excludes {}", option));
   }
   for (const char* option : {"--far-from-modes", "--lower-any-user"}) {
-    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a notch; add --notch", option));
+    if (command.count(option) > 0) throw BadInput(option, "is for a notch", "add --notch");
   }
   const RecommendationOptions options = recommendation_options(arguments, shared);
   Outputs outputs;

@@ -1,6 +1,7 @@
 #include "cli/device_arguments.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "cli/input_problem.hpp"
@@ -23,18 +24,18 @@ void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCou
 
 std::vector<Device> read_devices(const DeviceArguments& arguments) {
   if (std::count(arguments.files.begin(), arguments.files.end(), "-") > 1) {
-    throw BadInput("standard input (-) is given more than once; it can be read once");
+    throw BadInput("", "standard input (-) is given more than once", "it can be read once");
   }
   std::vector<Device> devices;
-  std::string problems;
+  std::vector<InputProblem> problems;
   for (const std::string& file : arguments.files) {
     if (auto device = read_named_device(file, arguments.overrides)) {
       devices.push_back(*std::move(device));
     } else {
-      problems += (problems.empty() ? "" : "\n") + input_problem(device.error());
+      std::ranges::move(problems_in(device.error()), std::back_inserter(problems));
     }
   }
-  if (!problems.empty()) throw BadInput(problems);
+  if (!problems.empty()) throw BadInput(std::move(problems));
   for (const Device& device : devices) check_option_units(device.parameters().motion);
   return devices;
 }

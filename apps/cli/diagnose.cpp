@@ -33,14 +33,15 @@ struct DiagnoseArguments {
 };
 
 Recording read_position(const RecordingArguments& arguments) {
-  if (arguments.position.name.empty()) throw BadInput("--position: missing; name the column of the sensed position");
+  if (arguments.position.name.empty())
+    throw BadInput("--position", "missing", "name the column of the sensed position");
   RecordingOptions reading = recording_options(arguments);
   reading.columns = {arguments.position};
   constexpr std::pair<std::string_view, std::string_view> scale[] = {{"columns.0.scale", "--position-scale"}};
   if (const auto problem = find_problem(reading)) refuse(*problem, scale);
   ProgressLine line("reading " + arguments.file);
   auto recording = read_named_recording(arguments.file, reading, line.progress());
-  if (!recording) throw BadInput(input_problem(recording.error()));
+  if (!recording) refuse_input(recording.error());
   return *std::move(recording);
 }
 
@@ -61,18 +62,18 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const bool recorded = !arguments.recording.file.empty();
   if (recorded && arguments.recording.list) return write_contents(arguments.recording, arguments.output.json);
   if (recorded && arguments.oscillates_hz) {
-    throw BadInput("--oscillates-hz: excludes --recording, which shows the frequency; give one of them");
+    throw BadInput("--oscillates-hz", "excludes --recording, which shows the frequency", "give one of them");
   }
   if (!recorded && !arguments.oscillates_hz) {
-    throw BadInput("--oscillates-hz: missing; give the frequency, or a recording that shows it with --recording");
+    throw BadInput("--oscillates-hz", "missing", "give the frequency, or a recording that shows it with --recording");
   }
   for (const CLI::Option* option : command.parse_order()) {
     if (!recorded && option->get_group() == recording_group) {
-      throw BadInput(fmt::format("{}: is about a recording; add --recording FILE", option->get_name()));
+      throw BadInput(option->get_name(), "is about a recording", "add --recording FILE");
     }
   }
   for (const char* option : {"--force", "--velocity", "--acceleration"}) {
-    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is not used here; --position alone is", option));
+    if (command.count(option) > 0) throw BadInput(option, "is not used here", "--position alone is");
   }
   const std::string& file = arguments.devices.files.front();
   const Device device = read_devices(arguments.devices).front();

@@ -62,7 +62,7 @@ void check_limits(const ExciteArguments& arguments, const Excitation& excitation
 
 void check(const ExciteArguments& arguments) {
   if (arguments.output.json && arguments.samples == "-") {
-    throw BadInput("--json: standard output is taken by --output -; name a file for the samples");
+    throw BadInput("--json", "standard output is taken by --output -", "name a file for the samples");
   }
 }
 
@@ -98,7 +98,7 @@ void run_excite(const ExciteArguments& arguments) {
 void check_kind(const CLI::App& command, const ExciteArguments& arguments) {
   const auto refuse = [&](const char* option, bool applies, std::string_view whose) {
     if (command.count(option) > 0 && !applies) {
-      throw BadInput(fmt::format("{}: is for {}; --kind is {}", option, whose, arguments.kind));
+      throw BadInput(option, fmt::format("is for {}", whose), fmt::format("--kind is {}", arguments.kind));
     }
   };
   refuse("--periods", arguments.kind == "multisine", "a multisine");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/input_problem.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
@@ -55,20 +56,20 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
     for (const std::string& format : formats) {
       if (arguments.format == format) return;
     }
-    throw BadInput(fmt::format("{}: is for --format {}", option, fmt::join(formats, " and ")));
+    throw BadInput(option, fmt::format("is for --format {}", fmt::join(formats, " and ")));
   };
   if (arguments.format.empty() != arguments.units.has_value()) {
-    throw BadInput(arguments.units ? "--units: is given beside --format; give one of them"
-                                   : "--format: is missing; must be a value, or give --units");
+    if (arguments.units) throw BadInput("--units", "is given beside --format", "give one of them");
+    throw BadInput("--format", "is missing", "must be a value, or give --units");
   }
   only_for("--contact", {"c"});
   for (const char* option : {"--drive-rate", "--drive-delay", "--estimator-bandwidth"}) {
-    if (!arguments.units && command.count(option) > 0) throw BadInput(fmt::format("{}: is for --units", option));
+    if (!arguments.units && command.count(option) > 0) throw BadInput(option, "is for --units");
   }
   if (arguments.units) {
     if (command.count("--safety-factor") == 0) return;
-    throw BadInput(
-        "--safety-factor: the limit on the drive is not known well enough to take a share of; give --stiffness");
+    throw BadInput("--safety-factor", "the limit on the drive is not known well enough to take a share of",
+                   "give --stiffness");
   }
   only_for("--stiffness", {"c"});
   only_for("--safety-factor", {"c", "chai3d"});
@@ -86,12 +87,12 @@ constexpr std::pair<std::string_view, std::string_view> options_of_drive[] = {
 void check_share(const ExportArguments& arguments, const SafeWall& wall) {
   const std::string& file = arguments.devices.files.front();
   if (wall.status == SafeWall::Status::chosen) return;
-  if (wall.status == SafeWall::Status::refused) throw WorkFailed(file + ": " + report::verdict_text(wall.trust));
+  if (wall.status == SafeWall::Status::refused) throw WorkFailed(file, report::verdict_text(wall.trust));
   const std::string why = fmt::format(
       "{}: there is no limit to take a share of",
       wall.status == SafeWall::Status::unbounded ? "every wall is stable" : "no wall is stable from K = 0 on");
-  if (arguments.format == "chai3d") throw WorkFailed(file + ": there is no ceiling to declare: " + why);
-  throw BadInput(file + ": --safety-factor: " + why + "; give --stiffness");
+  if (arguments.format == "chai3d") throw WorkFailed(file, "there is no ceiling to declare: " + why);
+  throw BadInput("--safety-factor", why, "give --stiffness");
 }
 
 /// Says how K was chosen.
@@ -110,15 +111,15 @@ WallToRun released_wall(const ExportArguments& arguments) {
   const WallToRunOptions options{arguments.stiffness, arguments.safety_factor, arguments.accept_doubt};
   if (const auto problem = find_problem(options, device)) {
     if (!problem->member.empty()) refuse(*problem, options_of_wall);
-    throw BadInput(
-        fmt::format("{}: {}; {}, or give --stiffness or --safety-factor", file, problem->what, problem->allowed));
+    refuse_input(
+        {file, 0, 0, "", problem->what, fmt::format("{}, or give --stiffness or --safety-factor", problem->allowed)});
   }
   WallToRun wall = worked(arguments.devices.files.front(), [&] { return wall_to_run(device, options); });
   if (wall.share) check_share(arguments, *wall.share);
   if (!wall.released) {
     const Trust& trust = wall.analysis.trust;
-    throw WorkFailed(file + ": " + report::verdict_text(trust) +
-                     (trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
+    throw WorkFailed(
+        file, report::verdict_text(trust) + (trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
   }
   return wall;
 }
@@ -144,19 +145,20 @@ std::string exported_for_drive(const ExportArguments& arguments) {
   const std::string& file = arguments.devices.files.front();
   const WallToRun wall = released_wall(arguments);
   if (const auto problem = find_problem(*arguments.units, wall.device)) {
-    throw BadInput(fmt::format("{}: {}: {}; {}", file, problem->member, problem->what, problem->allowed));
+    refuse_input({file, 0, 0, problem->member, problem->what, problem->allowed});
   }
   DriveLoopOptions loop = arguments.drive_loop;
   if (const auto rate = arguments.drive_rate) {
     if (!(*rate >= lowest_rate && *rate <= highest_rate)) {
-      throw BadInput(fmt::format("--drive-rate: is {} Hz; must be {} to {:g}", *rate, lowest_rate, highest_rate));
+      throw BadInput("--drive-rate", fmt::format("is {} Hz", *rate),
+                     fmt::format("must be {} to {:g}", lowest_rate, highest_rate));
     }
     loop.sampling_period = 1.0 / *rate;
   }
   if (const auto problem = find_problem(loop, *arguments.units, wall.device)) refuse(*problem, options_of_drive);
   const DriveGains gains = worked(file, [&] { return drive_gains(wall.device, *arguments.units, loop); });
   const Trust& trust = gains.on_drive.trust;
-  if (trust.refused()) throw WorkFailed(fmt::format("{}: closed on the drive: {}", file, report::verdict_text(trust)));
+  if (trust.refused()) throw WorkFailed(file, "closed on the drive: " + report::verdict_text(trust));
   if (const std::string holders = unstable_with(*gains.on_drive.wall_stable_for); !holders.empty()) {
     write_standard_error(
         fmt::format("zwidth: {}: closed on the drive, the wall is UNSTABLE by linear analysis, {}\n", file, holders));

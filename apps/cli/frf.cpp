@@ -45,7 +45,7 @@ void run_frf(const FrfArguments& arguments) {
   if (recording.list) return write_contents(recording, arguments.output.json);
   Outputs outputs(arguments.output);
   if (arguments.points && !arguments.output.json)
-    throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
+    throw BadInput("--points", "is for JSON", "add --json, or use --csv FILE");
   outputs.keep(recording.file, "recording");
   for (const std::string& file : recording.more) outputs.keep(file, "recording");
 

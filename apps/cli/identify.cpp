@@ -69,17 +69,17 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
     const std::string group = option->get_group();
     for (const auto& [only, of_group] :
          {std::pair{"time-domain", in_time_group}, std::pair{"inverse-dynamics", inverse_dynamics_group}}) {
-      if (group == of_group && method != only) throw BadInput(fmt::format("{}: is for --method {}", name, only));
+      if (group == of_group && method != only) throw BadInput(name, fmt::format("is for --method {}", only));
     }
     if (const auto why = why_not(*option, method)) {
-      throw BadInput(
-          fmt::format("{}: is not for --method {}, which {}; leave it out, or the method", name, method, *why));
+      throw BadInput(name, fmt::format("is not for --method {}, which {}", method, *why),
+                     "leave it out, or the method");
     }
   }
   if (method == "inverse-dynamics") {
-    if (command.count("MORE") > 0) throw BadInput("more than one recording: is not for --method inverse-dynamics");
+    if (command.count("MORE") > 0) throw BadInput("", "more than one recording: is not for --method inverse-dynamics");
   } else if (arguments.structure.structure.empty() && !arguments.response.recording.list) {
-    throw BadInput("--structure: missing; a device file, or rigid, two-body or three-body");
+    throw BadInput("--structure", "missing", "a device file, or rigid, two-body or three-body");
   }
 }
 
@@ -91,10 +91,10 @@ void check(const IdentifyArguments& arguments, Outputs& outputs) {
   for (const std::string& file : arguments.response.recording.more) outputs.keep(file, "recording");
   outputs.keep(arguments.structure.structure, "structure");
   if (arguments.output_device == "-" && arguments.output.json) {
-    throw BadInput("--output-device: - is standard output, which --json takes; name a file");
+    throw BadInput("--output-device", "- is standard output, which --json takes", "name a file");
   }
   if (arguments.response.recording.file == "-" && arguments.structure.structure == "-") {
-    throw BadInput("standard input (-) is given for the recording and the structure; it can be read once");
+    throw BadInput("", "standard input (-) is given for the recording and the structure", "it can be read once");
   }
 }
 

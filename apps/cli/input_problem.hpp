@@ -1,12 +1,16 @@
 #pragma once
 
-#include <string>
+#include <string_view>
+#include <vector>
 
 #include "zwidth/io/input_error.hpp"
 
 namespace zwidth::cli {
 
-/// error.str() in terms of the command line: members of options are options, and an override is --set.
-[[nodiscard]] std::string input_problem(InputError error);
+/// All of the error in terms of the command line: members of options are options, and an override is --set.
+[[nodiscard]] std::vector<InputProblem> problems_in(const InputError& error);
+
+/// Throws BadInput with them. `option`: the one that names what was read, where it is told.
+[[noreturn]] void refuse_input(const InputError& error, std::string_view option = {});
 
 }  // namespace zwidth::cli

@@ -26,26 +26,29 @@ std::vector<double> motion_of_bodies(const std::vector<std::string>& texts, cons
                                      const std::string& option, Measure measure) {
   if (texts.empty()) return {};
   if (!device.has_bodies()) {
-    throw BadInput(option + ": a transfer function has no bodies to start from; move the wall with --wall-position");
+    throw BadInput(option, "a transfer function has no bodies to start from", "move the wall with --wall-position");
   }
   std::vector<double> values(device.bodies().size(), 0.0);
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     const std::string_view number = std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1);
-    const double value =
-        measured_number(fmt::format("{}: '{}'", option, text), number, measure, device.parameters().motion);
+    auto value = measured_number(number, measure, device.parameters().motion);
+    if (!value) {
+      value.error().what = fmt::format("'{}': {}", text, value.error().what);
+      throw BadInput(problem_of_value(option, value.error()));
+    }
     if (equals == std::string::npos) {
-      values.assign(values.size(), value);
+      values.assign(values.size(), *value);
       continue;
     }
     const std::string name = text.substr(0, equals);
     std::string names;
     bool found = false;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (device.bodies()[i].name == name) values[i] = value, found = true;
+      if (device.bodies()[i].name == name) values[i] = *value, found = true;
       names += (i == 0 ? "" : ", ") + device.bodies()[i].name;
     }
-    if (!found) throw BadInput(fmt::format("{}: no body '{}'; the device has {}", option, name, names));
+    if (!found) throw BadInput(option, fmt::format("no body '{}'", name), fmt::format("the device has {}", names));
   }
   return values;
 }
@@ -108,7 +111,7 @@ UserForce recorded_force(const MotionArguments& arguments) {
   options.rate = arguments.force_rate;
   ProgressLine line("reading " + arguments.user_force);
   const auto recording = read_named_recording(arguments.user_force, options, line.progress());
-  if (!recording) throw BadInput("--user-force: " + input_problem(recording.error()));
+  if (!recording) refuse_input(recording.error(), "--user-force");
   UserForce force;
   force.kind = UserForce::Kind::recorded;
   force.start = arguments.force_start;
@@ -123,9 +126,9 @@ UserForce user_force(const MotionArguments& arguments) {
     if (!text.starts_with(each.prefix)) continue;
     const auto parsed = force_text(std::string_view(text).substr(each.prefix.size()));
     if (!parsed || parsed->frequency.has_value() != each.has_frequency) {
-      throw BadInput(fmt::format("--user-force: '{}': {}", text, each.form));
+      throw BadInput("--user-force", fmt::format("'{}': {}", text, each.form));
     }
-    if (parsed->value == 0.0) throw BadInput(fmt::format("--user-force: '{}': has no force; a number but 0", text));
+    if (parsed->value == 0.0) throw BadInput("--user-force", fmt::format("'{}': has no force", text), "a number but 0");
     UserForce force;
     force.kind = each.kind;
     force.amplitude = parsed->value;
@@ -172,18 +175,18 @@ void add_motion_arguments(CLI::App& command, MotionArguments& arguments) {
 
 void apply(const MotionArguments& arguments, const Device& device, SimulationOptions& options) {
   if (!(std::isfinite(arguments.force_scale) && arguments.force_scale != 0.0)) {
-    throw BadInput(fmt::format("--user-force-scale: is {}; a number but 0", arguments.force_scale));
+    throw BadInput("--user-force-scale", fmt::format("is {}", arguments.force_scale), "a number but 0");
   }
   if (!(std::isfinite(arguments.force_start) && arguments.force_start >= 0.0)) {
-    throw BadInput(fmt::format("--user-force-start: is {}; a number of s >= 0", arguments.force_start));
+    throw BadInput("--user-force-start", fmt::format("is {}", arguments.force_start), "a number of s >= 0");
   }
   if (arguments.force_rate && !(std::isfinite(*arguments.force_rate) && *arguments.force_rate > 0.0)) {
-    throw BadInput(fmt::format("--user-force-rate: is {}; a number of Hz above 0", *arguments.force_rate));
+    throw BadInput("--user-force-rate", fmt::format("is {}", *arguments.force_rate), "a number of Hz above 0");
   }
   options.initial_position = motion_of_bodies(arguments.starts, device, "--start", Measure::position);
   options.initial_velocity = motion_of_bodies(arguments.velocities, device, "--start-velocity", Measure::velocity);
   if (arguments.user_force.empty()) return;
-  if (!device.has_bodies()) throw BadInput("--user-force: a transfer function has no body that a user could hold");
+  if (!device.has_bodies()) throw BadInput("--user-force", "a transfer function has no body that a user could hold");
   options.user_force = user_force(arguments);
 }
 

@@ -43,8 +43,6 @@ std::vector<GivenUnit>& given_units() {
 
 constexpr std::string_view range_begin = ":INT in [";
 
-std::string problem_text(const UnitProblem& problem) { return problem.what + "; " + problem.allowed; }
-
 bool has_unit(std::string_view text) {
   return text.find_first_of("0123456789") != std::string_view::npos &&
          text.find_first_not_of("0123456789.+-eE") != std::string_view::npos;
@@ -58,15 +56,15 @@ std::string without_unit(const std::string& text, Measure measure, const std::st
     const char* const end = text.data() + text.size();
     // Infinities and what is too large or too small are told by who knows the range.
     if (const auto read = std::from_chars(begin, end, value); read.ptr == end && begin != end) return text;
-    throw CLI::ValidationError(
-        fmt::format("{} is no number; {}", in_quotes(text), allowed_numbers(measure, Motion::linear)));
+    throw RefusedValue{problem_of_value(option, fmt::format("{} is no number", in_quotes(text)),
+                                        allowed_numbers(measure, Motion::linear), with_decimal_point(text))};
   }
   given_units().push_back({option, text, measure});
   const auto linear = number_with_unit(text, measure, Motion::linear);
   if (linear) return fmt::format("{}", *linear);
   const auto rotary = number_with_unit(text, measure, Motion::rotary);
   if (rotary) return fmt::format("{}", *rotary);
-  throw CLI::ValidationError(problem_text(linear.error()));
+  throw RefusedValue{problem_of_value(option, linear.error())};
 }
 
 struct WholeNumbers {
@@ -88,7 +86,7 @@ WholeNumbers allowed_by(const std::string& type) {
 }
 
 /// CLI11 takes more: -1 as 2^64 - 1, 010 as 8, 0x10 as 16.
-std::string whole_number(const std::string& text, const WholeNumbers& allowed) {
+std::string whole_number(const std::string& text, const WholeNumbers& allowed, const std::string& option) {
   std::uint64_t value = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_whole = failure == std::errc() && end == text.data() + text.size();
@@ -96,11 +94,8 @@ std::string whole_number(const std::string& text, const WholeNumbers& allowed) {
   const bool is_bounded = allowed.most != WholeNumbers{}.most || failure == std::errc::result_out_of_range;
   const std::string range = is_bounded ? fmt::format("a whole number from {} to {}", allowed.least, allowed.most)
                                        : fmt::format("a whole number, {} or more", allowed.least);
-  throw CLI::ValidationError(fmt::format("is {}; {}", text, range));
+  throw RefusedValue{problem_of_value(option, fmt::format("is {}", text), range)};
 }
-
-/// Of a value: what is wrong with it, or nothing.
-std::string refused_empty(const std::string& text) { return text.empty() ? "is empty; a value" : ""; }
 
 }  // namespace
 
@@ -113,7 +108,7 @@ tl::expected<double, UnitProblem> measured_number(std::string_view text, Measure
 
 double measured_number(const std::string& option, std::string_view text, Measure measure, Motion motion) {
   const auto value = measured_number(text, measure, motion);
-  if (!value) throw BadInput(option + ": " + problem_text(value.error()));
+  if (!value) throw BadInput(problem_of_value(option, value.error()));
   return *value;
 }
 
@@ -124,8 +119,9 @@ void accept_units(CLI::App& app) {
       const std::string type = option->get_type_name();
       const std::string_view plain = std::string_view(type).substr(0, type.find(':'));
       if (plain == "N" || plain == "BITS" || plain == "PORT") {
-        option->transform(
-            [allowed = allowed_by(type)](const std::string& text) { return whole_number(text, allowed); });
+        option->transform([allowed = allowed_by(type), called = option->get_name()](const std::string& text) {
+          return whole_number(text, allowed, called);
+        });
       }
       for (const auto& [name, measure] : measured_values) {
         if (plain != name) continue;
@@ -134,7 +130,12 @@ void accept_units(CLI::App& app) {
         });
       }
       // The last to be added is the first to look. A file that is no option says itself that it has no name.
-      if (!plain.empty() && !option->get_positional()) option->transform(CLI::Validator(refused_empty, ""));
+      if (!plain.empty() && !option->get_positional()) {
+        option->transform([called = option->get_name()](const std::string& text) {
+          if (text.empty()) throw RefusedValue{problem_of_value(called, "is empty", "a value")};
+          return text;
+        });
+      }
     }
   }
 }
@@ -142,7 +143,7 @@ void accept_units(CLI::App& app) {
 void check_option_units(Motion motion) {
   for (const GivenUnit& each : given_units()) {
     const auto value = number_with_unit(each.text, each.measure, motion);
-    if (!value) throw BadInput(each.option + ": " + problem_text(value.error()));
+    if (!value) throw BadInput(problem_of_value(each.option, value.error()));
   }
 }
 

@@ -51,29 +51,29 @@ void Outputs::add(const OutputArguments& arguments) {
 void Outputs::add(const std::string& option, const std::string& path, Ending ending) {
   if (path.empty()) return;
   if (surroundings() != nullptr)
-    throw BadInput(option + ": writes a file; a request is answered with its document alone");
-  if (path == "-") throw BadInput(option + ": -: is not written to standard output; name a file");
+    throw BadInput(option, "writes a file", "a request is answered with its document alone");
+  if (path == "-") throw BadInput(option, "-: is not written to standard output", "name a file");
   Output output{option, path, std::nullopt};
   const std::string given = ending_of(path);
   if (ending == Ending::figure || ending == Ending::figure_or_csv) output.figure = report::figure_format(path);
   if (ending == Ending::figure && !output.figure) {
-    throw BadInput(fmt::format("{}: {}: unknown extension; .svg, .png or .pdf", option, path));
+    throw BadInput(option, fmt::format("{}: unknown extension", path), ".svg, .png or .pdf");
   }
   if (ending == Ending::figure_or_csv && !output.figure && given != ".csv") {
-    throw BadInput(fmt::format("{}: {}: unknown extension; .svg, .png, .pdf or .csv", option, path));
+    throw BadInput(option, fmt::format("{}: unknown extension", path), ".svg, .png, .pdf or .csv");
   }
   if (ending == Ending::page && !given.empty() && given != ".html" && given != ".htm") {
-    throw BadInput(fmt::format("{}: {}: unknown extension of a page; .html", option, path));
+    throw BadInput(option, fmt::format("{}: unknown extension of a page", path), ".html");
   }
   if (ending == Ending::hdf5 && is_special(path)) {
-    throw BadInput(fmt::format("{}: {}: is a device or a pipe; name a file", option, path));
+    throw BadInput(option, fmt::format("{}: is a device or a pipe", path), "name a file");
   }
   if (ending == Ending::hdf5 && !given.empty() && given != ".h5" && given != ".hdf5") {
-    throw BadInput(fmt::format("{}: {}: unknown extension of a result; .h5", option, path));
+    throw BadInput(option, fmt::format("{}: unknown extension of a result", path), ".h5");
   }
   for (const Output& other : outputs_) {
     if (same_file(path, other.path)) {
-      throw BadInput(fmt::format("{}: {}: is the same file as that of {}; name another", option, path, other.option));
+      throw BadInput(option, fmt::format("{}: is the same file as that of {}", path, other.option), "name another");
     }
   }
   outputs_.push_back(std::move(output));
@@ -83,8 +83,7 @@ void Outputs::keep(const std::string& input, std::string_view name) const {
   for (const Output& output : outputs_) {
     std::error_code one_is_missing;
     if (fs::equivalent(input, output.path, one_is_missing)) {
-      throw BadInput(
-          fmt::format("{}: {}: would overwrite the {}; name another file", output.option, output.path, name));
+      throw BadInput(output.option, fmt::format("{}: would overwrite the {}", output.path, name), "name another file");
     }
   }
 }

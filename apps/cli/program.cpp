@@ -118,7 +118,9 @@ int run(int argument_count, char** arguments) {
     write_standard_output(std::string(version.what()) + "\n");
     return done;
   } catch (const CLI::ParseError& error) {
-    throw BadInput(usage_error(app, error));
+    throw BadInput("", usage_error(app, error));
+  } catch (const RefusedValue& refused) {
+    throw BadInput("", usage_error(app, refused.problem));
   }
 }
 

@@ -39,13 +39,13 @@ char delimiter_of(const std::string& text) {
   if (text == "space" || text == "blank" || text == " ") return ' ';
   if (text == "comma" || text == ",") return ',';
   if (text == "semicolon" || text == ";") return ';';
-  throw BadInput(fmt::format("--delimiter: is '{}'; comma, semicolon, tab or space", text));
+  throw BadInput("--delimiter", fmt::format("is '{}'", text), "comma, semicolon, tab or space");
 }
 
 char decimal_mark_of(const std::string& text) {
   if (text == "." || text == "point") return '.';
   if (text == "," || text == "comma") return ',';
-  throw BadInput(fmt::format("--decimal: is '{}'; point or comma", text));
+  throw BadInput("--decimal", fmt::format("is '{}'", text), "point or comma");
 }
 
 RecordingFormat format_of(const std::string& text) {
@@ -59,7 +59,7 @@ RecordingFormat format_of(const std::string& text) {
 std::string columns_of(const RecordingArguments& arguments) {
   if (arguments.file == "-") return "";
   const auto contents = list_named_recording(arguments.file, recording_options(arguments));
-  if (!contents) throw BadInput(input_problem(contents.error()));
+  if (!contents) refuse_input(contents.error());
   constexpr std::size_t most = 30;
   std::string names;
   for (std::size_t i = 0; i < std::min(most, contents->columns.size()); ++i) {
@@ -83,12 +83,13 @@ RequestedMotion requested_motion(const RecordingArguments& arguments) {
   const RequestedMotion* found = nullptr;
   for (const RequestedMotion& candidate : candidates) {
     if (candidate.column.name.empty()) continue;
-    if (found) throw BadInput("--position, --velocity, --acceleration: more than one is given; give one");
+    if (found) throw BadInput("", "--position, --velocity, --acceleration: more than one is given", "give one");
     found = &candidate;
   }
   if (!found) {
-    throw BadInput("--position: missing; name the column of the motion with --position, --velocity or --acceleration" +
-                   columns_of(arguments));
+    throw BadInput(
+        "--position", "missing",
+        "name the column of the motion with --position, --velocity or --acceleration" + columns_of(arguments));
   }
   return *found;
 }
@@ -100,8 +101,8 @@ void check_that_columns_differ(const Recording& recording, const ColumnRequest& 
   const auto motion_number = number_in(motion.name);
   const bool numbers_differ = force_number && motion_number && *force_number != *motion_number;
   if (name != recording.channels[1].name || numbers_differ) return;
-  throw BadInput(
-      fmt::format("{}: column '{}' is named as the force and as the motion; name two columns", recording.source, name));
+  refuse_input({recording.source, 0, 0, "", fmt::format("column '{}' is named as the force and as the motion", name),
+                "name two columns"});
 }
 
 }  // namespace
@@ -179,7 +180,7 @@ RecordingOptions recording_options(const RecordingArguments& arguments) {
 RecordedMotion read_motion(const RecordingArguments& arguments) {
   RecordingOptions options = recording_options(arguments);
   if (arguments.force.name.empty()) {
-    throw BadInput("--force: missing; name the column of the commanded force" + columns_of(arguments));
+    throw BadInput("--force", "missing", "name the column of the commanded force" + columns_of(arguments));
   }
   const RequestedMotion motion = requested_motion(arguments);
   options.columns = {arguments.force, motion.column};
@@ -188,7 +189,7 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   if (const auto problem = find_problem(options)) refuse(*problem, scales);
   ProgressLine line("reading " + arguments.file);
   auto recording = read_named_recording(arguments.file, options, line.progress());
-  if (!recording) throw BadInput(input_problem(recording.error()));
+  if (!recording) refuse_input(recording.error());
   check_that_columns_differ(*recording, arguments.force, motion.column);
   recording->source = arguments.file;
   return {*std::move(recording), motion.output};
@@ -207,7 +208,7 @@ RecordedMotions read_motions(const RecordingArguments& arguments) {
 
 void write_contents(const RecordingArguments& arguments, bool as_json) {
   const auto contents = list_named_recording(arguments.file, recording_options(arguments));
-  if (!contents) throw BadInput(input_problem(contents.error()));
+  if (!contents) refuse_input(contents.error());
   if (as_json) return write_standard_output(results::line(results::recording_json(*contents)));
   using report::Align;
   report::TextTable table{{Align::right, Align::left, Align::right, Align::left}, {{"", "column", "samples", ""}}};

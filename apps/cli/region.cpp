@@ -45,7 +45,8 @@ std::optional<Wall> recommended_wall(const Device& device) {
 void run_region(const RegionArguments& arguments) {
   Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
-  if (arguments.raster && arguments.output.csv.empty()) throw BadInput("--raster: is for a csv file; add --csv FILE");
+  if (arguments.raster && arguments.output.csv.empty())
+    throw BadInput("--raster", "is for a csv file", "add --csv FILE");
   const Device device = std::move(read_devices(arguments.devices).front());
   const WallRegion walls = found_region(device, arguments.devices.files.front());
   if (walls.trust.refused()) {

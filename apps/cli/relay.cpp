@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/device_arguments.hpp"
+#include "cli/input_problem.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
@@ -57,8 +58,8 @@ std::optional<Device> delayed_device(const RelayArguments& arguments) {
   auto device = with_added_delay(read_devices(arguments.devices).front(), arguments.delay);
   if (device) return *std::move(device);
   const DeviceProblem& problem = device.error();
-  throw BadInput(
-      fmt::format("--delay: {}{}{}; {}", problem.key, problem.key.empty() ? "" : " ", problem.what, problem.allowed));
+  throw BadInput("--delay", fmt::format("{}{}{}", problem.key, problem.key.empty() ? "" : " ", problem.what),
+                 problem.allowed);
 }
 
 RelayResult simulated(const RelayArguments& arguments, const Device& device) {
@@ -70,7 +71,7 @@ RelayResult simulated(const RelayArguments& arguments, const Device& device) {
 RelayResult recorded(const RelayArguments& arguments, std::optional<Device> device) {
   RecordedMotion motion = read_motion(arguments.recording);
   if (motion.output != OutputQuantity::position) {
-    throw BadInput("--velocity, --acceleration: a relay acts on the position; name its column with --position");
+    throw BadInput("", "--velocity, --acceleration: a relay acts on the position", "name its column with --position");
   }
   RelayRecordOptions options;
   options.device = std::move(device);
@@ -80,7 +81,7 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
   options.analysis = arguments.experiment.analysis;
   if (const auto problem = find_problem(options, motion.recording.sampling_period)) {
     if (problem->member != "device") refuse(*problem, options_of_relay);
-    throw BadInput(fmt::format("{}: {}; {}", arguments.devices.files.front(), problem->what, problem->allowed));
+    refuse_input({arguments.devices.files.front(), 0, 0, "", problem->what, problem->allowed});
   }
   ProgressLine line("predicting");
   return relay(std::move(motion.recording), options, line.progress());
@@ -115,23 +116,23 @@ void check_options(const CLI::App& command, const RelayArguments& arguments) {
   const bool is_recorded = !arguments.recording.file.empty();
   const bool has_device = !arguments.devices.files.empty();
   if (!is_recorded && !has_device) {
-    throw BadInput("FILE: missing; a device file to simulate, or a recording with --recording");
+    throw BadInput("FILE", "missing", "a device file to simulate, or a recording with --recording");
   }
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;
     const std::string& name = option->get_name();
     if (!is_recorded && option->get_group() == recording_group) {
-      throw BadInput(fmt::format("{}: is about a recording; add --recording FILE", name));
+      throw BadInput(name, "is about a recording", "add --recording FILE");
     }
     if (is_recorded && option->get_group() == simulation_group) {
-      throw BadInput(fmt::format("{}: is about a simulation; leave out --recording", name));
+      throw BadInput(name, "is about a simulation", "leave out --recording");
     }
     const bool needs_device = name == "--delay" || name == "--hysteresis" || name == "--set";
-    if (!has_device && needs_device) throw BadInput(fmt::format("{}: is about a device; add its file", name));
-    if (has_device && name == "--motion") throw BadInput("--motion: the device file says it; leave out the option");
+    if (!has_device && needs_device) throw BadInput(name, "is about a device", "add its file");
+    if (has_device && name == "--motion") throw BadInput("--motion", "the device file says it", "leave out the option");
   }
   if (!is_recorded && command.count("--amplitude") == 0) {
-    throw BadInput("--amplitude: missing; the relay's force in N or N m");
+    throw BadInput("--amplitude", "missing", "the relay's force in N or N m");
   }
 }
 

@@ -16,6 +16,7 @@
 #include "cli/option_units.hpp"
 #include "cli/request_problem.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/usage_error.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -115,21 +116,22 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
 /// "--name=value": no value can become an option. A flag is "--name".
 void put_option(const CLI::App& command, const CommandRequest::Option& given, CommandRequest::Naming naming,
                 std::vector<std::string>& arguments) {
-  const std::string where = "options." + given.name;
+  const auto refused = [&](std::string what, std::string allowed) {
+    return Refused{{"options." + given.name, problem_of_value(given.name, std::move(what), std::move(allowed))}};
+  };
   const CLI::Option* option = given.name == "help" ? nullptr : command.get_option_no_throw("--" + given.name);
   if (option == nullptr || given.name.find('=') != std::string::npos) {
     std::vector<std::string> known = names_of_options(command);
     std::erase(known, "help");
     for (std::string& name : known) name = listed(name, naming);
     const std::string near = nearest_word(listed(given.name, naming), known);
-    throw Refused{{where, fmt::format("{} has no such option", command.get_name()),
-                   near.empty() ? fmt::format("{}", fmt::join(known, ", ")) : fmt::format("did you mean {}?", near)}};
+    throw refused(fmt::format("{} has no such option", command.get_name()),
+                  near.empty() ? fmt::format("{}", fmt::join(known, ", ")) : fmt::format("did you mean {}?", near));
   }
   if (given.name == "json") return;  // always
   const bool is_flag = option->get_items_expected_max() == 0;
   if (is_flag != given.values.empty()) {
-    throw Refused{
-        {where, is_flag ? "is a flag" : "needs a value", is_flag ? "true or false" : option->get_type_name()}};
+    throw refused(is_flag ? "is a flag" : "needs a value", is_flag ? "true or false" : option->get_type_name());
   }
   if (is_flag) {
     arguments.push_back("--" + given.name);
@@ -183,13 +185,16 @@ tl::expected<RequestAnswer, Problem> answer_or_problem(const CommandRequest& req
   } catch (const Refused& refused) {
     return tl::unexpected(refused.problem);
   } catch (const CLI::ParseError& error) {
-    return tl::unexpected(problem_of_option(error.what(), offered.device == positional ? "device" : "recording"));
+    return tl::unexpected(
+        problem_of_cli11(error.what(), offered.device == positional ? "device" : "recording", request));
+  } catch (const RefusedValue& refused) {
+    return tl::unexpected(problem_in(refused.problem, request));
   } catch (const BadInput& error) {
-    return tl::unexpected(problem_in(error.what(), request));
+    return tl::unexpected(problem_in(error, request));
   } catch (const WorkFailed& error) {
     // The document says itself what of it is refused.
     if (!own.output.empty()) return answer_in(own);
-    return tl::unexpected(failure_in(error.what(), request));
+    return tl::unexpected(failure_in(error.reason));
   } catch (const Error& error) {
     return tl::unexpected(Problem{"", error.what(), ""});
   }

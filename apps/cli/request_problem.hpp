@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/subcommand.hpp"
 #include "server/api/command_request.hpp"
 
 namespace zwidth::cli {
@@ -12,15 +13,16 @@ namespace zwidth::cli {
 inline constexpr const char* device_name = "device";
 inline constexpr const char* study_name = "study";
 
-/// A command's message "PLACE: ...: what is wrong; what is allowed" as the request's problem: its places are options,
-/// the device and its keys, and recordings.
-[[nodiscard]] server::Problem problem_in(std::string message, const server::CommandRequest& request);
+/// A command's problems as the request's: their places are options, the device and its keys, and recordings.
+[[nodiscard]] server::Problem problem_in(const BadInput& refused, const server::CommandRequest& request);
+[[nodiscard]] server::Problem problem_in(const InputProblem& told, const server::CommandRequest& request);
 
-/// The message of work that failed: it has no place, and its reasons stay together.
-[[nodiscard]] server::Problem failure_in(std::string message, const server::CommandRequest& request);
+/// The reason why work failed: it has no place, and its parts stay together.
+[[nodiscard]] server::Problem failure_in(std::string reason);
 
 /// CLI11's message about an option as the request's problem. `file`: what its positional argument is, device or recording.
-[[nodiscard]] server::Problem problem_of_option(const std::string& told, std::string_view file);
+[[nodiscard]] server::Problem problem_of_cli11(const std::string& message, std::string_view file,
+                                               const server::CommandRequest& request);
 
 /// The problem with the command's `options` ("accept-doubt") called as who asked calls them; `recording`: the one that is
 /// no option of a request, if there is one.

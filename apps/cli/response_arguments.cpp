@@ -125,7 +125,7 @@ double line_in_hertz(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hertz);
   if (error == std::errc{} && end == text.data() + text.size()) return hertz;
   const auto value = number_with_unit(text, Measure::frequency_hz, Motion::linear);
-  if (!value) throw BadInput(fmt::format("--lines: {}; {}", value.error().what, value.error().allowed));
+  if (!value) throw BadInput(problem_of_value("--lines", value.error()));
   return *value;
 }
 
@@ -138,10 +138,8 @@ void add_lines(const std::string& text, std::vector<double>& lines) {
     const auto [end, error] = std::from_chars(last.data(), last.data() + last.size(), count);
     const bool is_count = error == std::errc{} && end == last.data() + last.size() && count >= 2 && count <= 4096;
     if (parts.size() != 3 || !is_count) {
-      throw BadInput(
-          fmt::format("--lines: {}; a frequency, or FIRST:LAST:COUNT with a COUNT of 2 to 4096, such as "
-                      "\"1 Hz:40 Hz:40\"",
-                      in_quotes(text)));
+      throw BadInput("--lines", in_quotes(text),
+                     "a frequency, or FIRST:LAST:COUNT with a COUNT of 2 to 4096, such as \"1 Hz:40 Hz:40\"");
     }
   }
   const double first = line_in_hertz(parts[0]);
@@ -169,8 +167,8 @@ void check_table_options(const CLI::App& command) {
        {"--force", "--position", "--velocity", "--acceleration", "--time", "--timer-bits", "--period", "--skip-periods",
         "--aperiodic", "--segment", "--overlap", "--window", "--estimator", "--no-detrend", "--lines", "MORE"}) {
     if (command.count(option) > 0) {
-      throw BadInput(fmt::format("{}: is for a recording, not for a table of a response; leave it out, or --table",
-                                 std::string_view(option) == "MORE" ? "more than one file" : option));
+      throw BadInput(std::string_view(option) == "MORE" ? "more than one file" : option,
+                     "is for a recording, not for a table of a response", "leave it out, or --table");
     }
   }
 }
@@ -189,7 +187,7 @@ ResponseSource from_table(const ResponseArguments& arguments) {
   if (const auto problem = find_problem(options)) refuse(*problem, options_of_response);
   ProgressLine line("reading " + arguments.recording.file);
   auto response = read_named_table(arguments.recording.file, options, line.progress());
-  if (!response) throw BadInput(input_problem(response.error()));
+  if (!response) refuse_input(response.error());
   ResponseSource source;
   source.name = arguments.recording.file;
   source.table = judged_response(source.name, *std::move(response));

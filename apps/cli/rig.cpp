@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/flight_file.hpp"
+#include "cli/input_problem.hpp"
 #include "cli/live_line.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
@@ -70,7 +71,8 @@ void check_duration(const std::optional<double>& duration, const Device& device)
   if (!duration) return;
   const double cycles = *duration / device.loop().sampling_period;
   if (!(cycles >= 1.0 && cycles <= max_simulated_samples)) {
-    throw BadInput(fmt::format("--duration: is {} s; 1 to {:.0e} sampling periods", *duration, max_simulated_samples));
+    throw BadInput("--duration", fmt::format("is {} s", *duration),
+                   fmt::format("1 to {:.0e} sampling periods", max_simulated_samples));
   }
 }
 
@@ -78,8 +80,8 @@ void check_duration(const std::optional<double>& duration, const Device& device)
 void check_permission(const RigArguments& arguments, const Trust& trust) {
   const std::string& file = arguments.devices.files.front();
   if (trust.sound() || (!trust.refused() && arguments.accept_doubt)) return;
-  throw WorkFailed(file + ": " + report::verdict_text(trust) +
-                   (trust.refused() ? "" : "; --accept-doubt acts on it all the same"));
+  throw WorkFailed(file,
+                   report::verdict_text(trust) + (trust.refused() ? "" : "; --accept-doubt acts on it all the same"));
 }
 
 rig::RigOptions rig_options(const RigArguments& arguments, const Device& device) {
@@ -88,25 +90,25 @@ rig::RigOptions rig_options(const RigArguments& arguments, const Device& device)
   const auto declared = device.parameters().actuator.force_limit;
   if (!options.limits.force) options.limits.force = declared;
   if (declared && options.limits.force && *options.limits.force > *declared) {
-    throw BadInput(
-        fmt::format("--force-limit: is {}; at most actuator.force_limit, {}", *options.limits.force, *declared));
+    throw BadInput("--force-limit", fmt::format("is {}", *options.limits.force),
+                   fmt::format("at most actuator.force_limit, {}", *declared));
   }
   if (const auto problem = find_problem(options.limits)) refuse(*problem, options_of_rig);
   if (arguments.driver == "simulated") return options;
   if (!options.limits.force)
-    throw BadInput("--force-limit: missing; a device on a bench needs one, or actuator.force_limit");
-  if (!options.limits.position) throw BadInput("--position-limit: missing; a device on a bench needs one");
+    throw BadInput("--force-limit", "missing", "a device on a bench needs one, or actuator.force_limit");
+  if (!options.limits.position) throw BadInput("--position-limit", "missing", "a device on a bench needs one");
   return options;
 }
 
 double amplitude_of(const Rig& rig) {
   const double amplitude = rig.arguments.amplitude.value_or(rig::default_force(rig.device, rig.options.limits.force));
   if (!(std::isfinite(amplitude) && amplitude > 0.0)) {
-    throw BadInput(fmt::format("--amplitude: is {}; a force in N or N m above 0", amplitude));
+    throw BadInput("--amplitude", fmt::format("is {}", amplitude), "a force in N or N m above 0");
   }
   if (rig.options.limits.force && amplitude > *rig.options.limits.force) {
-    throw BadInput(
-        fmt::format("--amplitude: is {}; at most the force limit, {}", amplitude, *rig.options.limits.force));
+    throw BadInput("--amplitude", fmt::format("is {}", amplitude),
+                   fmt::format("at most the force limit, {}", *rig.options.limits.force));
   }
   return amplitude;
 }
@@ -262,7 +264,7 @@ void run_limit(const Rig& rig) {
   if (arguments.duration) options.dwell = *arguments.duration;
   options.knock = amplitude_of(rig);
   if (options.search.start == 0.0 || options.search.ceiling == 0.0) {
-    throw BadInput("--from, --ceiling: missing; no finite limit is predicted to search around");
+    throw BadInput("", "--from, --ceiling: missing", "no finite limit is predicted to search around");
   }
   if (const auto problem = find_problem(options.search)) refuse(*problem, options_of_rig);
   const RigLimit result = watched(
@@ -277,7 +279,7 @@ Device rig_device(const RigArguments& arguments) {
   DeviceParameters parameters = device.parameters();
   parameters.wall.stiffness = arguments.stiffness;
   if (const auto problem = find_problem(parameters)) {
-    throw BadInput(fmt::format("--stiffness: {}; {}", problem->what, problem->allowed));
+    throw BadInput("--stiffness", problem->what, problem->allowed);
   }
   return Device(parameters);
 }
@@ -285,7 +287,8 @@ Device rig_device(const RigArguments& arguments) {
 void check_wall(const RigArguments& arguments, const Device& device, const Analysis& analysis) {
   const std::string& file = arguments.devices.files.front();
   if (!device.parameters().wall.stiffness) {
-    throw BadInput(file + ": wall.stiffness: is missing: there is no wall to render; set it, or give --stiffness");
+    refuse_input(
+        {file, 0, 0, "wall.stiffness", "is missing: there is no wall to render", "set it, or give --stiffness"});
   }
   if (!analysis.wall_stable_for || arguments.accept_unstable) return;
   if (const std::string holders = unstable_with(*analysis.wall_stable_for); !holders.empty()) {
@@ -385,7 +388,7 @@ void add_rig(CLI::App& app) {
       throw WorkFailed(arguments->driver + ": " + problem.what());
     } catch (const Error& error) {
       if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(error.what());
-      throw BadInput(arguments->devices.files.front() + ": " + error.what());
+      throw refused_by(error, arguments->devices.files.front());
     }
   });
 }

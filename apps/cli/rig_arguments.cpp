@@ -120,21 +120,21 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
   for (const auto& [option, actions] : options_of_actions) {
     if (command.count(std::string(option)) == 0) continue;
     if (actions.find(arguments.action + " ") == std::string_view::npos) {
-      throw BadInput(fmt::format("{}: is not for rig {}", option, arguments.action));
+      throw BadInput(option, fmt::format("is not for rig {}", arguments.action));
     }
   }
   if (arguments.driver == "simulated") {
     for (const char* option : {"--output-device", "--delays"}) {
       if (arguments.action != "check" || command.count(option) == 0) continue;
-      throw BadInput(fmt::format("{}: a simulated device has the delay of its file: check a drive", option));
+      throw BadInput(option, "a simulated device has the delay of its file: check a drive");
     }
     return;
   }
   if (const auto problem = rig::find_driver_name_problem(arguments.driver)) {
-    throw BadInput(fmt::format("--driver: {}: {}", arguments.driver, *problem));
+    throw BadInput("--driver", fmt::format("{}: {}", arguments.driver, *problem));
   }
   for (const char* option : {"--real-time", "--start"}) {
-    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a simulated device", option));
+    if (command.count(option) > 0) throw BadInput(option, "is for a simulated device");
   }
 }
 

@@ -63,8 +63,8 @@ void open_browser(std::string address) {
 
 void run_serve(const ServeArguments& arguments) {
   if (!server::is_address(arguments.http.host)) {
-    throw BadInput(
-        fmt::format("--host: {}: is no address; an IP address of this machine, or localhost", arguments.http.host));
+    throw BadInput("--host", fmt::format("{}: is no address", arguments.http.host),
+                   "an IP address of this machine, or localhost");
   }
   const server::RecordingLimits recordings;
   const RequestCommands commands({.samples = 2e6,

@@ -178,7 +178,7 @@ void add_simulate(CLI::App& app) {
   command->callback([arguments, command] {
     if (command->count("--every") > 0 && arguments->output.csv.empty() && arguments->output.figure.empty() &&
         !arguments->points) {
-      throw BadInput("--every: is for --csv, --figure and --points; add one");
+      throw BadInput("--every", "is for --csv, --figure and --points", "add one");
     }
     run_simulate(*arguments);
   });

@@ -88,8 +88,8 @@ void prepare_standard_output() {
 void write_standard_output(std::string_view text) {
   if (Surroundings* own = surroundings()) {
     if (own->output.size() + text.size() > own->bounds.answer) {
-      throw BadInput(
-          fmt::format("the answer is longer than {} bytes; ask for less, or on the command line", own->bounds.answer));
+      throw BadInput("", fmt::format("the answer is longer than {} bytes", own->bounds.answer),
+                     "ask for less, or on the command line");
     }
     own->output += text;
     return;

@@ -38,14 +38,14 @@ Structure structure_by_name(const StructureArguments& arguments, std::optional<d
   check(options);
   const NamedStructure named = named_structure(arguments.structure, options).value();
   auto device = parse_device(write_device(named.parameters), "--structure " + arguments.structure, arguments.overrides);
-  if (!device) throw BadInput(input_problem(device.error()));
+  if (!device) refuse_input(device.error());
   return {*std::move(device), named.values};
 }
 
 Device structure_from_file(const StructureArguments& arguments) {
   if (!arguments.motion.empty()) {
-    throw BadInput(
-        "--motion: is for a named structure; a device file says itself what its motion is; leave out the option");
+    throw BadInput("--motion", "is for a named structure",
+                   "a device file says itself what its motion is; leave out the option");
   }
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.sampling_period) {
@@ -53,9 +53,9 @@ Device structure_from_file(const StructureArguments& arguments) {
     overrides.push_back(fmt::format("loop.sampling_period={}", *arguments.sampling_period));
   }
   auto device = read_named_device(arguments.structure, overrides);
-  if (!device) throw BadInput(input_problem(device.error()));
+  if (!device) refuse_input(device.error());
   if (!device->has_bodies()) {
-    throw BadInput(fmt::format("--structure: {}: is a transfer function; a device of bodies", arguments.structure));
+    throw BadInput("--structure", fmt::format("{}: is a transfer function", arguments.structure), "a device of bodies");
   }
   return *std::move(device);
 }
@@ -112,13 +112,13 @@ Structure structure(const StructureArguments& arguments, std::optional<double> r
   for (const Body& body : device.bodies()) names.push_back(body.name);
   for (const std::string& name : arguments.locked) {
     if (std::ranges::count(names, name) == 0) {
-      throw BadInput(fmt::format("--locked: there is no body {}{}", name, nearest_or_all(name, names)));
+      throw BadInput("--locked", fmt::format("there is no body {}{}", name, nearest_or_all(name, names)));
     }
   }
   const std::vector<std::string> keys = parameter_keys(device.parameters());
   for (const std::string& given : arguments.free) {
     if (given != "all" && std::ranges::count(keys, full_parameter_key(device.parameters(), given)) == 0) {
-      throw BadInput(fmt::format("--free: no parameter is called {}{}", given, nearest_or_all(given, keys)));
+      throw BadInput("--free", fmt::format("no parameter is called {}{}", given, nearest_or_all(given, keys)));
     }
   }
   return structure;

@@ -114,7 +114,7 @@ std::optional<Study> studied(const StudyRun& run, const StudyArguments& argument
   try {
     return study_engine::run_study(run, arguments.result, start, progress, line.progress(0.9, 1.0));
   } catch (const study_engine::CheckpointProblem& problem) {
-    throw BadInput(fmt::format("--output: {}", problem.what()));
+    throw BadInput("--output", problem.what());
   }
 }
 
@@ -126,19 +126,19 @@ void run_study(const StudyArguments& arguments) {
   outputs.keep(arguments.devices.files, "device file");
   outputs.keep(arguments.study, "study file");
   if (arguments.resume && arguments.result.empty()) {
-    throw BadInput("--resume: goes on with a result that was begun; add --output FILE.h5");
+    throw BadInput("--resume", "goes on with a result that was begun", "add --output FILE.h5");
   }
   if (study_engine::team().size() > 1 && arguments.result.empty()) {
-    throw BadInput("--output: several processes meet at a result on a disk that all see; add --output FILE.h5");
+    throw BadInput("--output", "several processes meet at a result on a disk that all see", "add --output FILE.h5");
   }
   Device device = std::move(read_devices(arguments.devices).front());
   auto file = read_named_study(arguments.study, device);
-  if (!file) throw BadInput(input_problem(file.error()));
+  if (!file) refuse_input(file.error());
   const StudyOptions options = options_of(arguments, *file);
   if (const auto problem = find_problem(options, device, file->distributions)) refuse(*problem, options_of_study);
   if (arguments.result.empty() && options.samples > most_samples_in_memory) {
-    throw BadInput(fmt::format("--samples: is {}; at most {} without --output, which keeps them on the disk",
-                               options.samples, most_samples_in_memory));
+    throw BadInput("--samples", fmt::format("is {}", options.samples),
+                   fmt::format("at most {} without --output, which keeps them on the disk", most_samples_in_memory));
   }
   check_threads("--threads", options.threads);
   check_samples("--samples", units_of(options, file->distributions.parameters.size()));

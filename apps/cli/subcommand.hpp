@@ -1,22 +1,75 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "zwidth/error.hpp"
+#include "zwidth/io/number_with_unit.hpp"
 
 namespace zwidth::cli {
 
-/// Wrong usage or bad input: main prints every line of the message and exits with status 2.
+/// What is wrong with the value of an option: "--duration".
+[[nodiscard]] inline InputProblem problem_of_value(std::string_view option, std::string what, std::string allowed,
+                                                   std::optional<std::string> suggestion = std::nullopt) {
+  InputProblem problem{{}, std::move(what), std::move(allowed), std::move(suggestion)};
+  problem.place.option = option;
+  return problem;
+}
+
+[[nodiscard]] inline InputProblem problem_of_value(std::string_view option, const UnitProblem& problem) {
+  return problem_of_value(option, problem.what, problem.allowed, problem.suggestion);
+}
+
+/// Wrong usage or bad input: main prints every problem on a line of its own and exits with status 2.
 struct BadInput : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  /// In the place's option is one of the command line.
+  explicit BadInput(std::vector<InputProblem> all) : std::runtime_error(lines_of(all)), problems(std::move(all)) {}
+  explicit BadInput(InputProblem problem) : BadInput(std::vector<InputProblem>{std::move(problem)}) {}
+  /// Of an option; empty: of none.
+  BadInput(std::string_view option, std::string what, std::string allowed = "")
+      : BadInput(problem_of_value(option, std::move(what), std::move(allowed))) {}
+
+  std::vector<InputProblem> problems;
+
+ private:
+  static std::string lines_of(const std::vector<InputProblem>& all) {
+    std::string lines;
+    for (const InputProblem& each : all) lines += (lines.empty() ? "" : "\n") + each.str();
+    return lines;
+  }
+};
+
+/// The value of an option that is refused while the command line is parsed.
+struct RefusedValue {
+  InputProblem problem;
 };
 
 /// The work itself failed (cannot write, does not converge): main prints the message and exits with status 1.
 struct WorkFailed : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit WorkFailed(const std::string& why) : std::runtime_error(why), reason(why) {}
+  /// The work on what is called `name` (a file; empty: nothing).
+  WorkFailed(const std::string& name, const std::string& why)
+      : std::runtime_error((name.empty() ? "" : name + ": ") + why), reason(why) {}
+
+  std::string reason;  ///< without the name
 };
+
+/// What is wrong with the library's arguments, in the file `name` (empty: in none).
+[[nodiscard]] inline BadInput refused_by(const Error& error, const std::string& name) {
+  std::vector<InputProblem> problems = error.problems();
+  if (problems.empty()) problems.push_back({{}, error.what(), "", {}});
+  for (InputProblem& each : problems) {
+    each.place.file = name;
+    if (!each.place.option.empty()) each.what = each.place.option + " " + each.what;  // no option of the command line
+    each.place.option.clear();
+  }
+  return BadInput(std::move(problems));
+}
 
 /// Runs the library's work on what is called `name` (a file; empty: nothing). What it could not compute is WorkFailed;
 /// what it refuses to compute lies in the input: BadInput.
@@ -25,9 +78,8 @@ auto worked(const std::string& name, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
-    const std::string text = (name.empty() ? "" : name + ": ") + error.what();
-    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(text);
-    throw BadInput(text);
+    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(name, error.what());
+    throw refused_by(error, name);
   }
 }
 

@@ -32,7 +32,7 @@ auto read_by_name(const std::string& name, const Read& read) -> decltype(read(na
   const auto found = own->recordings.find(name);
   if (found == own->recordings.end()) return tl::unexpected(no_such_name(name, "must be the recording given with it"));
   auto result = read(found->second);
-  if (!result && result.error().source == found->second) result.error().source = name;
+  if (!result && result.error().place.file == found->second) result.error().place.file = name;
   return result;
 }
 
@@ -54,14 +54,15 @@ Surroundings* surroundings() { return of_this_thread; }
 
 void check_samples(const char* option, double samples) {
   if (of_this_thread == nullptr || !(samples > of_this_thread->bounds.samples)) return;
-  throw BadInput(fmt::format("{}: makes {:.9g} samples; a request may make at most {:.9g}, the command line more",
-                             option, samples, of_this_thread->bounds.samples));
+  throw BadInput(
+      option, fmt::format("makes {:.9g} samples", samples),
+      fmt::format("a request may make at most {:.9g}, the command line more", of_this_thread->bounds.samples));
 }
 
 void check_threads(const char* option, std::size_t threads) {
   if (of_this_thread == nullptr || threads <= of_this_thread->bounds.threads) return;
-  throw BadInput(
-      fmt::format("{}: is {}; a request may have at most {}", option, threads, of_this_thread->bounds.threads));
+  throw BadInput(option, fmt::format("is {}", threads),
+                 fmt::format("a request may have at most {}", of_this_thread->bounds.threads));
 }
 
 void hand_over_device(const std::string& text) {

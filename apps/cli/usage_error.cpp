@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/number_text.hpp"
+#include "cli/subcommand.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
@@ -61,34 +62,37 @@ std::optional<Parted> parted(const std::string& text, std::string_view phrase) {
 }  // namespace
 
 // By searching: std::regex takes stack for every character, and a message holds what the user gave.
-std::string clear_problem(const std::string& message) {
+InputProblem problem_of_cli11(const std::string& message) {
   const auto too_many = parted(message, ": At Most ");
   const auto too_few = parted(message, ": At least ");
   if (const auto& wrong = too_many ? too_many : too_few) {
     if (const auto counts = parted(wrong->after, " required but received ")) {
       return too_many
-                 ? fmt::format("{}: has {} values; at most {}", wrong->before, counts->after, counts->before)
-                 : fmt::format("{}: has {} of {} values; all of them", wrong->before, counts->after, counts->before);
+                 ? problem_of_value(wrong->before, fmt::format("has {} values", counts->after),
+                                    fmt::format("at most {}", counts->before))
+                 : problem_of_value(wrong->before, fmt::format("has {} of {} values", counts->after, counts->before),
+                                    "all of them");
     }
   }
   const auto required = parted(message, " required ");
   if (const auto kind = required ? parted(required->after, " missing") : std::nullopt; kind && kind->after.empty()) {
     if (const auto count = parted(required->before, ": "))
-      return fmt::format("{}: has no value; {}", count->before, kind->before);
+      return problem_of_value(count->before, "has no value", kind->before);
   }
   if (const auto wrong = parted(message, "Could not convert: ")) {
     if (const auto value = parted(wrong->after, " = ")) {
-      return fmt::format("{}: is {}; a number, without a unit", value->before, value->after);
+      return problem_of_value(value->before, fmt::format("is {}", value->after), "a number, without a unit",
+                              with_decimal_point(value->after));
     }
   }
   const auto choice = parted(message, " not in {");
-  if (!choice || !choice->after.ends_with('}')) return message;
-  const auto given = parted(choice->before, ": ");
-  if (!given) return message;
-  std::vector<std::string> words = parts_of(choice->after.substr(0, choice->after.size() - 1), ',');
+  const auto given = choice && choice->after.ends_with('}') ? parted(choice->before, ": ") : std::nullopt;
+  if (!given) return problem_of_value("", message, "");
+  const std::vector<std::string> words = parts_of(choice->after.substr(0, choice->after.size() - 1), ',');
   const std::string near = nearest_word(given->after, words);
-  if (!near.empty()) words = {fmt::format("did you mean {}?", near)};
-  return fmt::format("{}: is {}; {}", given->before, given->after, fmt::join(words, ", "));
+  const std::string what = fmt::format("is {}", given->after);
+  if (near.empty()) return problem_of_value(given->before, what, fmt::format("{}", fmt::join(words, ", ")));
+  return problem_of_value(given->before, what, fmt::format("did you mean {}?", near), near);
 }
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -100,13 +104,17 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     }
   }
   if (parsed.empty() && dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) {
-    return fmt::format("{}; see zwidth --help", clear_problem(error.what()));
+    return fmt::format("{}; see zwidth --help", problem_of_cli11(error.what()).str());
   }
   if (parsed.empty()) {
     return fmt::format("no command given; commands are {}", fmt::join(command_names(app), ", "));
   }
-  return fmt::format("{}: {}; see zwidth {} --help", command.get_name(), clear_problem(error.what()),
-                     command.get_name());
+  return usage_error(app, problem_of_cli11(error.what()));
+}
+
+std::string usage_error(const CLI::App& app, const InputProblem& problem) {
+  const std::string command = app.get_subcommands().front()->get_name();
+  return fmt::format("{}: {}; see zwidth {} --help", command, problem.str(), command);
 }
 
 }  // namespace zwidth::cli

@@ -51,12 +51,12 @@ Answer run(const std::string& command, const Options& options, const Device* dev
   if (answer) return Answer(*std::move(answer));
   const server::Problem& problem = answer.error();
   if (problem.where.empty()) raise_work_failed(problem.what + (problem.allowed.empty() ? "" : "; ") + problem.allowed);
-  raise_input_error(problem.where, problem.what, problem.allowed);
+  raise_input_error(problem);
 }
 
 std::string study_toml(const std::string& json) {
   auto toml = server::device_toml(results::Json::parse(json), "study");
-  if (!toml) raise_input_error(toml.error().where, toml.error().what, toml.error().allowed);
+  if (!toml) raise_input_error(toml.error());
   return *std::move(toml);
 }
 

@@ -62,7 +62,7 @@ Device from_toml(const py::object& source, const py::object& set) {
 Device from_keys(const py::kwargs& keys) {
   const auto json = py::module_::import("zwidth._device").attr("json_of")(keys).cast<std::string>();
   const auto toml = server::device_toml(results::Json::parse(json));
-  if (!toml) raise_input_error(toml.error().where, toml.error().what, toml.error().allowed);
+  if (!toml) raise_input_error(toml.error());
   return device_of(parse_device(*toml, "device"));
 }
 

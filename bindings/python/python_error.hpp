@@ -4,13 +4,17 @@
 
 #include <string>
 
+#include "server/api/command_request.hpp"
 #include "zwidth/io/input_error.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth::python {
 
-/// Raises zwidth.InputError(where, what, allowed).
+/// Raises zwidth.InputError with the problem, and the others of the same input.
+[[noreturn]] void raise_input_error(const server::Problem& problem);
+
+/// The same of a place that is no more than a name.
 [[noreturn]] void raise_input_error(const std::string& where, const std::string& what, const std::string& allowed);
 
 /// The same of what the library refuses: where is "FILE:LINE:COLUMN: key", as far as there is each.

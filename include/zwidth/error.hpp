@@ -2,6 +2,10 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "zwidth/input_problem.hpp"
 
 namespace zwidth {
 
@@ -20,11 +24,18 @@ class Error : public std::runtime_error {
  public:
   /// A message of one line, with the value that offends.
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  /// The same of arguments, with what is wrong with each.
+  Error(ErrorCode code, const std::string& message, std::vector<InputProblem> problems)
+      : std::runtime_error(message), code_(code), problems_(std::move(problems)) {}
   /// What kind of failure it is.
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
+  /// What is wrong with the arguments: members of an options struct or keys of a device; empty where no more is known
+  /// than the message.
+  [[nodiscard]] const std::vector<InputProblem>& problems() const noexcept { return problems_; }
 
  private:
   ErrorCode code_;
+  std::vector<InputProblem> problems_;
 };
 
 }  // namespace zwidth

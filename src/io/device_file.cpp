@@ -33,11 +33,6 @@ std::string_view mass_key(TableReader& reader, Motion motion) {
   return "inertia";
 }
 
-std::string bodies_remedy(const std::string& name, const std::vector<std::string>& names) {
-  const std::string meant = nearest_word(name, names);
-  return meant.empty() ? fmt::format("the bodies are {}", listed(names)) : fmt::format("did you mean \"{}\"?", meant);
-}
-
 /// Reads the tables of one document, in the order in which later ones need earlier ones.
 class DeviceReader {
  public:
@@ -63,7 +58,10 @@ class DeviceReader {
     if (motion == "rotary") device_.motion = Motion::rotary;
     reading_.set_motion(device_.motion);
     if (motion && motion != "linear" && motion != "rotary") {
-      root_.refuse("motion", fmt::format("is {}", in_quotes(*motion)), "must be \"linear\" or \"rotary\"");
+      const std::string meant = nearest_word(lower_case(*motion), std::vector<std::string>{"linear", "rotary"});
+      root_.refuse("motion", fmt::format("is {}", in_quotes(*motion)), "must be \"linear\" or \"rotary\"",
+                   meant.empty() ? std::nullopt : std::optional(meant));
+      if (meant == "rotary") reading_.set_motion(device_.motion = Motion::rotary);  // its units are no further problem
     }
   }
 
@@ -74,7 +72,7 @@ class DeviceReader {
       body.name = reader.text("name").value_or("");
       if (!body.name.empty()) reader.rename(fmt::format("body.{}", body.name));
       reader.refuse_keys_not_of(DeviceTable::body);
-      if (!reader.has("name")) reader.refuse("name", "is missing", "must be given as text in quotes");
+      if (!reader.has("name")) reader.refuse_missing("name", "must be given as text in quotes");
       body.mass = reader.required_positive_number(mass_key(reader, device_.motion), Measure::mass);
       body.damping = reader.number("damping", Measure::damping).value_or(0.0);
       body.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
@@ -100,7 +98,7 @@ class DeviceReader {
       link.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
       link.damping = reader.number("damping", Measure::damping).value_or(0.0);
       if (!reader.has("stiffness") && !reader.has("damping")) {
-        reader.refuse("stiffness", "is missing", "must be given, or damping, or both");
+        reader.refuse_missing("stiffness", "must be given, or damping, or both");
       }
       device_.links.push_back(link);
     }
@@ -126,7 +124,7 @@ class DeviceReader {
     const toml::table* table = root_.table(DeviceTable::loop);
     if (!table) {
       if (!device_.bodies.empty() || device_.transfer_function) {
-        root_.refuse("loop", "is missing", "must be given as [loop] with sampling_period in seconds");
+        root_.refuse_missing("loop", "must be given as [loop] with sampling_period in seconds");
       }
       return;
     }
@@ -266,8 +264,17 @@ class DeviceReader {
     const auto found = std::ranges::find(names_, name);
     if (found != names_.end()) return static_cast<std::size_t>(found - names_.begin());
     // Without any body, or with a name that two bodies share, the device is refused for that.
-    if (!names_.empty() && !has_repeated_name()) {
-      reader.refuse(key, fmt::format("there is no body {}", in_quotes(name)), bodies_remedy(name, names_));
+    if (names_.empty() || has_repeated_name()) {
+      reader.leave(key);
+      return 0;
+    }
+    const std::string meant = nearest_word(name, names_);
+    const std::string what = fmt::format("there is no body {}", in_quotes(name));
+    if (meant.empty()) {
+      reader.refuse(key, what, fmt::format("the bodies are {}", listed(names_)));
+    } else {  // of the two of a link there is no one value to put
+      reader.refuse(key, what, fmt::format("did you mean \"{}\"?", meant),
+                    key == "between" ? std::nullopt : std::optional(meant));
     }
     return 0;
   }
@@ -288,15 +295,21 @@ tl::expected<Device, InputError> parse_device(std::string_view text, std::string
                                               std::span<const std::string> overrides) {
   auto document = parse_toml(text, source);
   if (!document) return tl::unexpected(std::move(document.error()));
+  std::optional<InputError> overriding;
   for (const std::string& assignment : overrides) {
-    if (auto error = apply_override(*document, assignment)) return tl::unexpected(std::move(*error));
+    auto error = apply_override(*document, assignment);
+    if (!error) continue;
+    if (overriding) overriding->others.push_back(*std::move(error));
+    if (!overriding) overriding = std::move(error);
   }
+  if (overriding) return tl::unexpected(*std::move(overriding));
   DeviceReading reading(source);
   DeviceParameters parameters = DeviceReader(reading, *document).read(source);
-  if (!reading.error()) {
+  for (const DeviceProblem& problem : find_value_problems(parameters)) reading.refuse(problem);
+  if (reading.passed()) {
     if (const auto problem = find_problem(parameters)) reading.refuse(*problem);
   }
-  if (reading.error()) return tl::unexpected(*reading.error());
+  if (!reading.passed()) return tl::unexpected(reading.error());
   return Device(std::move(parameters));
 }
 

@@ -9,6 +9,7 @@
 
 #include "io/device_keys.hpp"
 #include "io/device_reading.hpp"
+#include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/toml_text.hpp"
 #include "zwidth/io/message_words.hpp"
@@ -17,12 +18,7 @@ namespace zwidth::internal {
 namespace {
 
 InputError refusal(std::string_view key, std::string what, std::string allowed) {
-  return {.source = std::string(override_source),
-          .line = 0,
-          .column = 0,
-          .key = std::string(key),
-          .what = std::move(what),
-          .allowed = std::move(allowed)};
+  return {override_source, 0, 0, std::string(key), std::move(what), std::move(allowed)};
 }
 
 /// Where an override goes: a table of the document (null: the document is malformed there) and a key in it.
@@ -36,12 +32,6 @@ std::optional<std::size_t> as_index(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return index;
-}
-
-std::string_view without_blanks(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 std::vector<std::string> names_in(const toml::array& tables) {
@@ -154,17 +144,6 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
                                 fmt::format("write {}=VALUE", first)));
 }
 
-/// A word, or a number and something of a unit.
-bool is_bare_text(std::string_view text) {
-  const auto is_letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '%' || (c & 0x80);
-  };
-  if (text.empty() || text.find_first_of("\"\\") != std::string_view::npos) return false;
-  if (is_letter(text.front())) return true;
-  return std::string_view(".+-0123456789").find(text.front()) != std::string_view::npos &&
-         std::ranges::any_of(text, is_letter);
-}
-
 /// A TOML document with the one key "value", or why the text is no TOML value.
 tl::expected<toml::table, InputError> parse_value(std::string_view key, std::string_view text) {
   auto document = parse_toml(fmt::format("value = {}", text), override_source);
@@ -174,6 +153,10 @@ tl::expected<toml::table, InputError> parse_value(std::string_view key, std::str
   }
   if (!document && document.error().what == number_out_of_range) {
     return tl::unexpected(refusal(key, document.error().what, document.error().allowed));
+  }
+  if (!document && document.error().suggestion) {
+    document.error().place = {override_source, 0, 0, std::string(key), ""};
+    return document;
   }
   if (!document || document->size() != 1) {
     return tl::unexpected(
@@ -188,11 +171,11 @@ tl::expected<toml::table, InputError> parse_value(std::string_view key, std::str
 std::optional<InputError> apply_override(toml::table& document, const std::string& assignment) {
   const std::string_view whole = assignment;
   const auto equals = whole.find('=');
-  const std::string_view key = without_blanks(whole.substr(0, equals));
+  const std::string_view key = trimmed(whole.substr(0, equals));
   if (equals == std::string_view::npos || key.empty()) {
     return refusal("", fmt::format("{} is not KEY=VALUE", in_quotes(whole)), "write for instance loop.delay=0.25e-3");
   }
-  auto value = parse_value(key, without_blanks(whole.substr(equals + 1)));
+  auto value = parse_value(key, trimmed(whole.substr(equals + 1)));
   if (!value) return value.error();
   const auto target = find_target(document, key);
   if (!target) return target.error();

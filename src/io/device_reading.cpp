@@ -35,25 +35,40 @@ std::string parent(const std::string& key) {
 
 }  // namespace
 
-void DeviceReading::refuse(const toml::source_region& place, std::string key, std::string what, std::string allowed) {
-  if (error_) return;
-  const bool overridden = place.path && *place.path == override_source;
-  error_ = {.source = overridden ? std::string(override_source) : source_,
-            .line = overridden ? 0 : std::max<std::size_t>(1, place.begin.line),
-            .column = overridden ? 0 : std::max<std::size_t>(1, place.begin.column),
-            .key = std::move(key),
-            .what = std::move(what),
-            .allowed = std::move(allowed)};
+void DeviceReading::refuse(const toml::source_region& place, const std::string& key, std::string what,
+                           std::string allowed, std::optional<std::string> suggestion) {
+  constexpr std::size_t most = 100;
+  for (std::string above = key; !above.empty(); above = parent(above)) {
+    if (left_.contains(above)) return;
+  }
+  leave(key);
+  if (problems_.size() == most) return;
+  InputPlace where{source_, std::max<std::size_t>(1, place.begin.line), std::max<std::size_t>(1, place.begin.column),
+                   key, ""};
+  if (place.path && *place.path == override_source) where = {override_source, 0, 0, key, ""};
+  problems_.push_back({std::move(where), std::move(what), std::move(allowed), std::move(suggestion)});
+}
+
+InputError DeviceReading::error() const {
+  InputError first(problems_.front());
+  first.others.assign(problems_.begin() + 1, problems_.end());
+  return first;
 }
 
 void DeviceReading::refuse(const DeviceProblem& problem) {
-  std::string key = problem.key;
+  constexpr std::string_view mass = "mass";
+  std::string named = problem.key;
+  if (named.ends_with(mass) && !places_.contains(named)) {
+    const std::string alias = named.substr(0, named.size() - mass.size()) + "inertia";
+    if (places_.contains(alias)) named = alias;
+  }
+  std::string key = named;
   auto found = places_.find(key);
   while (found == places_.end() && !key.empty()) {
     key = parent(key);
     found = places_.find(key);
   }
-  refuse(found == places_.end() ? toml::source_region{} : found->second, problem.key, problem.what, problem.allowed);
+  refuse(found == places_.end() ? toml::source_region{} : found->second, named, problem.what, problem.allowed);
 }
 
 TableReader::TableReader(DeviceReading& reading, const toml::table& table, std::string key)
@@ -64,6 +79,7 @@ TableReader::TableReader(DeviceReading& reading, const toml::table& table, std::
 void TableReader::refuse_keys_not_of(DeviceTable kind) {
   for (const auto& [name, node] : table_) {
     if (is_key_of(kind, name.str())) continue;
+    has_unknown_key_ = true;
     const std::string shown = shortened(name.str());
     reading_.refuse(name.source(), full_key(shown), fmt::format("unknown key \"{}\"", shown),
                     remedy_for_unknown_key(kind, name.str()));
@@ -73,6 +89,7 @@ void TableReader::refuse_keys_not_of(DeviceTable kind) {
 void TableReader::refuse_keys_not_in(std::span<const std::string> keys) {
   for (const auto& [name, node] : table_) {
     if (std::ranges::find(keys, name.str()) != keys.end()) continue;
+    has_unknown_key_ = true;
     const std::string shown = shortened(name.str());
     const std::string meant = nearest_word(name.str(), keys);
     reading_.refuse(
@@ -96,9 +113,16 @@ const toml::node* TableReader::find(std::string_view key) {
   return node;
 }
 
-void TableReader::refuse(std::string_view key, std::string what, std::string allowed) {
+void TableReader::refuse(std::string_view key, std::string what, std::string allowed,
+                         std::optional<std::string> suggestion) {
   const toml::node* node = table_.get(key);
-  reading_.refuse(node ? node->source() : table_.source(), full_key(key), std::move(what), std::move(allowed));
+  reading_.refuse(node ? node->source() : table_.source(), full_key(key), std::move(what), std::move(allowed),
+                  std::move(suggestion));
+}
+
+void TableReader::refuse_missing(std::string_view key, std::string allowed) {
+  if (has_unknown_key_) return leave(key);
+  refuse(key, "is missing", std::move(allowed));
 }
 
 void TableReader::refuse_type(const toml::node& node, std::string_view key, std::string_view allowed) {
@@ -119,12 +143,13 @@ std::optional<double> TableReader::number_of(const toml::node& node, std::string
   }
   auto value = number_with_unit(node.as_string()->get(), *measure, reading_.motion());
   if (value) return *value;
-  reading_.refuse(node.source(), full_key(key), std::move(value.error().what), std::move(value.error().allowed));
+  reading_.refuse(node.source(), full_key(key), std::move(value.error().what), std::move(value.error().allowed),
+                  std::move(value.error().suggestion));
   return std::nullopt;
 }
 
 double TableReader::required_positive_number(std::string_view key, Measure measure) {
-  if (!has(key)) refuse(key, "is missing", "must be given as a number > 0");
+  if (!has(key)) refuse_missing(key, "must be given as a number > 0");
   return number(key, measure).value_or(0.0);
 }
 
@@ -142,7 +167,7 @@ std::optional<std::string> TableReader::text(std::string_view key) {
 const toml::array* TableReader::required_array(std::string_view key, std::string_view allowed) {
   const toml::node* node = find(key);
   if (!node) {
-    refuse(key, "is missing", fmt::format("must be given as {}", allowed));
+    refuse_missing(key, fmt::format("must be given as {}", allowed));
     return nullptr;
   }
   if (!node->is_array()) refuse_type(*node, key, fmt::format("must be {}", allowed));

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@
 
 namespace zwidth::internal {
 
-/// One reading of a device file: the first thing wrong with it, and where each of its keys stands.
+/// One reading of a device file: what is wrong with it, and where each of its keys stands.
 ///
 /// Reading goes on after a refusal (its result is thrown away), so that readers need no error path of their own.
 class DeviceReading {
@@ -25,20 +26,27 @@ class DeviceReading {
   void set_motion(Motion motion) { motion_ = motion; }
   [[nodiscard]] Motion motion() const { return motion_; }
 
-  /// Keeps the first refusal only.
-  void refuse(const toml::source_region& place, std::string key, std::string what, std::string allowed);
+  /// Keeps the first refusal of every key, and none of a key below one that is refused: it would follow from that.
+  void refuse(const toml::source_region& place, const std::string& key, std::string what, std::string allowed,
+              std::optional<std::string> suggestion = std::nullopt);
+  /// Nothing is refused of the key any more: what is wrong with it follows from another refusal.
+  void leave(const std::string& key) { left_.insert(key); }
   void note_place(const std::string& key, const toml::source_region& place) { places_.emplace(key, place); }
 
   /// Refuses what find_problem() found, at the place of its key or of the table that lacks it.
   void refuse(const DeviceProblem& problem);
 
-  [[nodiscard]] const std::optional<InputError>& error() const noexcept { return error_; }
+  [[nodiscard]] bool passed() const noexcept { return problems_.empty(); }
+  [[nodiscard]] std::size_t count() const noexcept { return problems_.size(); }
+  /// All that is refused, in the order of reading. Requires that something is.
+  [[nodiscard]] InputError error() const;
 
  private:
   std::string source_;
   Motion motion_ = Motion::linear;
   std::map<std::string, toml::source_region> places_;
-  std::optional<InputError> error_;
+  std::set<std::string> left_;
+  std::vector<InputProblem> problems_;
 };
 
 /// Typed access to the keys of one table; what is not as it must be is refused in the reading.
@@ -75,7 +83,13 @@ class TableReader {
   [[nodiscard]] const toml::table* table(std::string_view name, std::string_view header);
   [[nodiscard]] std::vector<const toml::table*> tables(std::string_view name, std::string_view header);
 
-  void refuse(std::string_view key, std::string what, std::string allowed);
+  void refuse(std::string_view key, std::string what, std::string allowed,
+              std::optional<std::string> suggestion = std::nullopt);
+  /// "is missing"; not beside an unknown key, which may be the one that is missed.
+  void refuse_missing(std::string_view key, std::string allowed);
+  /// Nothing is refused of the key, or of the whole table, any more.
+  void leave(std::string_view key) { reading_.leave(full_key(key)); }
+  void leave() { reading_.leave(key_); }
 
  private:
   [[nodiscard]] const toml::node* find(std::string_view key);
@@ -90,6 +104,7 @@ class TableReader {
   DeviceReading& reading_;
   const toml::table& table_;
   std::string key_;
+  bool has_unknown_key_ = false;
 };
 
 }  // namespace zwidth::internal

@@ -26,7 +26,7 @@ std::vector<std::string> listed_values(std::string_view text) {
 }
 
 InputError variants_refusal(std::string key, std::string what, std::string allowed) {
-  return {.source = override_source, .key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)};
+  return {override_source, 0, 0, std::move(key), std::move(what), std::move(allowed)};
 }
 
 }  // namespace

@@ -7,15 +7,24 @@
 namespace zwidth {
 using namespace internal;
 
-std::string InputError::str() const {
-  std::string line_of_text = source;
-  if (line > 0) line_of_text += fmt::format(":{}:{}", line, column);
-  line_of_text += ": ";
-  if (!key.empty()) line_of_text += key + ": ";
-  line_of_text += what;
-  if (!allowed.empty()) line_of_text += "; " + allowed;
+std::string InputProblem::str() const {
+  std::string text;
+  const auto put = [&text](const std::string& part) {
+    if (!part.empty()) text += part + ": ";
+  };
+  put(place.option);
+  put(place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file);
+  put(place.key);
+  text += what;
+  if (!allowed.empty()) text += "; " + allowed;
   // Names come from the file: nothing in them may break the line or reach the terminal as a control sequence.
-  return without_controls(line_of_text);
+  return without_controls(text);
+}
+
+std::vector<InputProblem> InputError::problems() const {
+  std::vector<InputProblem> all{*this};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
 }
 
 }  // namespace zwidth

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "io/number_cell.hpp"
 #include "io/toml_text.hpp"
 #include "io/unit_system.hpp"
 #include "zwidth/io/message_words.hpp"
@@ -60,12 +63,6 @@ struct Parts {
   std::string_view unit;
 };
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string_view::npos ? std::string_view{}
-                                         : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
 tl::expected<Parts, UnitProblem> parts_of(std::string_view text, const std::string& allowed) {
   const UnitProblem no_number{fmt::format("is the text {}", in_quotes(text)), allowed};
   std::string_view rest = trimmed(text);
@@ -100,18 +97,20 @@ std::optional<double> factor_to(const std::string& unit, const MeasuredUnit& wan
   return unit_factor(unit, std::string(wanted.without));
 }
 
-/// A time that is given as its frequency, a step as counts per turn: what to write instead.
-std::optional<std::string> inverse_remedy(double number, const std::string& unit, Measure measure, Motion motion) {
+/// A time that is given as its frequency, a step as counts per turn: the value to write instead.
+std::optional<std::string> inverse_of(double number, const std::string& unit, Measure measure, Motion motion) {
   const double magnitude = std::abs(number);
   if (measure == Measure::time) {
     const auto factor = unit_factor(unit, "Hz");
     if (factor && magnitude > 0.0) {
       const double rate = number * *factor;
-      const std::string brief = fmt::format("{:.6g}", 1.0 / rate);
-      double read = 0.0;
-      std::from_chars(brief.data(), brief.data() + brief.size(), read);
-      const bool is_exact = read == 1.0 / rate;
-      return fmt::format("a period is 1/frequency: \"{}\"", is_exact ? brief + " s" : fmt::format("1 s/{:.10g}", rate));
+      for (const auto& [unit_of_time, scale] : {std::pair{"ms", 1000.0}, std::pair{"us", 1e6}}) {
+        const std::string brief = fmt::format("{:.6g}", scale / rate);
+        double read = 0.0;
+        std::from_chars(brief.data(), brief.data() + brief.size(), read);
+        if (read >= 1e-3 && read / scale == 1.0 / rate) return fmt::format("{} {}", brief, unit_of_time);
+      }
+      return fmt::format("1 s/{:.10g}", rate);
     }
   }
   const std::string per = motion == Motion::rotary ? "rad^-1" : "m^-1";
@@ -120,13 +119,56 @@ std::optional<std::string> inverse_remedy(double number, const std::string& unit
     if (factor && magnitude > 0.0) {
       const bool is_rotary = motion == Motion::rotary;
       const double counts = number * *factor * (is_rotary ? 2.0 * std::numbers::pi : 1e-3);
-      return fmt::format("a step is its inverse: \"1 {}/{:.10g}\"", is_rotary ? "turn" : "mm", counts);
+      return fmt::format("1 {}/{:.10g}", is_rotary ? "turn" : "mm", counts);
     }
   }
   return std::nullopt;
 }
 
+/// A unit of the measure whose factors stand without a space between them, with it: "g cm2" of "gcm2". Nothing where two
+/// readings differ.
+std::optional<std::string> separated_unit(const std::string& unit, const MeasuredUnit& wanted) {
+  constexpr std::size_t longest = 16;
+  if (unit.size() > longest) return std::nullopt;
+  std::optional<std::string> found;
+  std::optional<double> factor;
+  bool is_one = true;
+  const auto try_unit = [&](const std::string& candidate) {
+    const auto own = factor_to(candidate, wanted);
+    if (!own) return;
+    is_one = is_one && own == factor.value_or(*own);
+    if (!found) found = candidate, factor = own;
+  };
+  std::vector<std::size_t> gaps;  // between two letters
+  const auto is_letter_at = [&](std::size_t at) { return std::isalpha(static_cast<unsigned char>(unit[at])) != 0; };
+  for (std::size_t i = 1; i < unit.size(); ++i) {
+    if (is_letter_at(i - 1) && is_letter_at(i)) gaps.push_back(i);
+  }
+  for (const std::size_t gap : gaps) try_unit(std::string(unit).insert(gap, " "));
+  for (std::size_t i = 0; i < gaps.size() && !found; ++i) {
+    for (std::size_t k = i + 1; k < gaps.size(); ++k) {
+      try_unit(std::string(unit).insert(gaps[k], " ").insert(gaps[i], " "));
+    }
+  }
+  return is_one ? found : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<std::string> with_decimal_point(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos) return std::nullopt;
+  const auto is_digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+  std::size_t begin = comma;
+  while (begin > 0 && is_digit(begin - 1)) --begin;
+  std::size_t end = comma + 1;
+  while (is_digit(end)) ++end;
+  const bool is_zero = text.substr(begin, comma - begin) == "0";
+  if (begin == comma || end == comma + 1 || (end == comma + 4 && !is_zero)) return std::nullopt;
+  std::string point(text);
+  point[comma] = '.';
+  return point;
+}
 
 std::string_view si_unit(Measure measure, Motion motion) { return unit_of(measure, motion).si; }
 
@@ -169,19 +211,30 @@ tl::expected<double, UnitProblem> number_with_unit(std::string_view text, Measur
   if (parts->unit.empty()) return tl::unexpected(UnitProblem{fmt::format("{} has no unit", in_quotes(text)), allowed});
   if (parts->unit.front() == ',') {  // 0,01 or 1,000
     return tl::unexpected(UnitProblem{fmt::format("{} has a comma", in_quotes(text)),
-                                      "the decimal mark is a point, and nothing stands between thousands"});
+                                      "the decimal mark is a point, and nothing stands between thousands",
+                                      with_decimal_point(text)});
   }
   // A second number would multiply the first: "1 000 N/m" is refused.
   const bool begins_as_unit = std::string_view(".+-0123456789").find(parts->unit.front()) == std::string_view::npos;
   auto unit = begins_as_unit ? ascii_unit(parts->unit) : std::nullopt;
   if (unit && (unit->starts_with('/') || unit->starts_with('*'))) *unit = "1" + *unit;  // "1/4096 turn"
   if (!unit || !is_unit(*unit)) {
-    return tl::unexpected(UnitProblem{fmt::format("cannot read the unit {}", in_quotes(parts->unit)), allowed});
+    const UnitProblem unknown{fmt::format("cannot read the unit {}", in_quotes(parts->unit)), allowed};
+    const auto meant = unit ? separated_unit(*unit, wanted) : std::nullopt;
+    if (!meant) return tl::unexpected(unknown);
+    const auto number = trimmed(text.substr(0, static_cast<std::size_t>(parts->unit.data() - text.data())));
+    const std::string value = fmt::format("{} {}", number, *meant);
+    return tl::unexpected(UnitProblem{unknown.what, fmt::format("did you mean \"{}\"?", value), value});
   }
   const auto factor = factor_to(*unit, wanted);
   if (!factor) {
-    return tl::unexpected(UnitProblem{fmt::format("{} is no unit of {}", in_quotes(parts->unit), wanted.name),
-                                      inverse_remedy(parts->number, *unit, measure, motion).value_or(allowed)});
+    const std::string what = fmt::format("{} is no unit of {}", in_quotes(parts->unit), wanted.name);
+    const auto inverse = inverse_of(parts->number, *unit, measure, motion);
+    if (!inverse) return tl::unexpected(UnitProblem{what, allowed});
+    const bool is_time = measure == Measure::time;
+    return tl::unexpected(UnitProblem{
+        what, fmt::format("{}: \"{}\"", is_time ? "a period is 1/frequency" : "a step is its inverse", *inverse),
+        inverse});
   }
   const double value = scaled(parts->number, *factor);
   if (!std::isfinite(value)) {

@@ -97,7 +97,7 @@ class StudyReader {
     StudyParameter& one = study_.distributions.parameters.emplace_back();
     one.distribution = {.kind = Kind::normal, .centre = 1.0, .deviation = 1.0};
     one.key = reader.text("key").value_or("");
-    if (one.key.empty()) return reader.refuse("key", "is missing", "must be given, such as \"link.0.stiffness\"");
+    if (one.key.empty()) return reader.refuse_missing("key", "must be given, such as \"link.0.stiffness\"");
     const std::vector<std::string> known = parameter_keys(device_.parameters());
     if (std::ranges::find(known, full_parameter_key(device_.parameters(), one.key)) == known.end()) {
       const std::string meant = nearest_word(one.key, known);
@@ -116,7 +116,9 @@ class StudyReader {
     std::vector<std::string> allowed = {"key", "distribution"};
     allowed.insert(allowed.end(), keys->second.begin(), keys->second.end());
     reader.refuse_keys_not_in(allowed);
+    const std::size_t refused = reading_.count();
     one.distribution = read_distribution(reader, name, one.key);
+    if (reading_.count() > refused) return;  // its numbers are not those of the file
     if (const auto problem = find_problem(one.distribution)) {
       reader.refuse(key_of(problem->member, name), problem->what, problem->allowed);
     }
@@ -137,8 +139,7 @@ class StudyReader {
     const auto number = [&](std::string_view of) { return reader.number(of, measure); };
     const auto required = [&](std::string_view of, std::optional<double> otherwise) {
       const auto value = number(of);
-      if (!value && !otherwise && !reader.has(of))
-        reader.refuse(of, "is missing", "must be given: the device has none");
+      if (!value && !otherwise && !reader.has(of)) reader.refuse_missing(of, "must be given: the device has none");
       return value.value_or(otherwise.value_or(1.0));
     };
     Distribution result;
@@ -169,7 +170,7 @@ class StudyReader {
     if (name == "lognormal") {
       result = {.kind = Kind::lognormal, .centre = required("median", own), .deviation = 1.0};
       const auto deviation = reader.number("log_deviation");
-      if (!deviation) reader.refuse("log_deviation", "is missing", "must be the standard deviation of the logarithm");
+      if (!deviation) reader.refuse_missing("log_deviation", "must be the standard deviation of the logarithm");
       result.deviation = deviation.value_or(1.0);
     }
     if (name == "triangular") {
@@ -216,7 +217,7 @@ class StudyReader {
     const std::string name = reader.text("file").value_or("");
     Distribution empty{.kind = Kind::discrete, .values = {0.0}, .weights = {1.0}};
     if (name.empty()) {
-      reader.refuse("file", "is missing", "must be the name of a file of numbers, one per line, a weight beside it");
+      reader.refuse_missing("file", "must be the name of a file of numbers, one per line, a weight beside it");
       return empty;
     }
     if (!folder_) {
@@ -228,9 +229,8 @@ class StudyReader {
         read_study_samples((std::filesystem::path(*folder_) / name).string(), measure, device_.parameters().motion);
     if (samples) return *std::move(samples);
     const InputError& error = samples.error();
-    reader.refuse(
-        "file", fmt::format("{}{}: {}", error.source, error.line > 0 ? fmt::format(":{}", error.line) : "", error.what),
-        error.allowed);
+    const std::string line = error.place.line > 0 ? fmt::format(":{}", error.place.line) : "";
+    reader.refuse("file", fmt::format("{}{}: {}", error.place.file, line, error.what), error.allowed);
     return empty;
   }
 
@@ -295,10 +295,10 @@ tl::expected<StudyFile, InputError> parse_study(std::string_view text, std::stri
   DeviceReading reading(source);
   reading.set_motion(device.parameters().motion);
   StudyFile study = StudyReader(reading, *document, device, folder).read();
-  if (!reading.error()) {
+  if (reading.passed()) {
     if (const auto problem = find_problem(device, study.distributions)) reading.refuse(*problem);
   }
-  if (reading.error()) return tl::unexpected(*reading.error());
+  if (!reading.passed()) return tl::unexpected(reading.error());
   return study;
 }
 

@@ -18,6 +18,9 @@ inline constexpr std::string_view number_range =
 [[nodiscard]] tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::string_view source,
                                                                std::string_view of = "a device");
 
+/// A word, or a number and something of a unit: text that lacks its quotes.
+[[nodiscard]] bool is_bare_text(std::string_view text);
+
 /// The place of keys that an override adds.
 [[nodiscard]] toml::source_region override_region();
 

@@ -42,7 +42,7 @@ const std::vector<std::string>& keys_of_type(WallFilter::Kind kind) {
 
 std::optional<WallFilter::Kind> read_kind(TableReader& reader) {
   const std::string allowed = listed(type_names());
-  if (!reader.has("type")) reader.refuse("type", "is missing", "must be given as one of " + allowed);
+  if (!reader.has("type")) reader.refuse_missing("type", "must be given as one of " + allowed);
   const auto name = reader.text("type");
   if (!name) return std::nullopt;
   for (const WallFilter::Kind kind : all_kinds) {
@@ -50,7 +50,8 @@ std::optional<WallFilter::Kind> read_kind(TableReader& reader) {
   }
   const std::string meant = nearest_word(*name, type_names());
   reader.refuse("type", fmt::format("is {}", in_quotes(*name)),
-                meant.empty() ? "must be one of " + allowed : fmt::format("did you mean \"{}\"?", meant));
+                meant.empty() ? "must be one of " + allowed : fmt::format("did you mean \"{}\"?", meant),
+                meant.empty() ? std::nullopt : std::optional(meant));
   return std::nullopt;
 }
 
@@ -82,7 +83,10 @@ WallFilter read_wall_filter(TableReader& reader) {
   WallFilter filter;
   reader.refuse_keys_not_of(DeviceTable::filter);
   const auto kind = read_kind(reader);
-  if (!kind) return filter;
+  if (!kind) {
+    reader.leave();  // what its other numbers are depends on it
+    return filter;
+  }
   filter.kind = *kind;
   refuse_keys_of_other_types(reader, *kind);
   switch (*kind) {

@@ -28,17 +28,19 @@ std::string sane_sizes(std::string_view alternative) {
 }
 
 std::string body_key(const DeviceParameters& parameters, std::size_t body) {
-  return "body." + parameters.bodies[body].name;
+  const std::string& name = parameters.bodies[body].name;
+  return name.empty() ? fmt::format("body.{}", body) : "body." + name;
 }
 
-/// Keeps the first problem found; later checks are then without effect.
+/// Keeps the first problem of every key.
 class Checks {
  public:
-  [[nodiscard]] std::optional<DeviceProblem> first_problem() && { return std::move(problem_); }
-  [[nodiscard]] bool passed() const { return !problem_; }
+  [[nodiscard]] std::vector<DeviceProblem> problems() && { return std::move(problems_); }
+  [[nodiscard]] bool passed() const { return problems_.empty(); }
 
   void refuse(std::string key, std::string what, std::string allowed) {
-    if (!problem_) problem_ = {std::move(key), std::move(what), std::move(allowed)};
+    if (std::ranges::find(problems_, key, &DeviceProblem::key) != problems_.end()) return;
+    problems_.push_back({std::move(key), std::move(what), std::move(allowed)});
   }
 
   void positive(std::string_view table, std::string_view member, double value) {
@@ -64,7 +66,7 @@ class Checks {
   }
 
  private:
-  std::optional<DeviceProblem> problem_;
+  std::vector<DeviceProblem> problems_;
 };
 
 void check_bodies(const DeviceParameters& parameters, Checks& checks) {
@@ -117,7 +119,7 @@ void check_links(const DeviceParameters& parameters, Checks& checks) {
   }
 }
 
-void check_connected(const DeviceParameters& parameters, Checks& checks) {
+std::optional<DeviceProblem> find_loose_body(const DeviceParameters& parameters) {
   // Spreads from body 0 along the links; each pass reaches at least one further body or is the last.
   std::vector<bool> reached(parameters.bodies.size(), false);
   reached[0] = true;
@@ -131,14 +133,14 @@ void check_connected(const DeviceParameters& parameters, Checks& checks) {
     }
   }
   const auto loose = std::ranges::find(reached, false);
-  if (loose == reached.end()) return;
+  if (loose == reached.end()) return std::nullopt;
   const auto index = static_cast<std::size_t>(loose - reached.begin());
   const bool has_link = std::ranges::any_of(
       parameters.links, [index](const Link& link) { return link.first == index || link.second == index; });
-  checks.refuse(
+  return DeviceProblem{
       body_key(parameters, index),
       has_link ? fmt::format("is not connected to body \"{}\"", parameters.bodies[0].name) : "is tied to nothing",
-      "must be connected to every other body through [[link]]s");
+      "must be connected to every other body through [[link]]s"};
 }
 
 void check_coefficients(const std::string& key, const std::vector<double>& coefficients, Checks& checks) {
@@ -207,7 +209,7 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
   }
   checks.positive("loop", "sampling_period", loop.sampling_period);
   checks.not_negative("loop", "delay", loop.delay);
-  if (checks.passed() && loop.delay > max_delay_samples * loop.sampling_period) {
+  if (is_of_sane_size(loop.sampling_period) && loop.delay > max_delay_samples * loop.sampling_period) {
     checks.refuse("loop.delay",
                   fmt::format("is {} s, {:.6g} sampling periods", loop.delay, loop.delay / loop.sampling_period),
                   fmt::format("must be at most {} sampling periods", max_delay_samples));
@@ -219,8 +221,10 @@ void check_filters(const DeviceParameters& parameters, Checks& checks) {
   if (filters.size() > max_wall_filters) {
     checks.refuse("wall.filter", fmt::format("stands {} times", filters.size()),
                   fmt::format("must be at most {} filters", max_wall_filters));
+    return;
   }
-  for (std::size_t i = 0; i < filters.size() && checks.passed(); ++i) {
+  if (!is_of_sane_size(parameters.loop.sampling_period)) return;  // their frequencies stand beside it
+  for (std::size_t i = 0; i < filters.size(); ++i) {
     const auto problem = find_problem(filters[i], parameters.loop.sampling_period);
     if (problem) checks.refuse(fmt::format("wall.filter.{}.{}", i, problem->member), problem->what, problem->allowed);
   }
@@ -266,7 +270,7 @@ void check_surroundings(const DeviceParameters& parameters, Checks& checks) {
 
 }  // namespace
 
-std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
+std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameters) {
   Checks checks;
   checks.name("name", parameters.name);
   if (parameters.transfer_function) {
@@ -274,20 +278,31 @@ std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
   } else if (parameters.bodies.empty()) {
     checks.refuse("body", "is missing: the device has no [[body]] and no [transfer_function]",
                   "must be one or more bodies, or a transfer function");
+    return std::move(checks).problems();
   } else {
     check_bodies(parameters, checks);
     check_links(parameters, checks);
-    if (checks.passed()) check_connected(parameters, checks);
   }
   check_loop(parameters, checks);
   check_surroundings(parameters, checks);
-  if (checks.passed() && parameters.uncertainty) return find_uncertainty_problem(parameters);
-  return std::move(checks).first_problem();
+  return std::move(checks).problems();
+}
+
+std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
+  std::vector<DeviceProblem> problems = find_value_problems(parameters);
+  if (!problems.empty()) return std::move(problems.front());
+  if (!parameters.transfer_function) {
+    if (auto problem = find_loose_body(parameters)) return problem;
+  }
+  return parameters.uncertainty ? find_uncertainty_problem(parameters) : std::nullopt;
 }
 
 Device::Device(DeviceParameters parameters) : parameters_(std::move(parameters)) {
   if (const auto problem = find_problem(parameters_)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
+    InputProblem told{{}, problem->what, problem->allowed, {}};
+    told.place.key = problem->key;
+    throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed),
+                {std::move(told)});
   }
 }
 

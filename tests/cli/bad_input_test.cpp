@@ -136,6 +136,17 @@ TEST_F(BadInput, EveryBadFileIsNamedAndNothingIsComputed) {
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 2);
 }
 
+TEST_F(BadInput, EveryProblemOfAFileHasALineOfItsOwn) {
+  write("device.toml", "[[body]]\nname = \"a\"\nmass = -1\ndamping = \"5 kg\"\n[loop]\nsampling_period = \"2 kHz\"\n");
+  const Outcome outcome = run("zwidth analyze --json device.toml");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.output, IsEmpty());
+  for (const char* place : {"3:8: body.a.mass: ", "4:11: body.a.damping: ", "6:19: loop.sampling_period: "}) {
+    EXPECT_THAT("\n" + outcome.errors, HasSubstr(std::string("\nzwidth: device.toml:") + place));
+  }
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 3) << outcome.errors;
+}
+
 TEST_F(BadInput, FilesToWriteThatCannotBe) {
   const std::string analyze = "zwidth analyze devices/lhifam.toml ";
   const std::string study = "zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 1 ";

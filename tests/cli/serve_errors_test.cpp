@@ -163,6 +163,45 @@ TEST_F(ServedErrors, AnErrorSaysWhatWasGivenAndWhatIsAllowed) {
   EXPECT_FALSE(json::parse(of_json.body).at("error").contains("line")) << of_json.body;
 }
 
+TEST_F(ServedErrors, AnErrorHasItsPlaceAndAllProblemsAsFields) {
+  const auto error_of = [&](const std::string& command, const json& options, const std::string& text) {
+    const HttpAnswer answer = post(command, json{{"device_toml", text}, {"options", options}}.dump());
+    EXPECT_EQ(answer.status, 400);
+    return json::parse(answer.body).at("error");
+  };
+  const std::string text =
+      "[[body]]\nname = \"a\"\nmass = -1\ndamping = \"5 Ns/m\"\n[loop]\nsampling_period = \"2 kHz\"\n";
+  const json error = error_of("analyze", json::object(), text);
+  ASSERT_EQ(error.at("problems").size(), 3U) << error;
+  const auto field = [&](std::size_t i, const char* name) { return error.at("problems").at(i).at(name); };
+  const auto place = [](int line, int column, const char* key) {
+    return json{{"file", "device"}, {"line", line}, {"column", column}, {"key", key}, {"option", nullptr}};
+  };
+  EXPECT_EQ(field(0, "place"), place(4, 11, "body.a.damping"));
+  EXPECT_EQ(field(0, "suggestion"), "5 N s/m");
+  EXPECT_EQ(field(1, "place"), place(6, 19, "loop.sampling_period"));
+  EXPECT_EQ(field(1, "suggestion"), "0.5 ms");
+  EXPECT_EQ(field(2, "place"), place(3, 8, "body.a.mass"));
+  EXPECT_EQ(field(2, "suggestion"), nullptr);
+  EXPECT_EQ(field(2, "where"), "device.body.a.mass");
+  for (const char* name : {"where", "what", "allowed", "place", "suggestion"})
+    EXPECT_EQ(error.at(name), field(0, name));
+  // Of an option, and of a key that is overridden: there is no line.
+  const std::string device = contents("devices/lhifam.toml");
+  json other = error_of("simulate", {{"contact", "bilaterl"}}, device);
+  EXPECT_EQ(other.at("place").at("option"), "contact") << other;
+  EXPECT_EQ(other.at("suggestion"), "bilateral") << other;
+  other = error_of("analyze", {{"set", "loop.delay=2 kHz"}}, device);
+  EXPECT_EQ(other.at("where"), "device.loop.delay") << other;
+  EXPECT_EQ(
+      other.at("place"),
+      (json{{"file", "device"}, {"line", nullptr}, {"column", nullptr}, {"key", "loop.delay"}, {"option", nullptr}}));
+  EXPECT_EQ(other.at("suggestion"), "0.5 ms") << other;
+  other = error_of("relay", {{"amplitude", 5}, {"variation", "0,25"}}, device);
+  EXPECT_EQ(other.at("place").at("option"), "variation") << other;
+  EXPECT_EQ(other.at("suggestion"), "0.25") << other;
+}
+
 // Another reader may take the first of two, ours would take the last.
 TEST_F(ServedErrors, AKeyThatIsGivenTwiceIsRefusedWithItsPlace) {
   for (const auto& [place, document] : std::vector<std::pair<std::string, std::string>>{

@@ -72,7 +72,7 @@ TEST_F(CodesysTrace, TheFlagsSayTheUnitOfTime) {
   rate.rate = 500.0;
   EXPECT_NEAR(period("0", rate), 2e-3, 1e-15);
   const auto refused = read(two_variables("0"), columns_named({"PLC_PRG.F"}));
-  EXPECT_EQ(refused.error().key, "Flags");
+  EXPECT_EQ(refused.error().place.key, "Flags");
 }
 
 TEST_F(CodesysTrace, ListsVariablesBeforeTheirTimes) {
@@ -100,14 +100,14 @@ TEST_F(CodesysTrace, RefusesARowThatOneVariableLacks) {
                                   variable(1, "x", "; 2; 10\n; 6; 30\n; 8; 40\n"),
                               columns_named({"F", "x"}));
   ASSERT_FALSE(recording.has_value());
-  EXPECT_EQ(recording.error().line, 32U);  // x at 6 ms
-  EXPECT_EQ(recording.error().key, "x");
+  EXPECT_EQ(recording.error().place.line, 32U);  // x at 6 ms
+  EXPECT_EQ(recording.error().place.key, "x");
 }
 
 TEST_F(CodesysTrace, RefusesDamageWithItsLine) {
   const auto line = [&](const std::string& text, const std::string& asked = "F") {
     const auto recording = read(text, columns_named({asked}));
-    return recording ? 0U : recording.error().line;
+    return recording ? 0U : recording.error().place.line;
   };
   const std::string header = trace_header("16");  // 10 lines
   const auto block = [&](std::string_view samples) { return header + variable(0, "F", samples); };

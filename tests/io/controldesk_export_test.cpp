@@ -63,7 +63,7 @@ TEST_F(ControldeskExport, SectionsHaveTimesOfTheirOwn) {
   EXPECT_EQ(recording->channels[1].samples, (Samples{7.0, 8.0}));
   const auto slow = read(two_sections("trace_values,0.0,7\n,0.002,8\n"), columns_named({"F", "x"}));
   ASSERT_FALSE(slow.has_value());
-  EXPECT_EQ(slow.error().line, 10U);
+  EXPECT_EQ(slow.error().place.line, 10U);
 }
 
 TEST_F(ControldeskExport, LeavesOutALastRowThatIsCutOff) {
@@ -76,7 +76,7 @@ TEST_F(ControldeskExport, LeavesOutALastRowThatIsCutOff) {
 TEST_F(ControldeskExport, RefusesDamageWithItsLine) {
   const auto line = [&](const std::string& text, const std::string& asked = "F") {
     const auto recording = read(text, columns_named({asked}));
-    return recording ? 0U : recording.error().line;
+    return recording ? 0U : recording.error().place.line;
   };
   const std::string good = with_points();  // 8 lines
   EXPECT_EQ(line(good + ",0.003,4\n,0.004,5,6\n"), 9U);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "io/device_texts.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -107,7 +108,7 @@ const BadText texts[] = {
     {"temperature", body("damping = \"5 N s/m @ 3\""),
      "4:11: body.a.damping: cannot read the unit \"N s/m @ 3\"; " + a_damping},
     {"period_as_a_frequency", body("") + "[loop]\nsampling_period = \"2.5 kHz\"\n",
-     "6:19: loop.sampling_period: \"kHz\" is no unit of a time; a period is 1/frequency: \"0.0004 s\""},
+     "6:19: loop.sampling_period: \"kHz\" is no unit of a time; a period is 1/frequency: \"0.4 ms\""},
     {"counts_as_a_step", "motion = \"rotary\"\n" + body("") + loop() + "[sensor]\nresolution = \"4096 counts/turn\"\n",
      "10:14: sensor.resolution: \"counts/turn\" is no unit of an angle; a step is its inverse: \"1 turn/4096\""},
     {"counts_as_a_linear_step", body("") + loop() + "[sensor]\nresolution = \"200 counts/mm\"\n",
@@ -231,6 +232,111 @@ const BadText texts[] = {
 
 INSTANTIATE_TEST_SUITE_P(DeviceFile, RefusedText, testing::ValuesIn(texts),
                          [](const auto& test) { return test.param.name; });
+
+struct Slip {
+  std::string name;
+  std::string text;
+  std::size_t line = 0;
+  std::size_t column = 0;
+  std::string key;
+  std::string suggestion;  // empty: none
+};
+
+class SlipOfWriting : public testing::TestWithParam<Slip> {};
+
+TEST_P(SlipOfWriting, IsAnsweredWithTheValueToPut) {
+  const auto device = parse_device(GetParam().text, "f.toml");
+  ASSERT_FALSE(device.has_value());
+  const InputError& error = device.error();
+  EXPECT_EQ(error.place.file, "f.toml");
+  EXPECT_EQ(error.place.line, GetParam().line) << error.str();
+  EXPECT_EQ(error.place.column, GetParam().column) << error.str();
+  EXPECT_EQ(error.place.key, GetParam().key) << error.str();
+  EXPECT_EQ(error.suggestion.value_or(""), GetParam().suggestion) << error.str();
+  EXPECT_TRUE(error.others.empty()) << error.others.front().str();
+}
+
+const std::string rotary = "motion = \"rotary\"\n";
+std::string body_of(const std::string& mass) { return "[[body]]\nname = \"a\"\nmass = " + mass + "\n"; }
+
+const Slip slips[] = {
+    {"unit_without_quotes", body("") + loop("delay = 0.5 ms  # more"), 7, 9, "loop.delay", "0.5 ms"},
+    {"frequency_without_quotes", body("") + "[loop]\nsampling_period = 2 kHz\n", 6, 19, "loop.sampling_period",
+     "0.5 ms"},
+    {"word_without_quotes", body("") + loop("sensed = a"), 7, 10, "loop.sensed", "a"},
+    {"decimal_comma", body_of("0,5") + loop(), 3, 8, "body.a.mass", "0.5"},
+    {"decimal_comma_with_unit", body_of("0,5 kg") + loop(), 3, 8, "body.a.mass", "0.5 kg"},
+    {"decimal_comma_in_quotes", body_of("\"0,5 kg\"") + loop(), 3, 8, "body.a.mass", "0.5 kg"},
+    {"thousands_or_thousandths", body_of("1,000") + loop(), 3, 8, "body.a.mass", ""},
+    {"second_body", body("") + "[[body]]\nmass = 0,25\n" + loop(), 6, 8, "body.1.mass", "0.25"},
+    {"gram_square_centimetre", rotary + body_of("\"22 gcm2\"") + loop(), 4, 8, "body.a.mass", "22 g cm2"},
+    {"kilogram_square_metre", rotary + body_of("\"0.1 kgm2\"") + loop(), 4, 8, "body.a.mass", "0.1 kg m2"},
+    {"newton_second_metre", body("damping = \"5 Ns/m\"") + loop(), 4, 11, "body.a.damping", "5 N s/m"},
+    {"unit_that_is_none", body("damping = \"5 furlong\"") + loop(), 4, 11, "body.a.damping", ""},
+    {"frequency_for_a_period", body("") + "[loop]\nsampling_period = \"2 kHz\"\n", 6, 19, "loop.sampling_period",
+     "0.5 ms"},
+    {"counts_for_a_step", body("") + loop() + "[sensor]\nresolution = \"200 counts/mm\"\n", 9, 14, "sensor.resolution",
+     "1 mm/200"},
+    {"misspelt_body", two_body_text + "[wall]\nstiffness = 1\n[operator]\nmas = 1\n", 15, 1, "operator.mas", ""},
+    {"motion", "motion = \"Rotary\"\n" + body_of("\"22 g cm^2\"") + loop(), 1, 10, "motion", "rotary"},
+};
+
+INSTANTIATE_TEST_SUITE_P(DeviceFile, SlipOfWriting, testing::ValuesIn(slips),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(DeviceFile, ASuggestionTakenIsRead) {
+  const std::string text = rotary + body_of("\"22 gcm2\"") + "[loop]\nsampling_period = \"2 kHz\"\n";
+  const auto refused = parse_device(text, "f.toml");
+  ASSERT_FALSE(refused.has_value());
+  std::vector<std::string> taken;
+  for (const InputProblem& each : refused.error().problems()) {
+    taken.push_back(each.place.key + "=" + each.suggestion.value_or(""));
+  }
+  ASSERT_EQ(taken.size(), 2U);
+  const auto device = parse_device(text, "f.toml", taken);
+  ASSERT_TRUE(device.has_value()) << device.error().str();
+  EXPECT_EQ(device->bodies()[0].mass, 22e-7);
+  EXPECT_EQ(device->loop().sampling_period, 0.5e-3);
+}
+
+std::vector<std::string> refused_keys(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  std::vector<std::string> keys;
+  const auto device = parse_device(text, "f.toml", overrides);
+  if (device) return keys;
+  for (const InputProblem& each : device.error().problems()) keys.push_back(each.place.key);
+  return keys;
+}
+
+TEST(DeviceFile, EveryProblemIsToldOnceAndNoneThatFollowsFromIt) {
+  using Keys = std::vector<std::string>;
+  // Types, units and impossible values of one file together.
+  EXPECT_EQ(refused_keys("[[body]]\nname = \"a\"\nmass = -1\ndamping = true\nstiffness = \"5 kg\"\n[loop]\n"
+                         "sampling_period = 0\ndelay = -1\n[wall]\nstiffness = -2\n"),
+            (Keys{"body.a.damping", "body.a.stiffness", "body.a.mass", "loop.sampling_period", "loop.delay",
+                  "wall.stiffness"}));
+  // A key that is misspelt is not missed beside that; a missing one has no value to be impossible.
+  EXPECT_EQ(refused_keys("[[body]]\nname = \"a\"\nmas = 1\n" + loop()), Keys{"body.a.mas"});
+  EXPECT_EQ(refused_keys(body("") + "[lop]\nsampling_period = 1\n"), Keys{"lop"});
+  EXPECT_EQ(refused_keys("[[body]]\nname = \"a\"\n[[body]]\nmass = 1\n" + loop()),
+            (Keys{"body.a.mass", "body.1.name"}));
+  EXPECT_EQ(refused_keys(""), Keys{"body"});
+  // How the bodies hang together is judged where the links are read.
+  EXPECT_EQ(refused_keys(two_body_text + "[[link]]\nbetween = [\"motor\", \"hand\"]\nstiffness = \"x\"\n"),
+            (Keys{"link.1.between", "link.1.stiffness"}));
+  EXPECT_EQ(refused_keys(body("") + loop() + "[[wall.filter]]\ntype = \"nich\"\n"), Keys{"wall.filter.0.type"});
+  EXPECT_EQ(refused_keys(body("") + loop(), {"loop.dely=1", "loop.delay"}), (Keys{"loop.dely", ""}));
+  // No answer is longer than a screen or two.
+  std::string many = body("") + loop();
+  for (int i = 0; i < 5000; ++i) many += fmt::format("x{} = 1\n", i);
+  EXPECT_EQ(refused_keys(many).size(), 100U);
+}
+
+TEST(DeviceFile, AnInertiaIsRefusedByItsName) {
+  const auto device = parse_device(rotary + "[[body]]\nname = \"a\"\ninertia = -1\n" + loop(), "f.toml");
+  ASSERT_FALSE(device.has_value());
+  EXPECT_EQ(device.error().place.key, "body.a.inertia");
+  EXPECT_EQ(device.error().place.line, 4U);
+}
 
 TEST(DeviceFile, DeepKeysAreRefusedBeforeTheyNest) {
   std::string key = "a";

@@ -161,7 +161,7 @@ TEST(Overrides, LeaveErrorsOfTheFileToTheFile) {
   const std::vector<std::string> assignment{"wall.stiffness=3", "body.motor.mass=3"};
   const auto device = parse_device("wall = 3\nbody = 4\n", "f.toml", assignment);
   ASSERT_FALSE(device.has_value());
-  EXPECT_EQ(device.error().source, "f.toml");
+  EXPECT_EQ(device.error().place.file, "f.toml");
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ void expect_proper(const InputError& error) {
   const std::string message = error.str();
   EXPECT_FALSE(error.what.empty());
   EXPECT_EQ(message.find('\n'), std::string::npos);
-  EXPECT_TRUE(error.source == "an override" || error.line > 0) << message;
+  EXPECT_TRUE(error.place.file == "an override" || error.place.line > 0) << message;
 }
 
 TEST(DeviceReader, SurvivesDamagedFiles) {

@@ -124,7 +124,7 @@ TEST_F(LabviewMeasurement, RefusesSegmentsOfOtherColumns) {
       read(one_column() + "\n" + segment_header("", "10:45:48.5") + "X_Value\tF\ty\tComment\n0\t1\t2\n",
            columns_named({"F", "x"}));
   ASSERT_FALSE(recording.has_value());
-  EXPECT_EQ(recording.error().line, 37U);
+  EXPECT_EQ(recording.error().place.line, 37U);
 }
 
 // Rows beyond what the header states come from later writes, and nothing says when.
@@ -212,7 +212,7 @@ TEST_F(LabviewMeasurement, LeavesOutALastRowThatIsCutOff) {
 TEST_F(LabviewMeasurement, RefusesDamageWithItsLine) {
   const auto line = [&](const std::string& text) {
     const auto recording = read(text, columns_named({"F", "x"}));
-    return recording ? 0U : recording.error().line;
+    return recording ? 0U : recording.error().place.line;
   };
   const std::string good = one_column();  // 13 + 9 + 1 + 3 lines
   EXPECT_EQ(line(good + "0.003\ta\t2\n"), 27U);
@@ -225,7 +225,7 @@ TEST_F(LabviewMeasurement, RefusesDamageWithItsLine) {
   EXPECT_FALSE(read(file_header("One"), columns_named({"F"})).has_value());
   EXPECT_FALSE(read(file_header("One") + segment_header(""), columns_named({"F"})).has_value());
   EXPECT_FALSE(read("LabVIEW Measurement", columns_named({"F"})).has_value());
-  EXPECT_EQ(read(file_header("One", '!') + segment_header(""), columns_named({"F"})).error().line, 5U);
+  EXPECT_EQ(read(file_header("One", '!') + segment_header(""), columns_named({"F"})).error().place.line, 5U);
 }
 
 TEST_F(LabviewMeasurement, AnyBeginningIsReadOrRefused) {

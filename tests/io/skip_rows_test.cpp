@@ -38,7 +38,7 @@ TEST_F(SkippedRows, TheTableBeginsBelowThem) {
 TEST_F(SkippedRows, LinesKeepTheirNumbers) {
   const auto recording = read("a\nb\nt,F\n0,1\n1,b\n2,3\n", skipping(2, columns_named({"F"})));
   ASSERT_FALSE(recording.has_value());
-  EXPECT_EQ(recording.error().line, 5U);
+  EXPECT_EQ(recording.error().place.line, 5U);
 }
 
 TEST_F(SkippedRows, MoreThanTheFileHasAreRefused) {
@@ -66,7 +66,7 @@ std::string labelled(std::string_view label) {
 TEST_F(SkippedRows, ALineOfMetadataIsNoSample) {
   const auto recording = read(labelled(""), at_1_khz({"F", "x"}));
   ASSERT_FALSE(recording.has_value());
-  EXPECT_EQ(recording.error().line, 3U);
+  EXPECT_EQ(recording.error().place.line, 3U);
   EXPECT_NE(recording.error().allowed.find("`skip_rows` 4"), std::string::npos);
   const auto skipped = read(labelled(""), skipping(4, at_1_khz({"2", "3"})));
   ASSERT_TRUE(skipped.has_value()) << skipped.error().str();
@@ -77,7 +77,7 @@ TEST_F(SkippedRows, NorIsOneThatBeginsWithAnEmptyCell) {
   const std::string text = "t;F;x\ns;N;m\n;2;0,5\n0;1;2\n1;2;3\n2;3;4\n3;4;5\n";
   const auto recording = read(text, at_1_khz({"F", "x"}));
   ASSERT_FALSE(recording.has_value());
-  EXPECT_EQ(recording.error().line, 3U);
+  EXPECT_EQ(recording.error().place.line, 3U);
   EXPECT_NE(recording.error().allowed.find("`skip_rows` 3"), std::string::npos);
   // Where rows may begin with nothing, and where the number is missing elsewhere, it is one.
   EXPECT_TRUE(read("x;F\n;1\n1;2\n;3\n2;3\n;4\n", at_1_khz({"F"})).has_value());
@@ -119,7 +119,7 @@ TEST(ColumnsWithTimes, AreOneWhereStampsAreRoundedOtherwise) {
 TEST(ColumnsWithTimes, AreRefusedWhereTheyDiffer) {
   const auto refused = [](const Samples& times) {
     const auto recording = read_recording(two_clocks(times), columns_named({"F", "x"}));
-    return recording ? std::string() : recording.error().key;
+    return recording ? std::string() : recording.error().place.key;
   };
   EXPECT_EQ(refused({0.0005, 0.0015, 0.0025}), "x");          // between each other
   EXPECT_EQ(refused({0.0, 0.002}), "x");                      // another rate

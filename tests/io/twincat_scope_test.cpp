@@ -134,8 +134,8 @@ TEST_F(TwincatScope, ColumnsHaveTheirNumbersOfTheRow) {
 TEST_F(TwincatScope, RefusesChannelsOfOtherTimes) {
   const auto recording = read(twelve_channels('\t', ',', 40), columns_unscaled({"F", "ch 11"}));
   ASSERT_FALSE(recording.has_value());
-  EXPECT_EQ(recording.error().line, 22U);  // rows from line 21: the second stamp differs
-  EXPECT_EQ(recording.error().key, "ch 11");
+  EXPECT_EQ(recording.error().place.line, 22U);  // rows from line 21: the second stamp differs
+  EXPECT_EQ(recording.error().place.key, "ch 11");
   EXPECT_NE(recording.error().what.find("1000 Hz"), std::string::npos);
   EXPECT_NE(recording.error().what.find("500 Hz"), std::string::npos);
   const auto beside_a_rate = [&] {
@@ -270,7 +270,7 @@ TEST_F(TwincatScope, LeavesOutALastRowThatIsCutOff) {
 TEST_F(TwincatScope, RefusesDamageWithItsLine) {
   const auto line = [&](std::string_view rows) {
     const auto recording = read(shared_times(rows), columns_unscaled({"F", "x"}));
-    return recording ? 0U : recording.error().line;
+    return recording ? 0U : recording.error().place.line;
   };
   EXPECT_EQ(line("0\t1\t2\t0\t1\n1\t1\t2\t1\n2\t1\t2\t2\t1\n"), 12U);        // within a group
   EXPECT_EQ(line("0\t1\t2\t0\t1\n1\t1\t2\t1\t1\t1\n2\t1\t2\t2\t1\n"), 12U);  // too many

@@ -34,6 +34,21 @@ def test_the_place_of_what_is_wrong(tmp_path, lhifam):
     assert "body" in refusal(lambda: zwidth.Device(body=[{"name": "a", "mass": float("nan")}], loop={})).where
 
 
+def test_all_problems_of_a_device_with_what_to_write(lhifam):
+    text = "[[body]]\nname = 'a'\nmass = -1\ndamping = '5 Ns/m'\n[loop]\nsampling_period = '2 kHz'\n"
+    error = refusal(lambda: zwidth.Device.from_toml(text))
+    damping, period, mass = error.problems
+    assert damping.place == zwidth.Place("device", 4, 11, "body.a.damping") and damping.suggestion == "5 N s/m"
+    assert period.place == zwidth.Place("device", 6, 19, "loop.sampling_period") and period.suggestion == "0.5 ms"
+    assert mass.place == zwidth.Place("device", 3, 8, "body.a.mass") and mass.suggestion is None
+    assert (error.where, error.what, error.allowed) == (damping.where, damping.what, damping.allowed)
+    assert len(str(error).splitlines()) == 3
+    assert pickle.loads(pickle.dumps(error)).problems == error.problems
+    assert refusal(lambda: lhifam.with_(loop__delay="2 kHz")).problems[0].suggestion == "0.5 ms"
+    option = refusal(lambda: zwidth.diagnose(lhifam, oscillates_hz=-1)).problems[0]
+    assert option.place.option == "oscillates_hz" and option.where == "options.oscillates_hz"
+
+
 def test_options_are_called_as_in_python(lhifam):
     assert "give stiffness or safety_factor" in refusal(lambda: zwidth.export(lhifam, "c")).allowed
     assert refusal(lambda: zwidth.simulate(lhifam, duration="")).where == "options.duration"

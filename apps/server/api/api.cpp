@@ -51,13 +51,31 @@ std::string text_document(const std::string& text) {
   return results::line(document);
 }
 
+Json problem_json(const Problem& problem) {
+  const auto text = [](const std::string& given) { return given.empty() ? Json() : Json(given); };
+  const auto number = [](std::size_t given) { return given == 0 ? Json() : Json(given); };
+  const InputPlace& place = problem.place;
+  return {{"where", problem.where},
+          {"what", problem.what},
+          {"allowed", problem.allowed},
+          {"place",
+           {{"file", text(place.file)},
+            {"line", number(place.line)},
+            {"column", number(place.column)},
+            {"key", text(place.key)},
+            {"option", text(place.option)}}},
+          {"suggestion", problem.suggestion ? Json(*problem.suggestion) : Json()}};
+}
+
 }  // namespace
 
 std::string error_document(const Problem& problem) {
-  Json error{{"where", problem.where}, {"what", problem.what}, {"allowed", problem.allowed}};
-  if (problem.line > 0) {
-    error["line"] = problem.line;
-    error["column"] = problem.column;
+  Json error = problem_json(problem);
+  error["problems"] = Json::array({error});
+  for (const Problem& each : problem.others) error["problems"].push_back(problem_json(each));
+  if (problem.place.line > 0) {
+    error["line"] = problem.place.line;
+    error["column"] = problem.place.column;
   }
   return results::line({{"error", std::move(error)}});
 }
@@ -85,7 +103,11 @@ ApiAnswer Api::answer_recording(std::string_view body, const Progress& progress)
   RecordingOptions options;
   options.most_unpacked = recordings_.limits().unpacked;
   const auto contents = list_recording(stored.bytes->path(), options, progress);
-  if (!contents) return {400, error_document({"recording", contents.error().what, contents.error().allowed})};
+  if (!contents) {
+    InputProblem problem = contents.error();
+    problem.place.file = "recording";  // not where the system has its bytes
+    return {400, error_document({"recording", std::move(problem)})};
+  }
   return {200, contents_document(stored.id, stored.bytes->size(), *contents)};
 }
 

@@ -7,22 +7,28 @@
 #include <stdexcept>
 #include <string>
 #include <tl/expected.hpp>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "server/api/memory_file.hpp"
+#include "zwidth/input_problem.hpp"
 #include "zwidth/io/recorded_columns.hpp"
 #include "zwidth/progress.hpp"
 
 namespace zwidth::server {
 
-/// Why a request is not answered, and what would be.
-struct Problem {
-  std::string where;     ///< "options.points", "device.loop.delay"; empty where the work itself failed
-  std::string what;      ///< what is wrong
-  std::string allowed;   ///< what is allowed, or the remedy; may be empty
-  std::size_t line = 0;  ///< of the device file's text, from 1; 0: of none
-  std::size_t column = 0;
+/// Why a request is not answered, and what would be. In its place the device is called "device", and an option as who
+/// asked calls it; lines are those of a text that the request holds.
+struct Problem : InputProblem {
+  Problem(std::string place_in_request, std::string what_is_wrong, std::string what_is_allowed)
+      : InputProblem{{}, std::move(what_is_wrong), std::move(what_is_allowed), {}},
+        where(std::move(place_in_request)) {}
+  Problem(std::string place_in_request, InputProblem problem)
+      : InputProblem(std::move(problem)), where(std::move(place_in_request)) {}
+
+  std::string where;            ///< "options.points", "device.loop.delay"; empty where the work itself failed
+  std::vector<Problem> others;  ///< of the same input
 };
 
 /// A command of the program with what it works on.

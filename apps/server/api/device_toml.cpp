@@ -8,7 +8,7 @@ namespace {
 using results::Json;
 
 /// A value as TOML: JSON's texts and numbers are TOML's, an object is an inline table.
-void put_toml(std::string& toml, const std::string& where, const Json& value) {
+void put_toml(std::string& toml, const InputPlace& place, const Json& value) {
   const auto put_list = [&](char open, char close, const auto& put_item) {
     toml += open;
     for (auto item = value.begin(); item != value.end(); ++item) {
@@ -20,12 +20,15 @@ void put_toml(std::string& toml, const std::string& where, const Json& value) {
   if (value.is_object()) {
     put_list('{', '}', [&](const auto& item) {
       toml += Json(item.key()).dump() + " = ";
-      put_toml(toml, where + "." + item.key(), item.value());
+      InputPlace below = place;
+      below.key += "." + item.key();
+      put_toml(toml, below, item.value());
     });
   } else if (value.is_array()) {
-    put_list('[', ']', [&](const auto& item) { put_toml(toml, where, *item); });
+    put_list('[', ']', [&](const auto& item) { put_toml(toml, place, *item); });
   } else if (value.is_null()) {
-    throw Problem{where, "is null", "a value; leave out what is not there"};
+    throw Problem(place.file + "." + place.key,
+                  InputProblem{place, "is null", "a value; leave out what is not there", {}});
   } else {
     toml += value.dump();
   }
@@ -38,7 +41,7 @@ tl::expected<std::string, Problem> device_toml(const Json& device, const std::st
   std::string toml;
   for (const auto& [key, value] : device.items()) {
     toml += Json(key).dump() + " = ";
-    put_toml(toml, name + "." + key, value);
+    put_toml(toml, {name, 0, 0, key, ""}, value);
     toml += '\n';
   }
   return toml;

@@ -52,7 +52,7 @@ from ._core import (
     critical_damping,
     critical_stiffness,
 )
-from ._errors import DoubtfulResult, Error, InputError, ResultWarning, WorkFailed
+from ._errors import DoubtfulResult, Error, InputError, Place, Problem, ResultWarning, WorkFailed
 from ._record import Record, Result
 from ._device_results import (
     Analysis,
@@ -115,6 +115,8 @@ __all__ = [
     "Mode",
     "Model",
     "Notch",
+    "Place",
+    "Problem",
     "Record",
     "Recording",
     "Region",

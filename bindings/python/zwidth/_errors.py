@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from typing import Any, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Mapping, Optional, Sequence
 
 _PACKAGE = os.path.dirname(os.path.abspath(__file__))
 
@@ -14,18 +15,44 @@ class Error(Exception):
     """What zwidth raises."""
 
 
-class InputError(Error, ValueError):
-    """An input was refused: `where` it is, `what` is wrong, what is `allowed`."""
+@dataclass(frozen=True)
+class Place:
+    """Where a problem lies, as far as it is known."""
 
-    def __init__(self, where: str, what: str, allowed: str = "") -> None:
-        super().__init__(where, what, allowed)
-        self.where = where
-        self.what = what
-        self.allowed = allowed
+    file: Optional[str] = None
+    line: Optional[int] = None  #: from 1
+    column: Optional[int] = None  #: from 1, in bytes
+    key: Optional[str] = None  #: of the device file, or a recording's column
+    option: Optional[str] = None  #: as a keyword
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is wrong with an input, and what to write instead."""
+
+    where: str
+    what: str
+    allowed: str = ""
+    suggestion: Optional[str] = None  #: a value to put there, as `set` takes it
+    place: Place = Place()
 
     def __str__(self) -> str:
         text = f"{self.where}: {self.what}" if self.where else self.what
         return f"{text}; {self.allowed}" if self.allowed else text
+
+
+class InputError(Error, ValueError):
+    """An input was refused: `where` it is, `what` is wrong, what is `allowed`; `problems` are all of the same input."""
+
+    def __init__(self, where: str, what: str, allowed: str = "", problems: Sequence[Problem] = ()) -> None:
+        super().__init__(where, what, allowed)
+        self.where = where
+        self.what = what
+        self.allowed = allowed
+        self.problems = tuple(problems) or (Problem(where, what, allowed),)
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.problems))
 
 
 class WorkFailed(Error, RuntimeError):

@@ -2,22 +2,32 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "zwidth/input_problem.hpp"
 
 namespace zwidth {
 
-/// Source of what comes from an override, not from the device file.
+/// File of a place in an override, which is in no device file.
 inline constexpr const char* override_source = "an override";
 
-/// Where and why an input was refused. str() is one line: "FILE:LINE:COLUMN: key: what is wrong; what is allowed".
-struct InputError {
-  std::string source;      ///< file name, "standard input", or `override_source`
-  std::size_t line = 0;    ///< from 1; 0 where there is no line
-  std::size_t column = 0;  ///< from 1; 0 where there is none
-  std::string key;         ///< dotted key as in an override, or the name of a recording's column; may be empty
-  std::string what;        ///< what is wrong
-  std::string allowed;     ///< what is allowed, or the remedy, members of options in `backquotes`; may be empty
-  /// One line: "FILE:LINE:COLUMN: key: what is wrong; what is allowed".
-  [[nodiscard]] std::string str() const;
+/// Why an input was refused: the first problem, members of options in `backquotes` in its remedy, and the others of the
+/// same device file.
+struct InputError : InputProblem {
+  /// A file's only problem.
+  InputError(std::string file, std::size_t line, std::size_t column, std::string key, std::string what_is_wrong,
+             std::string what_is_allowed)
+      : InputProblem{{std::move(file), line, column, std::move(key), ""},
+                     std::move(what_is_wrong),
+                     std::move(what_is_allowed),
+                     std::nullopt} {}
+  /// The same, as it is.
+  explicit InputError(InputProblem problem) : InputProblem(std::move(problem)) {}
+  /// All problems of one file, in the order in which it is read.
+  [[nodiscard]] std::vector<InputProblem> problems() const;
+
+  std::vector<InputProblem> others;  ///< behind the first
 };
 
 }  // namespace zwidth

@@ -27,8 +27,9 @@ enum class Measure {
 
 /// Why a text is not a number with a unit of what is measured.
 struct UnitProblem {
-  std::string what;     ///< "\"kg\" is no unit of stiffness"
-  std::string allowed;  ///< "must be in N/m, such as \"5 kN/m\", or a number in N/m"
+  std::string what;                                      ///< "\"kg\" is no unit of stiffness"
+  std::string allowed;                                   ///< "must be in N/m, such as \"5 kN/m\", or a number in N/m"
+  std::optional<std::string> suggestion = std::nullopt;  ///< what was probably meant: "22 g cm2" of "22 gcm2"
 };
 
 /// The number in SI units (angles in radians, Measure::frequency_hz in Hz) that a text such as "22 kg cm^2" states.
@@ -39,6 +40,10 @@ struct UnitProblem {
 ///
 /// Requires a finite number and a unit of that measure: fails for any other text, whatever its bytes.
 [[nodiscard]] tl::expected<double, UnitProblem> number_with_unit(std::string_view text, Measure measure, Motion motion);
+
+/// A number with a comma for its decimal mark, and what is behind it, with a point: "0.5 kg" of "0,5 kg"; nothing where
+/// the comma may stand between thousands, and without one.
+[[nodiscard]] std::optional<std::string> with_decimal_point(std::string_view text);
 
 /// The SI unit of a plain number: "N m/rad"; empty for a ratio.
 [[nodiscard]] std::string_view si_unit(Measure measure, Motion motion);

@@ -115,6 +115,10 @@ inline constexpr double max_delay_samples = 10000;            ///< whole device:
 /// known, present and each once, their covariance square, symmetric and positive semidefinite.
 [[nodiscard]] std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters);
 
+/// The first problem of every key whose value is impossible, beside those of other keys: find_problem() without how the
+/// bodies are connected and what is uncertain.
+[[nodiscard]] std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameters);
+
 /// A haptic device and its sampled loop; valid once constructed.
 class Device {
  public:

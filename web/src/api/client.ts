@@ -1,26 +1,49 @@
 // One function from a request to a document. Every number on the page comes from here.
 
-interface Place {
-  line?: number
-  column?: number
+/** Where a problem lies, as far as it is known. */
+export interface Place {
+  file: string | null // "device", or a recording's name
+  line: number | null
+  column: number | null
+  key: string | null
+  option: string | null
+}
+/** What is wrong with an input, and what to write instead. */
+export interface Told {
+  where: string
+  what: string
+  allowed: string
+  place: Place
+  suggestion: string | null
+}
+const nowhere: Place = { file: null, line: null, column: null, key: null, option: null }
+const isOfDevice = (place: Place): boolean => place.file === 'device'
+
+function messageOf({ where, what, allowed, place }: Told): string {
+  const column = place.column === null ? '' : `, column ${place.column}`
+  const line = place.line === null ? '' : `Line ${place.line}${column} of ${isOfDevice(place) ? 'the device file' : 'the recording'}`
+  const name = line && !place.option && !(isOfDevice(place) && place.key) ? '' : where
+  return [line, name, what, allowed].filter(Boolean).join(': ')
 }
 
 /** Why there is no answer: bad input with its place, or a server that is busy or gone. */
 export class Problem extends Error {
+  /** The first of `problems`: all of the same input. */
   constructor(
     readonly where: string,
     readonly what: string,
     readonly allowed: string,
     readonly status: number,
-    given: Place = {},
+    readonly problems: Told[] = [{ where, what, allowed, place: nowhere, suggestion: null }],
   ) {
-    const [, text, textLine, textColumn] = /^(device|recording)\b(?::(\d+)(?::(\d+))?$)?/.exec(where) ?? []
-    const line = given.line ?? (textLine ? Number(textLine) : null)
-    const column = given.column ?? (textColumn ? Number(textColumn) : null)
-    const file = text === 'recording' ? 'the recording' : 'the device file'
-    const place = line === null ? '' : `Line ${line}${column === null ? '' : `, column ${column}`} of ${file}`
-    super([place, text && (textLine || (place && where === text)) ? '' : where, what, allowed].filter(Boolean).join(': '))
-    this.line = text === 'recording' ? null : line
+    const more = problems.length - 1
+    super(messageOf(problems[0]!) + (more > 0 ? `. And ${more} more` : ''))
+    const { place } = problems[0]!
+    this.line = isOfDevice(place) ? place.line : null
+  }
+  /** What is wrong with a key of the device file, where something is. */
+  ofKey(isIt: (key: string) => boolean): Told | undefined {
+    return this.problems.find(({ place }) => isOfDevice(place) && place.key !== null && isIt(place.key))
   }
   /** Not of the question: the server is gone or busy. */
   get isPassing(): boolean {
@@ -57,11 +80,11 @@ async function fetched(path: string, init: RequestInit): Promise<Response> {
 }
 
 interface Refused {
-  error?: Partial<Problem & Place>
+  error?: Partial<Told> & { problems?: Told[] }
 }
 const problemOf = (body: Refused | null, status: number): Problem => {
   const error = body?.error
-  return new Problem(error?.where ?? '', error?.what ?? `the server says ${status}`, error?.allowed ?? '', status, { line: error?.line ?? undefined, column: error?.column })
+  return new Problem(error?.where ?? '', error?.what ?? `the server says ${status}`, error?.allowed ?? '', status, error?.problems)
 }
 
 const wait = (ms: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, ms))

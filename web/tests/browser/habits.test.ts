@@ -223,7 +223,7 @@ it('types over what stands in a field, however one came there, and takes it back
 it('takes what the program says to write instead of a frequency and of counts', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
   await type(page, 'loop.sampling_period', '2 kHz')
-  await page.getByRole('button', { name: 'Take 0.0005 s' }).click()
+  await page.getByRole('button', { name: 'Take 0.5 ms' }).click()
   await runPalette(page, 'go to encoder step')
   await page.keyboard.type('200 counts/mm')
   await page.keyboard.press('Enter')

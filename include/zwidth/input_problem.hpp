@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace zwidth {
+
+/// Where a problem of the input lies, as far as it is known.
+struct InputPlace {
+  std::string file;        ///< file name, "standard input", or the name of what came in its place; may be empty
+  std::size_t line = 0;    ///< from 1; 0 where there is no line
+  std::size_t column = 0;  ///< from 1, in bytes; 0 where there is none
+  std::string key;         ///< dotted key as in an override, or the name of a recording's column; may be empty
+  std::string option;      ///< member of an options struct; in a front, its name for that: "--duration"; may be empty
+};
+
+/// What is wrong with an input, and what to write instead: the one form in which refusals travel.
+struct InputProblem {
+  InputPlace place;                       ///< where
+  std::string what;                       ///< what is wrong: "is -1"
+  std::string allowed;                    ///< what is allowed, or the remedy; may be empty
+  std::optional<std::string> suggestion;  ///< a value to put there, as an override takes it: "0.5 ms", "handle"
+
+  /// One line: "OPTION: FILE:LINE:COLUMN: KEY: WHAT; ALLOWED", as far as there is each.
+  [[nodiscard]] std::string str() const;
+};
+
+}  // namespace zwidth
