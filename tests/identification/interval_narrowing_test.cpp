@@ -8,6 +8,7 @@
 #include "identification/synthetic_response.hpp"
 #include "lhifam.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {
 namespace {
@@ -19,12 +20,12 @@ TEST(OpenInterval, IsOneOfMoreThanAFactorOfTwo) {
 }
 
 TEST(OpenInterval, IsNamedByItsFactorWhereItHasOne) {
-  EXPECT_EQ(internal::open_interval_reason({.lower = 100.0, .upper = 350.0}),
+  EXPECT_EQ(text(internal::interval_left_open({.lower = 100.0, .upper = 350.0})),
             "the data leave the critical stiffness open within a factor of 3.5; excite more strongly or for longer");
   EXPECT_EQ(
-      internal::open_interval_reason({.lower = 1e-27, .upper = 350.0}),
+      text(internal::interval_left_open({.lower = 1e-27, .upper = 350.0})),
       "the data leave the critical stiffness open by more than a factor of 1000; excite more strongly or for longer");
-  EXPECT_EQ(internal::open_interval_reason({.lower = 0.0, .upper = 350.0}),
+  EXPECT_EQ(text(internal::interval_left_open({.lower = 0.0, .upper = 350.0})),
             "the data leave the critical stiffness open down to 0, where not even the softest wall is stable; "
             "excite more strongly or for longer");
 }

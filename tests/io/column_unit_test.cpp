@@ -93,11 +93,12 @@ TEST(ColumnUnit, NothingForSure) {
 
 TEST(ColumnUnit, ThatIsNotUnderstoodIsDoubtful) {
   // whatever else is said of a few samples
-  const auto doubted = [](StatedQuantity of_force, StatedQuantity of_motion, const std::string& doubt = "") {
+  const auto doubted = [](StatedQuantity of_force, StatedQuantity of_motion, bool doubts_rate = false) {
     Recording recording{"", 1e-3, {{"force", {}}, {"position", {}}}, {}};
     recording.channels[0].quantity = of_force;
     recording.channels[1].quantity = of_motion;
-    if (!doubt.empty()) recording.doubts.push_back(doubt);
+    if (doubts_rate)
+      recording.doubts.push_back({.code = FindingCode::stated, .subjects = {{"reason", "the rate by its name"}}});
     for (std::size_t k = 0; k < 4096; ++k) {
       const double sign = (k / 7 + k * k / 50) % 2 == 0 ? 1.0 : -1.0;
       const double last =
@@ -114,7 +115,7 @@ TEST(ColumnUnit, ThatIsNotUnderstoodIsDoubtful) {
   EXPECT_TRUE(doubted(other, position));
   EXPECT_TRUE(doubted(force, velocity));
   EXPECT_TRUE(doubted(position, force));
-  EXPECT_TRUE(doubted(nothing, nothing, "the rate by its name"));  // what was doubted as the file was read
+  EXPECT_TRUE(doubted(nothing, nothing, true));  // what was doubted as the file was read
 }
 
 }  // namespace

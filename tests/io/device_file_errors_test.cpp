@@ -256,7 +256,7 @@ TEST_P(SlipOfWriting, IsAnsweredWithTheValueToPut) {
   EXPECT_TRUE(error.others.empty()) << error.others.front().str();
 }
 
-const std::string rotary = "motion = \"rotary\"\n";
+const std::string of_rotary = "motion = \"rotary\"\n";
 std::string body_of(const std::string& mass) { return "[[body]]\nname = \"a\"\nmass = " + mass + "\n"; }
 
 const Slip slips[] = {
@@ -269,8 +269,8 @@ const Slip slips[] = {
     {"decimal_comma_in_quotes", body_of("\"0,5 kg\"") + loop(), 3, 8, "body.a.mass", "0.5 kg"},
     {"thousands_or_thousandths", body_of("1,000") + loop(), 3, 8, "body.a.mass", ""},
     {"second_body", body("") + "[[body]]\nmass = 0,25\n" + loop(), 6, 8, "body.1.mass", "0.25"},
-    {"gram_square_centimetre", rotary + body_of("\"22 gcm2\"") + loop(), 4, 8, "body.a.mass", "22 g cm2"},
-    {"kilogram_square_metre", rotary + body_of("\"0.1 kgm2\"") + loop(), 4, 8, "body.a.mass", "0.1 kg m2"},
+    {"gram_square_centimetre", of_rotary + body_of("\"22 gcm2\"") + loop(), 4, 8, "body.a.mass", "22 g cm2"},
+    {"kilogram_square_metre", of_rotary + body_of("\"0.1 kgm2\"") + loop(), 4, 8, "body.a.mass", "0.1 kg m2"},
     {"newton_second_metre", body("damping = \"5 Ns/m\"") + loop(), 4, 11, "body.a.damping", "5 N s/m"},
     {"unit_that_is_none", body("damping = \"5 furlong\"") + loop(), 4, 11, "body.a.damping", ""},
     {"frequency_for_a_period", body("") + "[loop]\nsampling_period = \"2 kHz\"\n", 6, 19, "loop.sampling_period",
@@ -285,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(DeviceFile, SlipOfWriting, testing::ValuesIn(slips),
                          [](const auto& test) { return test.param.name; });
 
 TEST(DeviceFile, ASuggestionTakenIsRead) {
-  const std::string text = rotary + body_of("\"22 gcm2\"") + "[loop]\nsampling_period = \"2 kHz\"\n";
+  const std::string text = of_rotary + body_of("\"22 gcm2\"") + "[loop]\nsampling_period = \"2 kHz\"\n";
   const auto refused = parse_device(text, "f.toml");
   ASSERT_FALSE(refused.has_value());
   std::vector<std::string> taken;
@@ -332,7 +332,7 @@ TEST(DeviceFile, EveryProblemIsToldOnceAndNoneThatFollowsFromIt) {
 }
 
 TEST(DeviceFile, AnInertiaIsRefusedByItsName) {
-  const auto device = parse_device(rotary + "[[body]]\nname = \"a\"\ninertia = -1\n" + loop(), "f.toml");
+  const auto device = parse_device(of_rotary + "[[body]]\nname = \"a\"\ninertia = -1\n" + loop(), "f.toml");
   ASSERT_FALSE(device.has_value());
   EXPECT_EQ(device.error().place.key, "body.a.inertia");
   EXPECT_EQ(device.error().place.line, 4U);

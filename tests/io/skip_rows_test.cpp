@@ -132,7 +132,7 @@ TEST(ColumnsWithTimes, MustNameTheirColumn) {
   RecordedColumns recorded = two_clocks({0.0, 0.001, 0.002});
   recorded.columns[3].time_column = 7;
   ASSERT_TRUE(find_problem(recorded).has_value());
-  EXPECT_EQ(find_problem(recorded)->key, "x");
+  EXPECT_EQ(find_problem(recorded)->place.key, "x");
   recorded.columns[3].time_column = 0;  // four times, three samples
   EXPECT_TRUE(find_problem(recorded).has_value());
   EXPECT_FALSE(find_problem(two_clocks({0.0, 0.001, 0.002})).has_value());
