@@ -53,7 +53,7 @@ server::Problem problem_in(const InputProblem& told, const server::CommandReques
   const bool is_override = place.option == "--set";
   const auto has_name = [&](const auto& recorded) { return recorded.name == place.file; };
   const bool is_recording = std::ranges::any_of(request.recordings, has_name);
-  const bool is_device = is_override || place.file == device_name;
+  const bool is_device = is_override || (place.file == device_name && !is_recording);
   const bool is_study = request.study && place.file == study_file(*request.study);
   if (is_study) place.file = study_name;
   if (is_device) place.file = device_name;
@@ -63,11 +63,11 @@ server::Problem problem_in(const InputProblem& told, const server::CommandReques
   bool tells_key = place.key.empty();
   if (!place.option.empty() && !(is_override && !place.key.empty())) {
     if (place.option.starts_with("--")) where = "options." + place.option.substr(2);
+  } else if (is_recording && !is_override) {  // whatever its name
+    where = "recording" + line;
   } else if (is_device || is_study) {
     where = place.file + (place.key.empty() ? line : "." + place.key);
     tells_key = true;
-  } else if (is_recording) {
-    where = "recording" + line;
   }
   // What `where` does not say.
   if (!tells_key) problem.what = place.key + ": " + problem.what;

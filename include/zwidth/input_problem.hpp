@@ -12,7 +12,7 @@ struct InputPlace {
   std::size_t line = 0;    ///< from 1; 0 where there is no line
   std::size_t column = 0;  ///< from 1, in bytes; 0 where there is none
   std::string key;         ///< dotted key as in an override, or the name of a recording's column; may be empty
-  std::string option;      ///< member of an options struct; in a front, its name for that: "--duration"; may be empty
+  std::string option;      ///< member of an options struct, "duration"; in a front, its name for that; may be empty
 };
 
 /// What is wrong with an input, and what to write instead: the one form in which refusals travel.

@@ -26,6 +26,8 @@
 #include "zwidth/design/wall_summary.hpp"
 #include "zwidth/design/wall_to_run.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/finding.hpp"
+#include "zwidth/finding_code.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -115,3 +117,4 @@
 #include "zwidth/study/study_distributions.hpp"
 #include "zwidth/study/study_run.hpp"
 #include "zwidth/trust.hpp"
+#include "zwidth/words/finding_text.hpp"

@@ -226,8 +226,8 @@ TEST_F(Simulate, AWallBehindTheStartIsSaid) {
 }
 
 TEST_F(Simulate, Refusals) {
-  expect_refused("devices/lhifam.toml", "nothing moves the device: add a wall");
-  expect_refused("devices/lhifam.toml --set wall.stiffness=0", "nothing moves the device: add a wall");
+  expect_refused("devices/lhifam.toml", "nothing moves the device; add a wall");
+  expect_refused("devices/lhifam.toml --set wall.stiffness=0", "nothing moves the device; add a wall");
   expect_refused(lhifam + "--start 1e300", "at most 1e30");
   expect_refused(lhifam + "--contact unilateral", "nothing presses the device against the wall");
   expect_refused(lhifam + "--contact both", "--contact");

@@ -344,8 +344,9 @@ TEST(MeasuredStiffness, SaysWhereNoLineIsExcited) {
   });
   const MeasuredStiffness measured = measured_stiffness(response);
   EXPECT_TRUE(warns_of(measured, "no line is excited from 30 to 50 Hz"));
-  ASSERT_TRUE(measured.remarks[0].finding);
-  EXPECT_EQ(measured.remarks[0].finding->code, FindingCode::gap_between_lines);
+  EXPECT_TRUE(std::ranges::any_of(measured.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::gap_between_lines;
+  }));
 }
 
 TEST(MeasuredStiffness, RefusesAContinuousResponseAndASingleLine) {
