@@ -22,21 +22,21 @@ enum class FindingCode : std::uint16_t {
   inertia_too_large,         ///< an inertia that no haptic device has
 
   // stability
-  wall_not_surely_stable,             ///< the wall lies within the interval of the critical stiffness
-  interval_open,                      ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
-  second_route_contradicts,           ///< two computations contradict each other on one wall's stability
-  second_route_undecided,             ///< no second computation confirms one wall's stability
-  touch_without_pole,                 ///< the limit is a pole's touch of the circle that a second computation does not find
-  slow_instability,                   ///< the free device is unstable so slowly that rounded coefficients explain it
-  delay_margin_contradicts,           ///< two computations contradict each other on the delay margin
-  margins_contradict,                 ///< two computations contradict each other on phase, delay and disk margin
-  disk_margin_contradicts,            ///< the disk margin is larger than gain and phase margins allow
-  disk_margin_left_out,               ///< its search does not end: the wall is far below every limit
-  critical_damping_left_out,          ///< the largest damper alone is not sure, for `reason`
-  unstable_with_nobody,               ///< the file's user alone keeps the wall stable
-  stiffer_than_any_user_limit,        ///< some user's grasp makes the wall oscillate
-  damper_above_any_user_limit,        ///< some user's grasp makes the damper oscillate
-  too_many_bodies_for_any_user,       ///< the limit over all passive users is not computed for so many bodies
+  wall_not_surely_stable,        ///< the wall lies within the interval of the critical stiffness
+  interval_open,                 ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
+  second_route_contradicts,      ///< two computations contradict each other on one wall's stability
+  second_route_undecided,        ///< no second computation confirms one wall's stability
+  touch_without_pole,            ///< the limit is a pole's touch of the circle that a second computation does not find
+  slow_instability,              ///< the free device is unstable so slowly that rounded coefficients explain it
+  delay_margin_contradicts,      ///< two computations contradict each other on the delay margin
+  margins_contradict,            ///< two computations contradict each other on phase, delay and disk margin
+  disk_margin_contradicts,       ///< the disk margin is larger than gain and phase margins allow
+  disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
+  critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
+  unstable_with_nobody,          ///< the file's user alone keeps the wall stable
+  stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
+  damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
+  too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed
   any_user_limit_lowered,             ///< a tuned user destabilises softer walls than the bound found: it is lowered
   any_user_limit_loose,               ///< the bound is proven to a share only, which is taken off
@@ -117,37 +117,37 @@ enum class FindingCode : std::uint16_t {
   drawn_limits_doubtful,           ///< the limits of some units of the importance sampling are doubtful
 
   // simulation
-  start_inside_stiction,               ///< the start was moved out of the stiction, further into the wall
-  start_unseen_by_encoder,             ///< the start was moved further into the wall: the encoder did not see it
-  no_wall,                             ///< the device moves freely
-  never_touches_wall,                  ///< the verdict is about the free device
-  starts_inside_wall,                  ///< the wall pushes the device out
-  never_moves_when_pushed,             ///< the user's force never overcomes the friction
-  never_moves_from_start,              ///< the wall never overcomes the friction at this start
-  never_moves_under_force_limit,       ///< no start lets the wall overcome the friction
-  force_limit_below_friction,          ///< the actuator never overcomes the friction
-  encoder_stands_still,                ///< the encoder reads one step all the time
-  encoder_ripple,                      ///< the encoder's steps move the force of a device that hardly moves
-  encoder_ripple_of_damper,            ///< the same, with a damper
-  encoder_ripple_in_drift,             ///< the encoder's steps move the force of a device that drifts
-  encoder_ripple_of_damper_in_drift,   ///< the same, with a damper
-  run_ended_early,                     ///< the position passed its limit
-  force_acts_to_the_end,               ///< the recorded force acts in the part that is judged
-  growth_not_seen,                     ///< nothing grows within the run, but something does by linear analysis
-  few_oscillations,                    ///< the run holds too few oscillations to tell
-  stick_slip_not_followed,             ///< some steps had too many stick-slip instants
-  swing_not_steady,                    ///< the relay's oscillation still grows or falls
-  swing_varies,                        ///< the relay's oscillation does not repeat itself
-  steady_part_short,                   ///< the relay's steady part is shorter than a segment
-  position_drifts,                     ///< the position drifts under the relay
-  few_encoder_steps,                   ///< the relay's oscillation spans few steps of the encoder
-  trials_settle_apart,                 ///< the relay's trials settle at different oscillations
-  no_trial_oscillates,                 ///< no trial of the relay oscillates
-  relay_without_device,                ///< a relay's reading is no limit without a device file
-  relay_without_finite_limit,          ///< a relay's reading is no limit: linear theory gives none
-  relay_reads_more,                    ///< a relay reads more than the limit of linear theory
-  relay_reads_less,                    ///< a relay reads less than the limit of linear theory
-  relay_without_wall,                  ///< the relay's numbers are without the wall's damper and filters
+  start_inside_stiction,              ///< the start was moved out of the stiction, further into the wall
+  start_unseen_by_encoder,            ///< the start was moved further into the wall: the encoder did not see it
+  no_wall,                            ///< the device moves freely
+  never_touches_wall,                 ///< the verdict is about the free device
+  starts_inside_wall,                 ///< the wall pushes the device out
+  never_moves_when_pushed,            ///< the user's force never overcomes the friction
+  never_moves_from_start,             ///< the wall never overcomes the friction at this start
+  never_moves_under_force_limit,      ///< no start lets the wall overcome the friction
+  force_limit_below_friction,         ///< the actuator never overcomes the friction
+  encoder_stands_still,               ///< the encoder reads one step all the time
+  encoder_ripple,                     ///< the encoder's steps move the force of a device that hardly moves
+  encoder_ripple_of_damper,           ///< the same, with a damper
+  encoder_ripple_in_drift,            ///< the encoder's steps move the force of a device that drifts
+  encoder_ripple_of_damper_in_drift,  ///< the same, with a damper
+  run_ended_early,                    ///< the position passed its limit
+  force_acts_to_the_end,              ///< the recorded force acts in the part that is judged
+  growth_not_seen,                    ///< nothing grows within the run, but something does by linear analysis
+  few_oscillations,                   ///< the run holds too few oscillations to tell
+  stick_slip_not_followed,            ///< some steps had too many stick-slip instants
+  swing_not_steady,                   ///< the relay's oscillation still grows or falls
+  swing_varies,                       ///< the relay's oscillation does not repeat itself
+  steady_part_short,                  ///< the relay's steady part is shorter than a segment
+  position_drifts,                    ///< the position drifts under the relay
+  few_encoder_steps,                  ///< the relay's oscillation spans few steps of the encoder
+  trials_settle_apart,                ///< the relay's trials settle at different oscillations
+  no_trial_oscillates,                ///< no trial of the relay oscillates
+  relay_without_device,               ///< a relay's reading is no limit without a device file
+  relay_without_finite_limit,         ///< a relay's reading is no limit: linear theory gives none
+  relay_reads_more,                   ///< a relay reads more than the limit of linear theory
+  relay_reads_less,                   ///< a relay reads less than the limit of linear theory
+  relay_without_wall,                 ///< the relay's numbers are without the wall's damper and filters
 
   // rig
   interrupted,                  ///< the session was interrupted

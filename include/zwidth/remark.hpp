@@ -14,11 +14,11 @@ struct Remark {
     note,     ///< how the work was done ("segments of 4096 samples, Hann, half overlapping")
     warning,  ///< the result may be wrong or is less than asked for
   };
-  Severity severity = Severity::note;     ///< of this one
-  std::string what;                       ///< one line: "force is constant from 3.2 s to 4.1 s"
-  std::string consequence;                ///< what it means for the result; may be empty
-  std::string remedy = {};                ///< what to do about it; may be empty
-  std::optional<Finding> finding = {};    ///< what these are the words of, where the library found it
+  Severity severity = Severity::note;   ///< of this one
+  std::string what;                     ///< one line: "force is constant from 3.2 s to 4.1 s"
+  std::string consequence;              ///< what it means for the result; may be empty
+  std::string remedy = {};              ///< what to do about it; may be empty
+  std::optional<Finding> finding = {};  ///< what these are the words of, where the library found it
 };
 
 /// A finding as a remark, in the words of words/finding_text.hpp.

@@ -12,7 +12,8 @@ Trust trust_of(const Device& device) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (!uncertainty) return trust;
   const auto add = [&](Finding finding) {
-    uncertainty->verdict == Trust::Verdict::refused ? trust.refuse(std::move(finding)) : trust.doubt(std::move(finding));
+    uncertainty->verdict == Trust::Verdict::refused ? trust.refuse(std::move(finding))
+                                                    : trust.doubt(std::move(finding));
   };
   const auto stated = [](const std::string& reason) {
     return Finding{.code = FindingCode::stated, .subjects = {{"reason", reason}}, .key = "uncertainty"};

@@ -121,10 +121,10 @@ void judge_certainty_of_wall(const Device& device, Analysis& analysis) {
   if (!analysis.wall || !analysis.wall->stable || !analysis.interval) return;
   if (analysis.wall->stiffness < analysis.interval->lower) return;
   const auto unit = units_of(device.parameters().motion).stiffness;
-  analysis.trust.doubt({.code = FindingCode::wall_not_surely_stable,
-                        .evidence = {{"stiffness", analysis.wall->stiffness, unit},
-                                     {"lower", analysis.interval->lower, unit}},
-                        .key = "wall.stiffness"});
+  analysis.trust.doubt(
+      {.code = FindingCode::wall_not_surely_stable,
+       .evidence = {{"stiffness", analysis.wall->stiffness, unit}, {"lower", analysis.interval->lower, unit}},
+       .key = "wall.stiffness"});
 }
 
 /// Whether a limit that rests on this one can be given; where not, the analysis says what is left out.
@@ -134,7 +134,8 @@ bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& ana
     return true;
   }
   for (const std::string& reason : limit.trust.reasons) {
-    analysis.trust.doubt({.code = FindingCode::left_out, .subjects = {{"what", std::string(what)}, {"reason", reason}}});
+    analysis.trust.doubt(
+        {.code = FindingCode::left_out, .subjects = {{"what", std::string(what)}, {"reason", reason}}});
   }
   return false;
 }
@@ -321,9 +322,8 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
   if (uncertainty && !uncertainty->parameters.empty() && options.draws > 0) {
     analysis.interval = stiffness_interval(device, options.draws, usual_draws_seed, stages.stage());
     if (is_open(*analysis.interval)) {
-      analysis.trust.doubt(
-          {.code = FindingCode::interval_open,
-           .evidence = {{"lower", analysis.interval->lower}, {"upper", analysis.interval->upper}}});
+      analysis.trust.doubt({.code = FindingCode::interval_open,
+                            .evidence = {{"lower", analysis.interval->lower}, {"upper", analysis.interval->upper}}});
     }
   }
   judge_certainty_of_wall(device, analysis);

@@ -380,8 +380,8 @@ AnyUserLimit AnyUserSearch::limit_of(VirtualDamper damper, const CriticalStiffne
         {.code = FindingCode::any_user_limit_lowered, .effect = {{"critical_stiffness", limit.stiffness}}});
   }
   if (unproven > sound_within) {
-    limit.trust.doubt({.code = FindingCode::any_user_limit_loose,
-                       .evidence = {{"unproven", unproven}, {"threshold", sound_within}}});
+    limit.trust.doubt(
+        {.code = FindingCode::any_user_limit_loose, .evidence = {{"unproven", unproven}, {"threshold", sound_within}}});
   }
   if (discs_.truncation() > sound_within) {
     limit.trust.doubt({.code = FindingCode::any_user_limit_truncated,
