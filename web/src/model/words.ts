@@ -40,8 +40,11 @@ export const holderWord = (of: Analysis | null, holder: HolderLimit | null | und
                 ? 'none: the softest walls are unstable'
                 : limitWord(of)
 
+/** A wall is one of these, in texts, page and figures. */
+export type WallWord = 'stable for anyone' | 'stable alone only' | 'unstable'
+
 /** The verdict on a wall: a person always lets go. */
-export const wallWord = (wall: NonNullable<Analysis['wall']>): 'stable for anyone' | 'stable alone only' | 'unstable' =>
+export const wallWord = (wall: NonNullable<Analysis['wall']>): WallWord =>
   !wall.stable ? 'unstable' : wall.stable_for.any_user ? 'stable for anyone' : 'stable alone only'
 
 /** Beside numbers that are not yet those of what the page shows. */
