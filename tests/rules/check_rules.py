@@ -26,6 +26,11 @@ LIBRARY = {
     "study": ["model", "sampling", "stability", "batch", "design"],
     "rig": ["words", "model", "signal", "sampling", "control", "stability", "simulation", "identification"],
 }
+# Sub-rooms of a room, in their order: each includes those before it. What stands in the room itself includes them all.
+SUB_ROOMS = {
+    "stability": ["loop", "roots", "second_route", "limit", "users", "margins"],
+    "design": ["region", "sensitivities", "synthesis", "diagnosis"],
+}
 APPS = {
     "results": [],
     "report": ["results"],
@@ -62,17 +67,29 @@ def room_of_library(path):
     return folder if folder in LIBRARY else folder.split("/")[0] or None
 
 
+def sub_room(path):
+    """"stability/users/user_discs.hpp" -> its place in the order; nothing for what stands in the room itself."""
+    parts = path.split("/")
+    order = SUB_ROOMS.get(parts[0], [])
+    return order.index(parts[1]) if len(parts) == 3 and parts[1] in order else None
+
+
 def flow(root):
     """Includes go where the flow of the house goes; the program and its reports see public headers alone."""
     for base in ("include/zwidth", "src"):
         for path in files(root, base):
-            own = room_of_library(str(path.relative_to(root / base)))
+            place = str(path.relative_to(root / base))
+            own = room_of_library(place)
             for number, included in includes(path):
                 room = room_of_library(included)
                 if own is None and base == "include/zwidth":
                     continue  # zwidth.hpp
                 if room is not None and room != own and room not in LIBRARY.get(own, ["words"]):
                     yield path, number, f"{own} may not include {included}"
+                if own in SUB_ROOMS and room == own and not included.startswith("zwidth/"):
+                    mine, theirs = sub_room(place), sub_room(included)
+                    if mine is not None and (theirs is None or theirs > mine):
+                        yield path, number, f"{place.rpartition('/')[0]} may not include {included}"
                 if base == "include/zwidth" and not included.startswith("zwidth/"):
                     yield path, number, f"a public header includes the private {included}"
     for path in files(root, "bindings"):
