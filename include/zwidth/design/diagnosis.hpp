@@ -90,7 +90,8 @@ struct Diagnosis {
   WallNumber limit_of = WallNumber::stiffness;   ///< which number all limits are of; damping where K = 0
   std::vector<OscillationCandidate> candidates;  ///< the likeliest first: those that fit, then the nearest
   std::optional<OscillationCause> cause;         ///< of the first, where it fits; absent: none does
-  /// Of the first, where it fits or would with each number within a factor of 2: devices are not known better in life.
+  /// The first candidate's, where it fits or would fit with each number within a factor of 2, as well as a device's
+  /// numbers are commonly known.
   std::optional<OscillationCause> nearest;
   std::optional<double> any_user_now;  ///< any_user_limit() of the device as it is; absent as any_user_then
   /// What moves the nearest cause, by falling limit, then what lowers any_user_now; none where there is no such cause.

@@ -85,7 +85,8 @@ struct WallRegion {
 struct WallRaster {
   std::vector<double> stiffnesses;  ///< K, rising
   std::vector<double> dampings;     ///< B, rising
-  /// Of (stiffnesses[j], dampings[i]), with nobody and with the file's user: element i * stiffnesses.size() + j; 1 or 0.
+  /// Element i * stiffnesses.size() + j: 1 where the wall (stiffnesses[j], dampings[i]) is stable with nobody and with
+  /// the file's user, else 0.
   std::vector<std::uint8_t> stable;
 };
 

@@ -114,18 +114,20 @@ struct WallRecommendation {
 ///     margins of the device as it is >= gain_margin, phase_margin
 ///     force per count <= ripple
 ///
-/// Of a damper alone (WallGoal::damper) K = 0, gain_margin B < any_user_damping() and critical_damping() with nobody and
-/// with the device's [operator]. Behind a slow filter B says little, so no filter or the one of seven is taken with the
-/// greatest Im(B v)/w at 10 Hz (a tenth of Nyquist, where that is lower). No notch is tried.
+/// WallGoal::damper asks for a damper alone: K = 0, and gain_margin B lies below any_user_damping() and below
+/// critical_damping() with nobody and with the device's [operator]. B says little behind a slow filter: no filter or
+/// the one of seven is taken with the greatest Im(B v)/w at 10 Hz (a tenth of Nyquist, where that is lower). No notch
+/// is tried.
 ///
 /// The device's own wall.stiffness, damping and velocity_filter_hz are left out; its filters stay. A search on a grid
 /// of frequencies over B and the filters, from none down to twice the frequency at which the device oscillates or a
-/// hundredth of the sampling rate: a local optimum. What is proposed is computed exactly, and then checked by a second route that shares nothing with
-/// it: closed-loop poles by matrix exponential of the loop, of the loop grown by the gain margin and of that held by
-/// passive users, and the phase margin from the state space; where the two contradict, the answer is `refused`.
+/// hundredth of the sampling rate: a local optimum. What is proposed is computed exactly. A second route that shares
+/// nothing with it checks the proposal: closed-loop poles by matrix exponential of the loop, of the loop grown by the
+/// gain margin and of that held by passive users, and the phase margin from the state space. The answer is `refused`
+/// where the two contradict each other.
 /// With a drift of the modes the wall keeps the margins, every user's too, at 41 drifts evenly over the range, and a
 /// notch lowers no any-user limit at any of them; the contact's damping is that without drift.
-/// Of an uncertain device the wall keeps all of this in 97.5 % of `draws` devices drawn from its uncertainty. Where
+/// The wall of an uncertain device keeps all of this in 97.5 % of `draws` devices drawn from the uncertainty. Where
 /// any_user_limit() is not available the device as it is decides, and a remark says so.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options = {});

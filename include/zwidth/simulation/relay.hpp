@@ -74,8 +74,9 @@ struct RelayResult {
   /// What the experiment says about the wall's limit, a sentence or two each: whether it agrees with linear theory, what
   /// friction does to it, which other oscillations exist. Empty where no trial oscillates or without a device.
   std::vector<std::string> explanation;
-  /// Of the mean as a limit for walls: the device's own, and doubtful where it differs from the limit of linear theory
-  /// (unsafe, too_cautious) and where no device says what to expect; refused where there is no mean.
+  /// How far the mean is to be trusted as a limit for walls: as far as the device; doubtful where it differs from the
+  /// limit of linear theory (unsafe, too_cautious) and where no device says what to expect; refused where there is no
+  /// mean.
   Trust trust;
   std::vector<Remark> remarks;  ///< of the recording, and that the device's [wall] is left out
 };

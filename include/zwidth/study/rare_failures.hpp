@@ -25,8 +25,8 @@ struct DesignPoint {
 struct RareFailures {
   double share = 0.0;  ///< 0 where no failure was found: trust is doubtful then
   double error = 0.0;  ///< its standard error
-  double lower = 0.0;  ///< of its 95 % interval, see weighted_sum_interval()
-  /// Of that interval; where no failure was found, what 2048 units as they are leave possible.
+  double lower = 0.0;  ///< lower end of its 95 % interval, see weighted_sum_interval()
+  /// Upper end of that interval; where no failure was found, what 2048 units as they are leave possible.
   double upper = 0.0;
   std::uint64_t evaluations = 0;    ///< devices computed
   std::vector<DesignPoint> points;  ///< nearest first

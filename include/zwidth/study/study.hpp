@@ -117,8 +117,8 @@ struct StudyPoint {
 struct Study {
   std::vector<std::string> keys;  ///< of the parameters
   std::uint64_t samples = 0;      ///< units drawn
-  /// Of the device as its file has it, with nobody and with its user; the limits of the units are with its user, where there
-  /// is one, else with nobody. NaN where there is no answer.
+  /// Limits of the device as its file has it, with nobody and with its user; NaN where there is no answer. The units'
+  /// limits are with its user where there is one, else with nobody.
   HoldingLimits limits;
   /// Units that meet the whole specification, and each half; absent where nothing is specified.
   std::optional<Proportion> yield;
