@@ -39,8 +39,8 @@ struct SimulationOptions {
   UserForce user_force;                               ///< on the held body
   Faults faults;                                      ///< none by default
   /// m or rad, of each body; empty: 0. Where velocities are empty too and the user does not push, every body starts at
-  /// rest 1 mm (1 mrad) inside the wall, or further in where that lies inside the stiction or an encoder step (a transfer
-  /// function: its wall begins there instead).
+  /// rest 1 mm (1 mrad) inside the wall, or further in where that lies inside the stiction or an encoder step (a
+  /// transfer function: its wall begins there instead).
   std::vector<double> initial_position;
   std::vector<double> initial_velocity;  ///< m/s or rad/s, of each body; empty: at rest
   /// s; 1 to max_simulated_samples sampling periods, and more than the loop's delay. Absent: 40 periods of

@@ -41,8 +41,8 @@ class StudyRun {
 
   /// The answers of a chunk, on one thread.
   [[nodiscard]] BatchStiffness answers(std::uint64_t chunk, const Progress& progress = {}) const;
-  /// The answers for any values of the parameters, on the study's threads. `progress` is called from any of them, one at
-  /// a time.
+  /// The answers for any values of the parameters, on the study's threads. `progress` is called from any of them, one
+  /// at a time.
   [[nodiscard]] BatchStiffness answers(const std::vector<ParameterValues>& columns, bool any_user,
                                        const Progress& progress = {}) const;
 
