@@ -24,7 +24,8 @@ struct DesignTargetOptions {
   Progress progress = {};                       ///< told how far the work is; ends it by throwing
 };
 
-/// Checks the stiffness (or times_now) and the factor; of the device: the any-user limit needs a body to hold, and not too many.
+/// Checks the stiffness (or times_now), the factor and the device: the any-user limit needs a body to hold, and not too
+/// many.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device);
 
 /// What one number of the device file alone would have to be.

@@ -33,7 +33,7 @@ struct NotchOptions {
   Progress progress = {};       ///< told how far the work is; ends it by throwing
 };
 
-/// Checks every member's range; of the device: a vibration mode below Nyquist or an alias of one, and for the any-user
+/// Checks every member's range, and the device: a vibration mode below Nyquist or an alias of one, and for the any-user
 /// goal a body to hold.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const NotchOptions& options, const Device& device);
 

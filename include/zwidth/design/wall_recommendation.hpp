@@ -42,7 +42,7 @@ struct RecommendationOptions {
   Progress progress = {};    ///< told how far the work is; ends it by throwing
 };
 
-/// Checks every member's range; of the device: critical damping needs bodies, a drift links.
+/// Checks every member's range, and the device: critical damping needs bodies, a drift links.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device);
 
 /// What keeps a number of a wall from being better.

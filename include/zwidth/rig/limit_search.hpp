@@ -69,7 +69,7 @@ struct LimitMeasurement {
 /// zero. Ends with the bracket, at the ceiling, and after 60 trials.
 /// The one that decays least counts, of the oscillations near the predicted frequencies and of the strongest one.
 /// A last trial with a smaller knock tells whether the size of the swing matters, as with dry friction, of which the
-/// device's file may know nothing: of a linear device all swings grow alike.
+/// device's file may know nothing: all swings of a linear device grow alike.
 class LimitSearch {
  public:
   static constexpr std::size_t most_trials = 60;  ///< after which the search ends

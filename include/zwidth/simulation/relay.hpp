@@ -41,8 +41,8 @@ struct RelayMean {
   double highest_frequency = 0.0;  ///< rad/s
 };
 
-/// Nothing where no trial oscillates. Of trials at different oscillations it is no number of the device: RelayResult has
-/// none of those.
+/// Nothing where no trial oscillates. The mean of trials at different oscillations is no number of the device:
+/// RelayResult leaves it out.
 [[nodiscard]] std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials);
 
 /// What the mean says of the stiffest stable wall of linear theory.
@@ -95,7 +95,7 @@ struct RelayResult {
 [[nodiscard]] RelayResult relay(Recording recording, const RelayRecordOptions& options = {},
                                 const Progress& progress = {});
 
-/// The same from several trials of one experiment, each a recording: of one sampling period.
+/// The same from several trials of one experiment, each a recording, all of one sampling period.
 [[nodiscard]] RelayResult relay(std::vector<Recording> recordings, const RelayRecordOptions& options = {},
                                 const Progress& progress = {});
 
