@@ -33,8 +33,8 @@ struct RecommendationOptions {
   double phase_margin = std::numbers::pi / 6.0;  ///< least, with nobody and with the file's user; 0 to pi/2 rad
   /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: not bounded.
   std::optional<double> ripple = {};
-  /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0 to
-  /// 0.9; above 0 the device needs a link.
+  /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0
+  /// to 0.9; above 0 the device needs a link.
   double drift = 0.0;
   bool notch = true;         ///< a notch near a mode may be added to the wall's filters
   bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
@@ -73,7 +73,8 @@ struct RecommendedWall {
   std::optional<WallFilter> notch;  ///< that of wall.filters which was added
   WallBounds bounded_by;            ///< what keeps each number from being larger
   WallMargins margins;              ///< of the device as it is
-  /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for a transfer function and above most_bodies_for_any_user.
+  /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for
+  /// a transfer function and above most_bodies_for_any_user.
   std::optional<double> any_user_limit;
   std::optional<double> any_user_stiffness_margin;  ///< any_user_limit / K; absent of a damper alone
   std::optional<double> contact_damping_ratio;      ///< see contact_damping_ratio()
@@ -96,8 +97,8 @@ struct WallRecommendation {
   std::optional<RecommendedWall> wall;        ///< only where found
   std::string reason;                         ///< why there is none; empty where found
   std::vector<RecommendedWall> alternatives;  ///< the trade-off: other goals, dampers, filters
-  /// At how many drifts of the modes, evenly over the range asked, each wall was held against its margins; 1: at none but
-  /// their own frequencies.
+  /// At how many drifts of the modes, evenly over the range asked, each wall was held against its margins; 1: at none
+  /// but their own frequencies.
   std::size_t drifts_checked = 1;
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it

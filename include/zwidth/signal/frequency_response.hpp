@@ -30,7 +30,8 @@ struct FrequencyResponse {
   /// neighbours.
   double line_correlation = 1.0;
   std::vector<Remark> remarks;  ///< choices made, and doubts
-  /// What a table says of the critical stiffness that was read off it where it was measured; absent where it says nothing.
+  /// What a table says of the critical stiffness that was read off it where it was measured; absent where it says
+  /// nothing.
   std::optional<Trust> trust = {};
 };
 

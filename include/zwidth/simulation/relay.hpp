@@ -64,8 +64,8 @@ struct RelayResult {
   double sampling_period = 0.0;        ///< s
   Relay relay;                         ///< of a recording: half of the force's peak to peak
   std::vector<RelayTrial> trials;      ///< a recording is one
-  /// Absent where no trial oscillates, and where they settle at different oscillations: of frequencies that differ by more
-  /// than 15 %.
+  /// Absent where no trial oscillates, and where they settle at different oscillations: of frequencies that differ by
+  /// more than 15 %.
   std::optional<RelayMean> mean;
   std::optional<Device> device;                     ///< absent for a recording
   std::optional<double> friction_level;             ///< largest friction of the device over the relay's force

@@ -45,8 +45,8 @@ struct SimulationOptions {
   std::vector<double> initial_velocity;  ///< m/s or rad/s, of each body; empty: at rest
   /// s; 1 to max_simulated_samples sampling periods, and more than the loop's delay. Absent: 40 periods of
   /// the critical oscillation, at least 1 s and four delays, at most a million samples; counted from the start of the
-  /// user's force. Where that run at a bilateral wall is undecided or drifts, it is run for 4, 16 and 64 times as long, up
-  /// to a million samples, until it is not.
+  /// user's force. Where that run at a bilateral wall is undecided or drifts, it is run for 4, 16 and 64 times as long,
+  /// up to a million samples, until it is not.
   std::optional<double> duration;
   /// m or rad, > 0: ends the run as unstable where |sensed position - start| passes it.
   double divergence = 1e3;

@@ -49,8 +49,9 @@ struct QuantileRanks {
   std::optional<std::uint64_t> upper;  ///< rank from 0; absent where the sample is too small for one
 };
 
-/// X_(lower) <= x_p <= X_(upper) with that confidence at least, half of the rest on each side, whatever the distribution:
-/// the number of samples up to x_p is binomial. Source: H. A. David, H. N. Nagaraja, Order Statistics, 2003, section 7.1.
+/// X_(lower) <= x_p <= X_(upper) with that confidence at least, half of the rest on each side, whatever the
+/// distribution: the number of samples up to x_p is binomial. Source: H. A. David, H. N. Nagaraja, Order Statistics,
+/// 2003, section 7.1.
 [[nodiscard]] QuantileRanks quantile_ranks(double p, std::uint64_t samples, double confidence = 0.95);
 
 /// The rank of the sample that a share `coverage` of all exceed, with `confidence`; absent where there are too few.

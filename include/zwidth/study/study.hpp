@@ -41,8 +41,8 @@ struct StudyOptions {
 };
 
 /// Checks: samples and parameters as SamplingPlan; index_samples 0 or 16 to 2^24; tightening_samples at most 2^24;
-/// rare_samples 0 or 100 to 2^24, with a specification; region_units 0 or as region_contours(); a specification finite and > 0, of any user for bodies alone;
-/// threads.
+/// rare_samples 0 or 100 to 2^24, with a specification; region_units 0 or as region_contours(); a specification finite
+/// and > 0, of any user for bodies alone; threads.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const StudyOptions& options, const Device& device,
                                                         const StudyDistributions& distributions);
 
@@ -151,10 +151,11 @@ struct Study {
 
 /// How K_CR varies over the units of one design.
 ///
-/// The i-th unit depends on device, distributions, sampling, seed and i alone; every result is the same, bit for bit, for
-/// any number of threads. A unit that cannot be computed is counted as one that misses the specification, and listed.
-/// Throws Error (invalid_argument) where find_problem() of the distributions or of the options finds one, and for more than
-/// most_samples_in_memory.
+/// The i-th unit depends on device, distributions, sampling, seed and i alone; every result is the same, bit for bit,
+/// for any number of threads. A unit that cannot be computed is counted as one that misses the specification, and
+/// listed.
+/// Throws Error (invalid_argument) where find_problem() of the distributions or of the options finds one, and for more
+/// than most_samples_in_memory.
 [[nodiscard]] Study study(const Device& device, const StudyDistributions& distributions, const StudyOptions& options,
                           const Progress& progress = {});
 
