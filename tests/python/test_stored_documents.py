@@ -2,7 +2,7 @@
 
 tests/data/documents holds a document of every command, commands.json the command lines and what changed since, with its reason. Long
 arrays are stored by their beginning and the count of the rest; sentences are not compared. ZWIDTH_WRITE_DOCUMENTS=1 stores what the program
-prints, for a release: empty "changed" then.
+prints, for a release: "changed" then keeps only what is another in every run.
 """
 
 import fnmatch
