@@ -34,7 +34,8 @@ struct Design {
   Analysis analysis;                                ///< of the device as it is
   std::vector<Sensitivity> sensitivities;           ///< of K_CR
   std::vector<Sensitivity> any_user_sensitivities;  ///< of the any-user limit; empty where there is none
-  /// Of K_CR; absent above most_bodies_for_branch_switches, and where not asked for; empty where there is no limit.
+  /// Where another crossover sets K_CR; absent above most_bodies_for_branch_switches, and where not asked for; empty
+  /// where there is no limit.
   std::optional<std::vector<BranchSwitch>> branch_switches;
   Trust trust;                  ///< the analysis'; nothing else is held where it is refused
   std::vector<Remark> remarks;  ///< the analysis', and what was left out here

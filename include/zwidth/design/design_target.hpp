@@ -24,7 +24,8 @@ struct DesignTargetOptions {
   Progress progress = {};                       ///< told how far the work is; ends it by throwing
 };
 
-/// Checks the stiffness (or times_now) and the factor; of the device: the any-user limit needs a body to hold, and not too many.
+/// Checks the stiffness (or times_now), the factor and the device: the any-user limit needs a body to hold, and not too
+/// many.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device);
 
 /// What one number of the device file alone would have to be.
@@ -39,9 +40,9 @@ struct DesignTarget {
   std::optional<bool> safe;  ///< any_user_then is no lower than any_user_now; absent where one is not known
 };
 
-/// The ways to a stiffness, the cheapest first: least relative change |ln(needed/now)|; numbers that are 0 now after
-/// those, in the order of the device file; then those that lower the limit with any passive user, in the same order,
-/// and those that do not get there.
+/// The ways to a stiffness, the cheapest first: least relative change |ln(needed/now)|; then numbers that are 0 in the
+/// device, in the order of its file; then those that lower the limit with any passive user, in the same order; last
+/// those that do not get there.
 struct DesignTargets {
   std::optional<double> target;     ///< the limit to reach; absent where it is a multiple of a limit that is not finite
   std::optional<double> limit_now;  ///< of the device as it is; infinite where unbounded, absent where refused
@@ -52,7 +53,7 @@ struct DesignTargets {
 };
 
 /// For each number p of the device that the limit depends on: the value nearest to today's at which the limit reaches
-/// the target. The user's are none of the device's.
+/// the target. The user's numbers are left out.
 ///
 ///     K(p) = target,  p alone varied
 ///
@@ -62,7 +63,7 @@ struct DesignTargets {
 /// passes the target twice within one step is passed over. For the any-user limit of more than four bodies only those
 /// numbers are followed that move it most, by a factor of 10 at most: a remark says how many. Each needed value is
 /// confirmed by critical_stiffness(Device) or any_user_limit(), and judged for any passive user.
-/// Of a damper alone (limit_of) K is its B: critical_damping() and any_user_damping().
+/// K is the B of a damper alone where `limit_of` says so: critical_damping() and any_user_damping().
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] DesignTargets design_targets(const Device& device, const DesignTargetOptions& options);
 

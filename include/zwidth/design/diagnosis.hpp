@@ -75,8 +75,8 @@ struct DiagnosisChange {
   std::optional<double> amplitude_then;  ///< the same, after the change
   /// limit_then times the nearest cause's `otherwise.limit` is above K (B); absent where K is not known.
   std::optional<bool> ends_it;
-  /// any_user_limit() after the change, of a damper alone any_user_damping(); infinite where nobody can destabilise a wall, absent where the device cannot be
-  /// held or the limit is not found.
+  /// any_user_limit() after the change, of a damper alone any_user_damping(); infinite where nobody can destabilise a
+  /// wall, absent where the device cannot be held or the limit is not found.
   std::optional<double> any_user_then = {};
   std::optional<bool> safe = {};  ///< any_user_then is no lower than any_user_now; absent where one is not known
 };
@@ -90,7 +90,8 @@ struct Diagnosis {
   WallNumber limit_of = WallNumber::stiffness;   ///< which number all limits are of; damping where K = 0
   std::vector<OscillationCandidate> candidates;  ///< the likeliest first: those that fit, then the nearest
   std::optional<OscillationCause> cause;         ///< of the first, where it fits; absent: none does
-  /// Of the first, where it fits or would with each number within a factor of 2: devices are not known better in life.
+  /// The first candidate's, where it fits or would fit with each number within a factor of 2, as well as a device's
+  /// numbers are commonly known.
   std::optional<OscillationCause> nearest;
   std::optional<double> any_user_now;  ///< any_user_limit() of the device as it is; absent as any_user_then
   /// What moves the nearest cause, by falling limit, then what lowers any_user_now; none where there is no such cause.
@@ -112,13 +113,14 @@ struct Diagnosis {
 ///
 /// The last two are first harmonics, approximate. A swing of a loop that is stable without the encoder's steps is theirs
 /// whatever its frequency (steps that are far from a sine swing far from the crossover, and a resonance swings by many)
-/// up to what an error within half a step keeps up there, |C P/(1 + C P)| 2 q/pi, or three steps. Where the amplitude is not given the frequency alone tells; two causes that fit nearly as well make the answer doubtful.
+/// up to what an error within half a step keeps up there, |C P/(1 + C P)| 2 q/pi, or three steps. Where the amplitude
+/// is not given the frequency alone tells; two causes that fit nearly as well make the answer doubtful.
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Diagnosis diagnose(const Device& device, const DiagnosisOptions& options);
 
 /// The same of the oscillation that a recording shows: dominant_oscillation() of its first channel, the sensed position
-/// in m or rad, gives the frequency, and the amplitude where the options have none. Refused where nothing oscillates: its
-/// share of what moves is below 0.1. Doubtful below 0.5, and where its change is below 0.7: it dies out.
+/// in m or rad, gives the frequency, and the amplitude where the options have none. Refused where nothing oscillates:
+/// its share of what moves is below 0.1. Doubtful below 0.5, and where its change is below 0.7: it dies out.
 [[nodiscard]] Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options);
 
 }  // namespace zwidth

@@ -25,7 +25,8 @@ struct NotchOptions {
   /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency (a cable's tension
   /// changes); from 0 to 0.9. See drifted().
   double drift = 0.0;
-  /// Least factor from the wall's stiffness to the goal's with the damper as it is, and on the whole force; from 1 to 1e5.
+  /// Least factor from the wall's stiffness to the goal's with the damper as it is, and on the whole force; from 1 to
+  /// 1e5.
   double gain_margin = 2.0;                      // 6 dB
   double phase_margin = std::numbers::pi / 6.0;  ///< least phase margin of the wall, rad; from 0 to pi/2
   bool far_from_modes = false;  ///< the centre may lie anywhere; else within half to twice a mode as the wall sees it
@@ -33,7 +34,7 @@ struct NotchOptions {
   Progress progress = {};       ///< told how far the work is; ends it by throwing
 };
 
-/// Checks every member's range; of the device: a vibration mode below Nyquist or an alias of one, and for the any-user
+/// Checks every member's range, and the device: a vibration mode below Nyquist or an alias of one, and for the any-user
 /// goal a body to hold.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const NotchOptions& options, const Device& device);
 

@@ -45,7 +45,8 @@ struct NobodysRegion {
   std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
 };
 
-/// Every wall (K, B) that a device renders stably, with its file's user. Where it is refused (trust), no wall, region, limit or formula is held.
+/// Every wall (K, B) that a device renders stably, with its file's user. Where it is refused (trust), no wall, region,
+/// limit or formula is held.
 struct WallRegion {
   /// Whether there is a region.
   enum class Status {
@@ -75,9 +76,9 @@ struct WallRegion {
 /// The boundary is that of stable_region(). Walls inside and outside, over the whole extent and on both sides of the
 /// boundary, are then asked of a second route that shares nothing with it: matrix exponential and closed-loop poles.
 /// Where the two contradict, where the boundary cannot be followed or does not close, or where the device's own numbers
-/// are refused (trust_of()), the answer is `refused`; what is doubtful stays so. A device with an [operator] has two regions,
-/// each checked so: a person lets go, and a wall must be stable with nobody holding too.
-/// The device's wall.stiffness and wall.damping are left out.
+/// are refused (trust_of()), the answer is `refused`; what is doubtful stays so. A device with an [operator] has two
+/// regions, each checked so: a person lets go, and a wall must be stable with nobody holding too. The device's
+/// wall.stiffness and wall.damping are left out.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRegion region(const Device& device, const RegionOptions& options = {});
 
@@ -85,12 +86,14 @@ struct WallRegion {
 struct WallRaster {
   std::vector<double> stiffnesses;  ///< K, rising
   std::vector<double> dampings;     ///< B, rising
-  /// Of (stiffnesses[j], dampings[i]), with nobody and with the file's user: element i * stiffnesses.size() + j; 1 or 0.
+  /// Element i * stiffnesses.size() + j: 1 where the wall (stiffnesses[j], dampings[i]) is stable with nobody and with
+  /// the file's user, else 0.
   std::vector<std::uint8_t> stable;
 };
 
 /// `count` values of K and as many of B, the middles of equal cells over the region's extent and a tenth beyond; empty
-/// unless the region, with the file's user where there is one, is bounded. Throws Error (invalid_argument) for a count of 0.
+/// unless the region, with the file's user where there is one, is bounded. Throws Error (invalid_argument) for a count
+/// of 0.
 [[nodiscard]] WallRaster wall_raster(const WallRegion& region, std::size_t count);
 
 }  // namespace zwidth

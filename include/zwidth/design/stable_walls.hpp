@@ -35,7 +35,7 @@ class StableWalls {
   /// evaluations of P. Throws Error (invalid_argument) for a negative or NaN B.
   [[nodiscard]] std::vector<StableInterval> stable_stiffnesses(double damping) const;
 
-  /// Of the wall whose stiffness and damping vary, Hz; 0: none.
+  /// The velocity filter of the wall whose stiffness and damping vary, Hz; 0: none.
   [[nodiscard]] double velocity_filter_hz() const;
 
   /// For the functions of this room.

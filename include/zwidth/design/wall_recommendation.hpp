@@ -33,8 +33,8 @@ struct RecommendationOptions {
   double phase_margin = std::numbers::pi / 6.0;  ///< least, with nobody and with the file's user; 0 to pi/2 rad
   /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: not bounded.
   std::optional<double> ripple = {};
-  /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0 to
-  /// 0.9; above 0 the device needs a link.
+  /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0
+  /// to 0.9; above 0 the device needs a link.
   double drift = 0.0;
   bool notch = true;         ///< a notch near a mode may be added to the wall's filters
   bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
@@ -42,7 +42,7 @@ struct RecommendationOptions {
   Progress progress = {};    ///< told how far the work is; ends it by throwing
 };
 
-/// Checks every member's range; of the device: critical damping needs bodies, a drift links.
+/// Checks every member's range, and the device: critical damping needs bodies, a drift links.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device);
 
 /// What keeps a number of a wall from being better.
@@ -73,7 +73,8 @@ struct RecommendedWall {
   std::optional<WallFilter> notch;  ///< that of wall.filters which was added
   WallBounds bounded_by;            ///< what keeps each number from being larger
   WallMargins margins;              ///< of the device as it is
-  /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for a transfer function and above most_bodies_for_any_user.
+  /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for
+  /// a transfer function and above most_bodies_for_any_user.
   std::optional<double> any_user_limit;
   std::optional<double> any_user_stiffness_margin;  ///< any_user_limit / K; absent of a damper alone
   std::optional<double> contact_damping_ratio;      ///< see contact_damping_ratio()
@@ -96,8 +97,8 @@ struct WallRecommendation {
   std::optional<RecommendedWall> wall;        ///< only where found
   std::string reason;                         ///< why there is none; empty where found
   std::vector<RecommendedWall> alternatives;  ///< the trade-off: other goals, dampers, filters
-  /// At how many drifts of the modes, evenly over the range asked, each wall was held against its margins; 1: at none but
-  /// their own frequencies.
+  /// At how many drifts of the modes, evenly over the range asked, each wall was held against its margins; 1: at none
+  /// but their own frequencies.
   std::size_t drifts_checked = 1;
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
@@ -114,18 +115,20 @@ struct WallRecommendation {
 ///     margins of the device as it is >= gain_margin, phase_margin
 ///     force per count <= ripple
 ///
-/// Of a damper alone (WallGoal::damper) K = 0, gain_margin B < any_user_damping() and critical_damping() with nobody and
-/// with the device's [operator]. Behind a slow filter B says little, so no filter or the one of seven is taken with the
-/// greatest Im(B v)/w at 10 Hz (a tenth of Nyquist, where that is lower). No notch is tried.
+/// WallGoal::damper asks for a damper alone: K = 0, and gain_margin B lies below any_user_damping() and below
+/// critical_damping() with nobody and with the device's [operator]. B says little behind a slow filter: no filter or
+/// the one of seven is taken with the greatest Im(B v)/w at 10 Hz (a tenth of Nyquist, where that is lower). No notch
+/// is tried.
 ///
 /// The device's own wall.stiffness, damping and velocity_filter_hz are left out; its filters stay. A search on a grid
 /// of frequencies over B and the filters, from none down to twice the frequency at which the device oscillates or a
-/// hundredth of the sampling rate: a local optimum. What is proposed is computed exactly, and then checked by a second route that shares nothing with
-/// it: closed-loop poles by matrix exponential of the loop, of the loop grown by the gain margin and of that held by
-/// passive users, and the phase margin from the state space; where the two contradict, the answer is `refused`.
+/// hundredth of the sampling rate: a local optimum. What is proposed is computed exactly. A second route that shares
+/// nothing with it checks the proposal: closed-loop poles by matrix exponential of the loop, of the loop grown by the
+/// gain margin and of that held by passive users, and the phase margin from the state space. The answer is `refused`
+/// where the two contradict each other.
 /// With a drift of the modes the wall keeps the margins, every user's too, at 41 drifts evenly over the range, and a
 /// notch lowers no any-user limit at any of them; the contact's damping is that without drift.
-/// Of an uncertain device the wall keeps all of this in 97.5 % of `draws` devices drawn from its uncertainty. Where
+/// The wall of an uncertain device keeps all of this in 97.5 % of `draws` devices drawn from the uncertainty. Where
 /// any_user_limit() is not available the device as it is decides, and a remark says so.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options = {});

@@ -19,7 +19,7 @@ struct MotorDrive {
 
   /// m or rad of the device per turn of the motor: sign travel/gear.
   [[nodiscard]] double position_per_turn() const { return sign * travel.value_or(2.0 * std::numbers::pi) / gear; }
-  /// Torque of the motor, N m, that pushes the device with a unit of force: of an ideal gear, position_per_turn()/(2 pi).
+  /// N m, torque of the motor that pushes the device with a unit of force: position_per_turn()/(2 pi), an ideal gear.
   [[nodiscard]] double torque_per_force() const { return position_per_turn() / (2.0 * std::numbers::pi); }
 };
 

@@ -50,7 +50,7 @@ class ForceGuard {
   [[nodiscard]] double no_position() noexcept;
   /// `cycles` were missed before this one; 0: it is in time.
   void missed(unsigned cycles) noexcept;
-  /// Zero force from now on; the first reason stays.
+  /// Zero force from this call on; the first reason stays.
   void stop(StopReason reason) noexcept;
   /// The force grows from zero again. Positions still count from the first one.
   void restart() noexcept;

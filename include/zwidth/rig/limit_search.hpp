@@ -14,7 +14,8 @@
 
 namespace zwidth {
 
-/// The oscillation that decays least, or grows most: of those near the given frequencies, rad/s, and of the strongest one.
+/// The oscillation that decays least, or grows most: of those near the given frequencies, rad/s, and of the strongest
+/// one.
 ///
 /// What swings by less than a hundredth of all that moves at the end is left out: it may be the others' leakage.
 /// `floor` as in ring_down(), which throws for a period that is not > 0 and for positions that are not finite.
@@ -48,12 +49,12 @@ struct LimitMeasurement {
   std::optional<double> stiffness;  ///< K_CR where the growth rate passes through zero; absent unless trust allows one
   /// Holds the limit of large motion, N/m or N m/rad: from the last that rang down to the first that grew, widened by
   /// three deviations of the growth rates, by what the encoder's step makes of the swing, and downwards by what the size
-  /// of the swing makes of it. Absent, too, where no oscillation was read that decays below the limit and grows above it,
-  /// and where the size of the swing matters.
+  /// of the swing makes of it. Absent, too, where no oscillation was read that decays below the limit and grows above
+  /// it, and where the size of the swing matters.
   std::optional<Interval> interval;
-  /// The limit of large motion is no higher, N/m or N m/rad: the upper end of the interval, whatever the size of the swing
-  /// makes of its lower one; without one the softest wall that surely grew, and what the encoder's step makes of it. Absent
-  /// where none surely did.
+  /// The limit of large motion is no higher, N/m or N m/rad: the upper end of the interval, whatever the size of the
+  /// swing makes of its lower one; without one the softest wall that surely grew, and what the encoder's step makes of
+  /// it. Absent where none surely did.
   std::optional<double> at_most;
   double frequency = 0.0;          ///< rad/s, of the oscillation there; 0 where it was not read
   double lower = 0.0;              ///< stiffest wall that rang down; 0: none did
@@ -64,12 +65,12 @@ struct LimitMeasurement {
 
 /// Raises the stiffness of a wall, trial by trial, until an oscillation grows; then closes in on where it begins to.
 ///
-/// From `start` by `step`, but no further than a hundredth beyond where the last two growth rates extrapolate to zero; after the first
-/// that grows, inside the bracket, by the line through the growth rates at its ends. K_CR is where that line passes
-/// zero. Ends with the bracket, at the ceiling, and after 60 trials.
-/// The one that decays least counts, of the oscillations near the predicted frequencies and of the strongest one.
-/// A last trial with a smaller knock tells whether the size of the swing matters, as with dry friction, of which the
-/// device's file may know nothing: of a linear device all swings grow alike.
+/// From `start` by `step`, but no further than a hundredth beyond where the last two growth rates extrapolate to zero;
+/// after the first that grows, inside the bracket, by the line through the growth rates at its ends. K_CR is where that
+/// line passes zero. Ends with the bracket, at the ceiling, and after 60 trials. The one that decays least counts, of
+/// the oscillations near the predicted frequencies and of the strongest one. A last trial with a smaller knock tells
+/// whether the size of the swing matters, as with dry friction, of which the device's file may know nothing: all swings
+/// of a linear device grow alike.
 class LimitSearch {
  public:
   static constexpr std::size_t most_trials = 60;  ///< after which the search ends

@@ -57,7 +57,7 @@ struct RigWall {
   ControllerOptions controller;          ///< the wall as it ran
   CriticalStiffness predicted;           ///< with the file's user, the wall's damper and filters
   HoldingLimits limits;                  ///< from the device's file, with this wall; who holds the rig is not known
-  Trust trust;                           ///< of the wall: of the prediction, and whether what ran bears it out
+  Trust trust;                           ///< in the wall: in the prediction, and whether what ran bears it out
   std::optional<StableFor> stable_for;   ///< absent where theory has no sure answer
   std::optional<bool> predicted_stable;  ///< with nobody and with the file's user; absent as that is
   bool oscillates = false;               ///< it grew, and the wall was taken away

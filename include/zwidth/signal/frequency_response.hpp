@@ -15,7 +15,7 @@ struct ResponsePoint {
   std::complex<double> value;  ///< position per force, m/N or rad/(N m)
   double variance = 0.0;       ///< E|estimate - truth|^2 of `value`; 0: unknown
   double coherence = 1.0;      ///< ordinary coherence, 0..1 (periodic: signal to signal-and-noise power)
-  /// Of the force on this line, N or N m, comparable between records that are estimated alike; 0: unknown.
+  /// Amplitude of the force on this line, N or N m, comparable between records that are estimated alike; 0: unknown.
   double force = 0.0;
 };
 
@@ -30,7 +30,8 @@ struct FrequencyResponse {
   /// neighbours.
   double line_correlation = 1.0;
   std::vector<Remark> remarks;  ///< choices made, and doubts
-  /// What a table says of the critical stiffness that was read off it where it was measured; absent where it says nothing.
+  /// What a table says of the critical stiffness that was read off it where it was measured; absent where it says
+  /// nothing.
   std::optional<Trust> trust = {};
 };
 

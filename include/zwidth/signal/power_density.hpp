@@ -11,7 +11,7 @@ struct PowerDensity {
   std::vector<double> values;  ///< one-sided, (signal's unit)^2 / Hz, at k step_hz from 0 to half the rate
 };
 
-/// Power spectral density without a window: of the whole signal, or the mean over consecutive blocks of it.
+/// Power spectral density of the whole signal without a window, or its mean over consecutive blocks.
 ///
 ///     S(k df) = c |X_k|^2 / (rate n),  c = 1 at 0 and Nyquist, else 2,  df = rate / n;   sum_k S df = mean square
 ///

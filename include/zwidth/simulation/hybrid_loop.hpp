@@ -30,7 +30,7 @@ struct UserForce {
   double period = 0.0;          ///< s; > 0 for a recorded force
 };
 
-/// What goes wrong in a real controller now and then. A force that would arrive after a newer one never does.
+/// What goes wrong at times in a real controller. A force that would arrive after a newer one is dropped.
 struct Faults {
   double lost_sample_probability = 0.0;  ///< nothing is measured or computed: the last force stays
   double sampling_jitter = 0.0;          ///< s; each sample is late by a uniform part of it; < T
@@ -81,7 +81,7 @@ class HybridLoop {
   void step() noexcept;
 
   // The device alone, for a controller that runs elsewhere; options.controller and options.faults then do not act.
-  /// What the encoder gives now, at k T.
+  /// What the encoder gives at k T.
   [[nodiscard]] double measure() noexcept;
   /// Moves the device to (k + 1) T with this force commanded at k T, N or N m: limited, and underway for the delay, as
   /// in step().
@@ -93,11 +93,11 @@ class HybridLoop {
   // At the end of the last step, k T:
   [[nodiscard]] std::size_t sample() const noexcept;  ///< k
   [[nodiscard]] double time() const noexcept;         ///< k T, s
-  /// Of the sensed body, m or rad, without the encoder's steps.
+  /// Position of the sensed body, m or rad, without the encoder's steps.
   [[nodiscard]] double sensed_position() const noexcept;
-  /// Of a body by its index, m or rad.
+  /// Position of a body by its index, m or rad.
   [[nodiscard]] double position(std::size_t body) const noexcept;
-  /// Of a body by its index, m/s or rad/s.
+  /// Velocity of a body by its index, m/s or rad/s.
   [[nodiscard]] double velocity(std::size_t body) const noexcept;
   /// Whether friction holds that body still.
   [[nodiscard]] bool sticks(std::size_t body) const noexcept;

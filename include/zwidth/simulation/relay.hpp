@@ -41,8 +41,8 @@ struct RelayMean {
   double highest_frequency = 0.0;  ///< rad/s
 };
 
-/// Nothing where no trial oscillates. Of trials at different oscillations it is no number of the device: RelayResult has
-/// none of those.
+/// Nothing where no trial oscillates. The mean of trials at different oscillations is no number of the device:
+/// RelayResult leaves it out.
 [[nodiscard]] std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials);
 
 /// What the mean says of the stiffest stable wall of linear theory.
@@ -64,8 +64,8 @@ struct RelayResult {
   double sampling_period = 0.0;        ///< s
   Relay relay;                         ///< of a recording: half of the force's peak to peak
   std::vector<RelayTrial> trials;      ///< a recording is one
-  /// Absent where no trial oscillates, and where they settle at different oscillations: of frequencies that differ by more
-  /// than 15 %.
+  /// Absent where no trial oscillates, and where they settle at different oscillations: of frequencies that differ by
+  /// more than 15 %.
   std::optional<RelayMean> mean;
   std::optional<Device> device;                     ///< absent for a recording
   std::optional<double> friction_level;             ///< largest friction of the device over the relay's force
@@ -74,8 +74,9 @@ struct RelayResult {
   /// What the experiment says about the wall's limit, a sentence or two each: whether it agrees with linear theory, what
   /// friction does to it, which other oscillations exist. Empty where no trial oscillates or without a device.
   std::vector<std::string> explanation;
-  /// Of the mean as a limit for walls: the device's own, and doubtful where it differs from the limit of linear theory
-  /// (unsafe, too_cautious) and where no device says what to expect; refused where there is no mean.
+  /// How far the mean is to be trusted as a limit for walls: as far as the device; doubtful where it differs from the
+  /// limit of linear theory (unsafe, too_cautious) and where no device says what to expect; refused where there is no
+  /// mean.
   Trust trust;
   std::vector<Remark> remarks;  ///< of the recording, and that the device's [wall] is left out
 };
@@ -94,7 +95,7 @@ struct RelayResult {
 [[nodiscard]] RelayResult relay(Recording recording, const RelayRecordOptions& options = {},
                                 const Progress& progress = {});
 
-/// The same from several trials of one experiment, each a recording: of one sampling period.
+/// The same from several trials of one experiment, each a recording, all of one sampling period.
 [[nodiscard]] RelayResult relay(std::vector<Recording> recordings, const RelayRecordOptions& options = {},
                                 const Progress& progress = {});
 

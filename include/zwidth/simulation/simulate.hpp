@@ -38,15 +38,15 @@ struct SimulationOptions {
   std::optional<double> wall_position;                ///< m or rad, instead of the controller's
   UserForce user_force;                               ///< on the held body
   Faults faults;                                      ///< none by default
-  /// Of every body, m or rad, and m/s or rad/s; empty: 0. Where both are empty and the user does not push, every body
-  /// starts at rest 1 mm (1 mrad) inside the wall, or further in where that lies inside the stiction or an encoder step
-  /// (a transfer function: its wall begins there instead).
+  /// m or rad, of each body; empty: 0. Where velocities are empty too and the user does not push, every body starts at
+  /// rest 1 mm (1 mrad) inside the wall, or further in where that lies inside the stiction or an encoder step (a
+  /// transfer function: its wall begins there instead).
   std::vector<double> initial_position;
   std::vector<double> initial_velocity;  ///< m/s or rad/s, of each body; empty: at rest
   /// s; 1 to max_simulated_samples sampling periods, and more than the loop's delay. Absent: 40 periods of
   /// the critical oscillation, at least 1 s and four delays, at most a million samples; counted from the start of the
-  /// user's force. Where that run at a bilateral wall is undecided or drifts, it is run for 4, 16 and 64 times as long, up
-  /// to a million samples, until it is not.
+  /// user's force. Where that run at a bilateral wall is undecided or drifts, it is run for 4, 16 and 64 times as long,
+  /// up to a million samples, until it is not.
   std::optional<double> duration;
   /// m or rad, > 0: ends the run as unstable where |sensed position - start| passes it.
   double divergence = 1e3;

@@ -15,7 +15,7 @@ namespace zwidth {
 /// A frequency response value(w) e^{-jw delay}. The delay is kept apart so that the unwrapped phase needs no sample per
 /// turn.
 struct DelayedResponse {
-  /// Of the response at w in rad/s.
+  /// The response without the delay, at w in rad/s.
   std::function<std::complex<double>(double)> value;
   double delay = 0.0;       ///< s, >= 0
   double loop_delay = 0.0;  ///< s; of a loop closed inside value, which ripples once per turn of that delay
@@ -31,7 +31,7 @@ struct DelayedResponse {
 /// Its negative-real values are those at which -1/K lies on it: the crossovers of critical_stiffness().
 [[nodiscard]] DelayedResponse delayed_response(FilteredPlant plant, VirtualDamper damper = {});
 
-/// Of a response, rad/s.
+/// The frequencies that a response is asked for.
 struct FrequencyRange {
   double from = 0.0;  ///< rad/s, > 0
   double to = 0.0;    ///< rad/s, > from
@@ -42,11 +42,11 @@ struct FrequencyRange {
 ///
 /// `modes` are frequencies to start from besides the grid, since a light mode can hide between two grid points; those
 /// above Nyquist are met again at their aliases when `period` > 0. Poles of undamped modes and undamped zeros are left
-/// out: no response is held without a decibel. At most about 20 000.
+/// out: a response there has no finite decibel. At most about 20 000.
 [[nodiscard]] std::vector<double> bode_frequencies(std::span<const DelayedResponse> responses, FrequencyRange range,
                                                    std::span<const Mode> modes, double period, std::size_t points);
 
-/// Of a response at one frequency.
+/// A response at one frequency.
 struct BodePoint {
   double frequency = 0.0;     ///< rad/s
   double magnitude_db = 0.0;  ///< 20 log10 |.|

@@ -42,7 +42,7 @@ class QuantileFunction {
 
   /// x with P(X <= x) = u; never beyond the distribution's ends. u is brought to least_uniform..1 - least_uniform.
   [[nodiscard]] double operator()(double u) const;
-  /// Of a standard normal number z: x with P(X <= x) = Phi(z), exact in both tails for a normal that is not cut off.
+  /// x with P(X <= x) = Phi(z) for a standard normal number z, exact in both tails for a normal that is not cut off.
   [[nodiscard]] double at_score(double z) const;
   /// The least and the largest value that a study can draw.
   [[nodiscard]] double least() const { return (*this)(0.0); }

@@ -30,14 +30,15 @@ struct StatisticInterval {
   double upper = 0.0;  ///< not below it
 };
 
-/// Of the expectation of a sum of weights, each of something seen at random: `sum` of them, sum of their `squares`, and
-/// the `largest`. With P^-1(a, p) the quantile of the gamma distribution of shape a,
+/// Interval of the expectation of a sum of weights, each of something seen at random, from their `sum`, the sum of
+/// their `squares` and the `largest`. With P^-1(a, p) the quantile of the gamma distribution of shape a,
 ///
 ///     lower = squares/sum P^-1(sum²/squares, (1 - confidence)/2)
 ///     upper = v/s P^-1(s²/v, (1 + confidence)/2),    s = sum + largest, v = squares + largest²
 ///
-/// Of equal weights that is the exact interval of a Poisson number. Of others it is approximate: of 40 log-normal weights
-/// (exp(z), about 15 effective ones) the upper end was too low in 138 of 4000 trials, where 100 are allowed. Requires 0 < largest <= sum, squares > 0, 0 < confidence < 1; throws Error (invalid_argument).
+/// Equal weights make it the exact interval of a Poisson number. Others make it approximate: with 40 log-normal weights
+/// (exp(z), about 15 effective ones) the upper end is too low in 138 of 4000 trials, where 100 are allowed.
+/// Requires 0 < largest <= sum, squares > 0, 0 < confidence < 1; throws Error (invalid_argument).
 /// Source: M. P. Fay, E. J. Feuer, Statist. Med. 16, 791 (1997).
 [[nodiscard]] StatisticInterval weighted_sum_interval(double sum, double squares, double largest,
                                                       double confidence = 0.95);
@@ -48,8 +49,9 @@ struct QuantileRanks {
   std::optional<std::uint64_t> upper;  ///< rank from 0; absent where the sample is too small for one
 };
 
-/// X_(lower) <= x_p <= X_(upper) with that confidence at least, half of the rest on each side, whatever the distribution:
-/// the number of samples up to x_p is binomial. Source: H. A. David, H. N. Nagaraja, Order Statistics, 2003, section 7.1.
+/// X_(lower) <= x_p <= X_(upper) with that confidence at least, half of the rest on each side, whatever the
+/// distribution: the number of samples up to x_p is binomial. Source: H. A. David, H. N. Nagaraja, Order Statistics,
+/// 2003, section 7.1.
 [[nodiscard]] QuantileRanks quantile_ranks(double p, std::uint64_t samples, double confidence = 0.95);
 
 /// The rank of the sample that a share `coverage` of all exceed, with `confidence`; absent where there are too few.

@@ -41,8 +41,8 @@ struct StudyOptions {
 };
 
 /// Checks: samples and parameters as SamplingPlan; index_samples 0 or 16 to 2^24; tightening_samples at most 2^24;
-/// rare_samples 0 or 100 to 2^24, with a specification; region_units 0 or as region_contours(); a specification finite and > 0, of any user for bodies alone;
-/// threads.
+/// rare_samples 0 or 100 to 2^24, with a specification; region_units 0 or as region_contours(); a specification finite
+/// and > 0, of any user for bodies alone; threads.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const StudyOptions& options, const Device& device,
                                                         const StudyDistributions& distributions);
 
@@ -117,8 +117,8 @@ struct StudyPoint {
 struct Study {
   std::vector<std::string> keys;  ///< of the parameters
   std::uint64_t samples = 0;      ///< units drawn
-  /// Of the device as its file has it, with nobody and with its user; the limits of the units are with its user, where there
-  /// is one, else with nobody. NaN where there is no answer.
+  /// Limits of the device as its file has it, with nobody and with its user; NaN where there is no answer. The units'
+  /// limits are with its user where there is one, else with nobody.
   HoldingLimits limits;
   /// Units that meet the whole specification, and each half; absent where nothing is specified.
   std::optional<Proportion> yield;
@@ -151,10 +151,11 @@ struct Study {
 
 /// How K_CR varies over the units of one design.
 ///
-/// The i-th unit depends on device, distributions, sampling, seed and i alone; every result is the same, bit for bit, for
-/// any number of threads. A unit that cannot be computed is counted as one that misses the specification, and listed.
-/// Throws Error (invalid_argument) where find_problem() of the distributions or of the options finds one, and for more than
-/// most_samples_in_memory.
+/// The i-th unit depends on device, distributions, sampling, seed and i alone; every result is the same, bit for bit,
+/// for any number of threads. A unit that cannot be computed is counted as one that misses the specification, and
+/// listed.
+/// Throws Error (invalid_argument) where find_problem() of the distributions or of the options finds one, and for more
+/// than most_samples_in_memory.
 [[nodiscard]] Study study(const Device& device, const StudyDistributions& distributions, const StudyOptions& options,
                           const Progress& progress = {});
 

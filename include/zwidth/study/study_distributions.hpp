@@ -52,7 +52,7 @@ class StudyInputs {
   explicit StudyInputs(const StudyDistributions& distributions);
 
   [[nodiscard]] std::size_t size() const { return quantiles_.size(); }  ///< how many parameters
-  /// Of the j-th parameter.
+  /// The quantiles of the j-th parameter.
   [[nodiscard]] const QuantileFunction& quantile(std::size_t j) const { return quantiles_[j]; }
   /// Whether the parameter is correlated with another.
   [[nodiscard]] bool is_correlated(std::size_t j) const { return correlated_[j]; }

@@ -41,7 +41,8 @@ class StudyRun {
 
   /// The answers of a chunk, on one thread.
   [[nodiscard]] BatchStiffness answers(std::uint64_t chunk, const Progress& progress = {}) const;
-  /// Of any values of the parameters, on the study's threads; `progress` from any of them, never from two at once.
+  /// The answers for any values of the parameters, on the study's threads. `progress` is called from any of them, one
+  /// at a time.
   [[nodiscard]] BatchStiffness answers(const std::vector<ParameterValues>& columns, bool any_user,
                                        const Progress& progress = {}) const;
 
@@ -59,10 +60,10 @@ class StudyRun {
 /// Hands over the answers of a chunk; what it returns is used until the next call.
 using ChunkSource = std::function<const BatchStiffness&(std::uint64_t chunk)>;
 
-/// Computes chunks on the study's threads, and consumes them one after the other in the order in which `next` named them;
-/// it names none when there are no more. Neither is called from two threads at once. A few chunks at a time are in
-/// memory. `within` is told of the work inside of a chunk, from several threads at once. What they throw ends the work
-/// and passes through.
+/// Computes chunks on the study's threads, and consumes them one after the other in the order in which `next` named
+/// them; it names none when there are no more. Neither is called from two threads at once. A few chunks at a time are
+/// in memory. `within` is told of the work inside of a chunk, from several threads at once. What they throw ends the
+/// work and passes through.
 void compute_chunks(const StudyRun& run, const std::function<std::optional<std::uint64_t>()>& next,
                     const std::function<void(std::uint64_t chunk, BatchStiffness answers)>& consume,
                     const Progress& within = {});
