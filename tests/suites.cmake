@@ -1,6 +1,7 @@
 # What ctest reads when it starts: the tests of each room, as its executable lists them. Those of a suite run in one process,
 # "stability.Analysis", for a process takes longer to start than most of them. What is slow (fast.cmake), or is skipped where
 # something is missing, is a test of its own: "Analysis.MarginsThatPolesCrowdAround". With ZWIDTH_EACH_CASE=1 all are.
+# Suites named "Campaign/..." and "...Campaign" are scripts/campaign's.
 cmake_policy(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/fast.cmake)
 
@@ -32,7 +33,9 @@ function(zwidth_suite_tests room executable cost)
       list(APPEND cases ${suite}${CMAKE_MATCH_1})
     endif()
   endforeach()
+  list(FILTER cases EXCLUDE REGEX "Campaign[./]")
   zwidth_matching(cases slow_cases ${slow})
+  list(FILTER slow_cases EXCLUDE REGEX "${fast_findings}")
   zwidth_matching(cases skipped_cases ${skipped})
   set(properties TIMEOUT 900 COST ${cost})
   set(suites)
