@@ -140,7 +140,7 @@ TEST(DoubtedRecording, APositionOfTheNextInstantHidesDelay) {
 TEST(DoubtedRecording, ADampingThatFallsMidwayIsNamedWithItsSoftestLimit) {
   const double softest = critical_stiffness(Device(two_bodies())).stiffness;
   constexpr std::array shares{0.75, 0.5, 0.85};
-  for (const double share : std::span(shares).first(test::repetitions(1U, 3U))) {
+  for (const double share : std::span(shares).first(test::by_tier(1U, 3U))) {
     const Identification found = fit_of_lines(warming_up(share, noise_force()), Device(two_bodies()));
     EXPECT_GT(found.analysis.critical.stiffness, 1.2 * softest) << share;
     EXPECT_THAT(codes_of(found.trust), Contains(FindingCode::damping_changes)) << share;

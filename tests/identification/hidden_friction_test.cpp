@@ -84,7 +84,7 @@ TEST(HiddenFriction, OfAThousandthOfTheForceIsNeverSound) {
   options.structure_values = IdentifyOptions::StructureValues::placeholders;
   const Device structure(named_structure("two-body", {.record_period = 1e-3}).value().parameters);
   const std::vector<Rubbing> all = rubbing();
-  for (const Rubbing& each : std::span(all).first(test::repetitions(1U, 3U))) {
+  for (const Rubbing& each : std::span(all).first(test::by_tier(1U, 3U))) {
     DeviceParameters linear = each.device;
     for (Body& body : linear.bodies) body.coulomb = 0.0;
     const double truth = critical_stiffness(Device(std::move(linear))).stiffness;

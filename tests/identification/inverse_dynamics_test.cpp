@@ -92,7 +92,7 @@ TEST(InverseDynamics, IntervalsHoldTheTruthAsOftenAsTheySay) {
   };
   for (const Disturbance disturbance : {Disturbance{2.0, 0.0}, Disturbance{0.5, 0.5}}) {
     std::array<int, 5> held{};
-    const int seeds = test::repetitions(40, 100);
+    const int seeds = test::by_tier(40, 100);
     for (unsigned seed = 1; seed <= static_cast<unsigned>(seeds); ++seed) {
       Experiment experiment;
       experiment.white = disturbance.white;

@@ -254,7 +254,7 @@ TEST(MeasuredStiffness, DistortionsThatRepeatInEveryPeriodCountAsNoise) {
   // so. The rigid body crosses at a slant, between many lines that scatter to both sides.
   const Device device(test::rigid_parameters());
   const CriticalStiffness truth = critical_stiffness(filtered_plant(device));
-  const int seeds = test::repetitions(50, 200);
+  const int seeds = test::by_tier(50, 200);
   for (const double step_hz : {0.5, 0.1}) {
     const FrequencyResponse exact = exact_response(device, 1.0, 100.0, step_hz);
     int crossings = 0;

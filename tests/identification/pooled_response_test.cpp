@@ -77,7 +77,7 @@ TEST(PooledResponse, IntervalsOfTwoMultisinesHoldTheTruth) {
   const Device device(test::locked_lhifam_parameters());
   Coverage coverage(device);
   int dependent = 0;
-  const unsigned seeds = test::repetitions(25U, 100U);
+  const unsigned seeds = test::by_tier(25U, 100U);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const MeasuredResponse found = frequency_response(two_multisines(device, seed));
     EXPECT_EQ(found.response.points.size(), 396U) << "seed " << seed;
@@ -100,7 +100,7 @@ TEST(PooledResponse, TwoRecordingsKnowMoreThanEither) {
   Coverage coverage(device);
   double ratio = 0.0;  // of variances, summed over the lines of all seeds
   double lines = 0.0;
-  for (std::uint64_t seed = 1; seed <= test::repetitions(4U, 10U); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::by_tier(4U, 10U); ++seed) {
     const std::vector<Recording> both{record(2 * seed, 20.0), record(2 * seed + 1, 37.0)};
     FrequencyResponseOptions options = test::welch();
     options.segment_length = 1024;
@@ -233,8 +233,9 @@ TEST(PooledResponse, IdentifiesADeviceFromSeveralRecordings) {
   const Device device(test::locked_lhifam_parameters());
   IdentifyOptions options;
   options.fit.free = {"body.motor.mass", "body.motor.damping", "body.motor.stiffness"};
+  options.scrutiny = IdentifyOptions::Scrutiny::brief;  // the intervals are asked
   int held = 0;
-  const unsigned seeds = test::repetitions(4U, 20U);
+  const unsigned seeds = test::by_tier(4U, 20U);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const Identification found = identify(two_multisines(device, seed), device, options);
     ASSERT_TRUE(found.analysis.interval) << "seed " << seed;

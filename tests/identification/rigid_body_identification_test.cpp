@@ -121,7 +121,7 @@ bool holds(const RigidBodyIdentification& found, double limit) {
 TEST(RigidBodyIdentification, ALimitAboveTheBandIsDoubtfulAndItsIntervalHoldsTheTruth) {
   for (const double delay : {0.2e-3, 1e-3}) {
     int held = 0;
-    const unsigned seeds = test::repetitions(6U, 20U);
+    const unsigned seeds = test::by_tier(6U, 20U);
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const Bench bench{1.0, delay};
       const RigidBodyIdentification found = identify_rigid_body(recorded(bench, seed));
@@ -139,7 +139,7 @@ TEST(RigidBodyIdentification, ALimitAboveTheBandIsDoubtfulAndItsIntervalHoldsThe
 
 TEST(RigidBodyIdentification, ADelayInTheBandIsTheDevicesAndSound) {
   int held = 0;
-  const unsigned seeds = test::repetitions(6U, 20U);
+  const unsigned seeds = test::by_tier(6U, 20U);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const Bench bench{20.0, 0.5e-3, 10.0};
     const RigidBodyIdentification found = identify_rigid_body(recorded(bench, seed));
@@ -164,7 +164,7 @@ TEST(RigidBodyIdentification, ADelayThatDoesNotShowIsNotAdvised) {
 // A mode at 28 or 54 Hz of which nothing shows but that the inertia rises: 1.4 to 3.4 % off, 5 to 10 times the interval.
 TEST(RigidBodyIdentification, AModeAboveTheBandDoesNotBiasTheInertia) {
   for (const auto& [mode_hz, highest_hz] : {std::pair{28.0, 3.0}, std::pair{54.0, 5.0}, std::pair{54.0, 8.0}}) {
-    const unsigned seeds = test::repetitions(4U, 10U);
+    const unsigned seeds = test::by_tier(4U, 10U);
     int held = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const RigidBodyIdentification found =

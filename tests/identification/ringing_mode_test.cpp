@@ -44,7 +44,7 @@ TEST(RingingMode, DiesOutOverLongerSegments) {
   const double truth = critical_stiffness(Device(device)).stiffness;
   IdentifyOptions options;
   options.scrutiny = IdentifyOptions::Scrutiny::brief;
-  for (std::uint64_t seed = 1; seed <= test::repetitions(1U, 5U); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::by_tier(1U, 5U); ++seed) {
     const Identification found = identify(swept(device, 16.0, seed), Device(device), options);
     ASSERT_TRUE(found.analysis.interval) << "seed " << seed;
     EXPECT_LE(found.analysis.interval->lower, truth) << "seed " << seed;

@@ -78,7 +78,7 @@ TEST(SeveralRates, ClocksThatDifferByTenPartsPerMillionAreOneDevice) {
 }
 
 TEST(SeveralRates, TwiceTheRateCountsAtTheFirstOnes) {
-  const unsigned seeds = test::repetitions(10U, 20U);
+  const unsigned seeds = test::by_tier(10U, 20U);
   Held pooled;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const MeasuredResponse found = frequency_response(
@@ -93,8 +93,9 @@ TEST(SeveralRates, TwiceTheRateCountsAtTheFirstOnes) {
 TEST(SeveralRates, IdentifyHoldsTheTruth) {
   IdentifyOptions options;
   options.fit.free = {"body.motor.mass", "body.motor.damping", "body.motor.stiffness"};
+  options.scrutiny = test::by_tier(IdentifyOptions::Scrutiny::brief, IdentifyOptions::Scrutiny::thorough);
   const double truth = critical_stiffness(filtered_plant(sampled_at(1000.0))).stiffness;
-  const unsigned seeds = test::repetitions(2U, 5U);
+  const unsigned seeds = test::by_tier(2U, 5U);
   int held = 0;
   int sound = 0;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

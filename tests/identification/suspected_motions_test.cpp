@@ -200,7 +200,9 @@ TEST(SuspectedMotions, WithoutThemTheAnswerIsSound) {
   EXPECT_EQ(reasons_in_time(Rig{}), "");
 }
 
-TEST(SuspectedMotionsCampaign, OfTwoBodiesWithoutThemTheAnswerIsSound) { EXPECT_EQ(reasons_in_lines(two_bodies()), ""); }
+TEST(SuspectedMotionsCampaign, OfTwoBodiesWithoutThemTheAnswerIsSound) {
+  EXPECT_EQ(reasons_in_lines(two_bodies()), "");
+}
 
 }  // namespace
 }  // namespace zwidth::suspected_motions_test

@@ -22,7 +22,7 @@ using test::identified;
 // has modes above the band: 39, 18, 7 and 53 % too high at the interval's lower end, called sound.
 TEST(IdentificationProperty, FrictionThatTheLinearFitHidesIsFoundInTime) {
   constexpr std::array<std::uint64_t, 4> seeds{1000413, 910134, 1000307, 1000868};
-  for (const std::uint64_t seed : std::span(seeds).first(test::repetitions(1U, 4U))) {
+  for (const std::uint64_t seed : std::span(seeds).first(test::by_tier(1U, 4U))) {
     const auto made = test::random_recording(seed);
     ASSERT_TRUE(made && made->has_friction);
     Identification found = identified(*made);

@@ -17,7 +17,7 @@ TEST(IdentificationProperty, WhatIsCalledSoundIsSafe) {
   int sound = 0;
   int unsafe = 0;
   constexpr std::uint64_t first = 1000;
-  const std::uint64_t count = test::repetitions(8U, 24U);
+  const std::uint64_t count = test::by_tier(8U, 24U);
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const auto made = test::random_recording(seed);
     if (!made || made->truth.bodies.size() > 2) continue;  // three bodies take longer than a test should
@@ -25,6 +25,7 @@ TEST(IdentificationProperty, WhatIsCalledSoundIsSafe) {
     try {
       IdentifyOptions options;
       options.structure_values = IdentifyOptions::StructureValues::placeholders;
+      options.scrutiny = test::by_tier(IdentifyOptions::Scrutiny::brief, IdentifyOptions::Scrutiny::thorough);
       const Identification found = identify(made->recording, Device(made->structure), options);
       if (!found.trust.sound()) continue;
       ++sound;

@@ -15,7 +15,7 @@ TEST(LostRowsProperty, WhatIsSoundHoldsTheTruthAndStaysSound) {
   int whole_sound = 0;
   int stays_sound = 0;
   int missed = 0;
-  const int count = test::repetitions(4, 12);
+  const int count = test::by_tier(4, 12);
   int done = 0;
   for (std::uint64_t seed = 1; done < count; ++seed) {
     const auto made = test::damaged_recording(seed);

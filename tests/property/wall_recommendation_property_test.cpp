@@ -67,7 +67,7 @@ double scanned_phase_margin(const DiscreteStateSpace& plant, const Wall& wall) {
 
 std::size_t cases() {
   const char* asked = std::getenv("ZWIDTH_PROPERTY_CASES");
-  const std::size_t most = repetitions<std::size_t>(40, 300);
+  const std::size_t most = by_tier<std::size_t>(40, 300);
   return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10), 1, most) : most;
 }
 

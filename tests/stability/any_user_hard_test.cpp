@@ -48,7 +48,7 @@ TEST(AnyUserLimit, IsNeverAboveTheFreeDevice) {
 }
 
 TEST(AnyUserLimit, IsNeverAboveTheFreeDeviceAtRandom) {
-  for (std::size_t seed = 0; seed < test::repetitions(105U, 420U); ++seed) {
+  for (std::size_t seed = 0; seed < test::by_tier(105U, 420U); ++seed) {
     test::RandomDevices random(seed + 52000);
     const auto kind = test::device_kinds[seed % test::device_kinds.size()];
     DeviceParameters parameters = random.device(kind);

@@ -55,7 +55,7 @@ TEST(RareFailures, AreFoundWhereTheyAreWide) {
   options.specification.critical_stiffness = 230.06328251842203;
   int held = 0;
   double square = 0.0;
-  const unsigned seeds = test::repetitions(15U, 60U);
+  const unsigned seeds = test::by_tier(15U, 60U);
   for (options.seed = 1; options.seed <= seeds; ++options.seed) {
     const RareFailures rare = rare_failures(test::random_study(3, options, "user_side"), {.samples = 5000});
     EXPECT_TRUE(rare.trust.sound()) << options.seed << rare.trust.reasons.front();

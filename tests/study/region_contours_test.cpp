@@ -36,7 +36,7 @@ double limit_of(const StableWalls& walls, double damping) {
 
 // Units that hardly differ have one region: that of the device, found by another route.
 TEST(RegionContours, AreTheRegionWhereUnitsHardlyDiffer) {
-  const unsigned seeds = test::repetitions(2U, 4U);
+  const unsigned seeds = test::by_tier(2U, 4U);
   std::size_t compared = 0;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
@@ -96,7 +96,7 @@ TEST(RegionContours, AreTheSharesOfUnitsCountedOneByOne) {
 }
 
 TEST(RegionContours, LieWithinEachOtherAndEnd) {
-  for (std::uint64_t seed = 1; seed <= test::repetitions(1U, 3U); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::by_tier(1U, 3U); ++seed) {
     const StudyRun run = test::random_study(seed, {.samples = 400});
     const RegionContours found = region_contours(run, 400);
     SCOPED_TRACE(seed);

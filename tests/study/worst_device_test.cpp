@@ -12,7 +12,7 @@ namespace zwidth {
 namespace {
 
 TEST(WorstDevice, IsNoBetterThanTheWorstOfManyOthers) {
-  const std::uint64_t cases = test::repetitions(2U, 6U);
+  const std::uint64_t cases = test::by_tier(2U, 6U);
   std::uint64_t beaten = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     StudyOptions options;
