@@ -32,8 +32,10 @@ std::vector<std::string> examples_in(const std::string& help) {
   return examples;
 }
 
-/// A server runs until it is interrupted: here when it has told its address, at any free port and without a browser.
+/// A server runs until it is interrupted: here when it has told its address, at any free port and without a browser. A device
+/// is identified from a record of 4 s.
 std::string runnable(std::string example) {
+  if (example.starts_with("zwidth rig identify")) return example + " --duration 4";
   if (!example.starts_with("zwidth serve")) return example;
   if (const std::size_t opens = example.find(" --open"); opens != std::string::npos) example.erase(opens, 7);
   return "rm -f address; " + example +

@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "campaign.hpp"
 #include "identification/synthetic_bench.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -253,14 +254,14 @@ TEST(MeasuredStiffness, DistortionsThatRepeatInEveryPeriodCountAsNoise) {
   // so. The rigid body crosses at a slant, between many lines that scatter to both sides.
   const Device device(test::rigid_parameters());
   const CriticalStiffness truth = critical_stiffness(filtered_plant(device));
-  constexpr int seeds = 200;
+  const int seeds = test::by_tier(50, 200);
   for (const double step_hz : {0.5, 0.1}) {
     const FrequencyResponse exact = exact_response(device, 1.0, 100.0, step_hz);
     int crossings = 0;
     int frequencies_held = 0;
     int stiffnesses_held = 0;
     int unsafe = 0;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds); ++seed) {
       std::mt19937_64 generator(seed);
       std::normal_distribution<double> normal(0.0, 0.01);
       FrequencyResponse response = exact;
@@ -278,9 +279,9 @@ TEST(MeasuredStiffness, DistortionsThatRepeatInEveryPeriodCountAsNoise) {
       if (first.stiffness_interval.lower > truth.stiffness) ++unsafe;
     }
     EXPECT_GE(crossings, seeds - 2) << step_hz;
-    EXPECT_GE(frequencies_held, 184) << step_hz;  // 190 are promised; 192 and 200 were counted
-    EXPECT_GE(stiffnesses_held, 184) << step_hz;
-    EXPECT_LE(unsafe, 12) << step_hz;
+    EXPECT_GE(frequencies_held, 0.92 * seeds) << step_hz;  // of 200 190 are promised; 192 and 200 were counted
+    EXPECT_GE(stiffnesses_held, 0.92 * seeds) << step_hz;
+    EXPECT_LE(unsafe, 0.06 * seeds) << step_hz;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "campaign.hpp"
 #include "identification/synthetic_response.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -43,7 +44,7 @@ TEST(RingingMode, DiesOutOverLongerSegments) {
   const double truth = critical_stiffness(Device(device)).stiffness;
   IdentifyOptions options;
   options.scrutiny = IdentifyOptions::Scrutiny::brief;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::by_tier(1U, 5U); ++seed) {
     const Identification found = identify(swept(device, 16.0, seed), Device(device), options);
     ASSERT_TRUE(found.analysis.interval) << "seed " << seed;
     EXPECT_LE(found.analysis.interval->lower, truth) << "seed " << seed;

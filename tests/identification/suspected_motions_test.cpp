@@ -147,7 +147,7 @@ TEST(SuspectedMotions, AFrameThatShakesIsSeenInLinesToo) {
   EXPECT_NE(reasons_in_lines(rig).find("that the structure lacks"), std::string::npos) << reasons_in_lines(rig);
 }
 
-TEST(SuspectedMotions, ClocksThatRunApartAreADelayThatChanges) {
+TEST(SuspectedMotionsCampaign, ClocksThatRunApartAreADelayThatChanges) {
   Rig rig = two_bodies();
   rig.skew = 5e-5;
   EXPECT_NE(reasons_in_lines(rig).find("clocks of force and position run apart"), std::string::npos)
@@ -162,7 +162,7 @@ TEST(SuspectedMotions, ClocksThatRunApartAreSeenInTimeToo) {
       << reasons_in_time(rig);
 }
 
-TEST(SuspectedMotions, ASpringThatSlipsBesideTheLinkIsFrictionInIt) {
+TEST(SuspectedMotionsCampaign, ASpringThatSlipsBesideTheLinkIsFrictionInIt) {
   Rig rig = two_bodies();
   rig.slip = 0.1;
   rig.slip_spring = 1850.0;
@@ -196,8 +196,12 @@ TEST(SuspectedMotions, OfANamedStructureItIsSaidThatTheForceIsTheCommand) {
 }
 
 TEST(SuspectedMotions, WithoutThemTheAnswerIsSound) {
-  for (const Rig& rig : {Rig{}, two_bodies()}) EXPECT_EQ(reasons_in_lines(rig), "");
+  EXPECT_EQ(reasons_in_lines(Rig{}), "");
   EXPECT_EQ(reasons_in_time(Rig{}), "");
+}
+
+TEST(SuspectedMotionsCampaign, OfTwoBodiesWithoutThemTheAnswerIsSound) {
+  EXPECT_EQ(reasons_in_lines(two_bodies()), "");
 }
 
 }  // namespace

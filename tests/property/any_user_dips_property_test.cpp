@@ -19,7 +19,7 @@
 namespace zwidth {
 namespace {
 
-constexpr std::size_t usual_devices = 600;
+constexpr std::size_t usual_devices = 150;
 constexpr double beaten = 1e-6;          // relative
 constexpr double highest_tuning = 20.0;  // of Nyquist
 constexpr double lowest_tuning = 0.02;

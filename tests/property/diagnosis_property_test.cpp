@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/simulation/simulate.hpp"
@@ -124,8 +125,9 @@ struct Campaign {
 };
 
 std::size_t cases() {
+  const std::size_t most = by_tier<std::size_t>(12, 40);
   const char* asked = std::getenv("ZWIDTH_PROPERTY_CASES");
-  return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10) / 5, 1, 40) : 40;
+  return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10) / 5, 1, most) : most;
 }
 
 // Simulated loops whose mechanism is known by how they were made; what a user sees of them is the frequency and the

@@ -2,9 +2,11 @@
 // benchmarks/identification_campaign.cpp.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 
+#include "campaign.hpp"
 #include "identification/friction_in_time.hpp"
 #include "property/identified_recordings.hpp"
 #include "property/random_recordings.hpp"
@@ -19,7 +21,8 @@ using test::identified;
 // Friction that no small disturbance of the linear fit's motion shows, since the device drifts until friction stops it, or
 // has modes above the band: 39, 18, 7 and 53 % too high at the interval's lower end, called sound.
 TEST(IdentificationProperty, FrictionThatTheLinearFitHidesIsFoundInTime) {
-  for (const std::uint64_t seed : {1000413U, 910134U, 1000307U, 1000868U}) {
+  constexpr std::array<std::uint64_t, 4> seeds{1000413, 910134, 1000307, 1000868};
+  for (const std::uint64_t seed : std::span(seeds).first(test::by_tier(1U, 4U))) {
     const auto made = test::random_recording(seed);
     ASSERT_TRUE(made && made->has_friction);
     Identification found = identified(*made);

@@ -7,8 +7,10 @@
 
 namespace zwidth::test {
 
-inline Identification identified(const RandomRecording& made) {
+inline Identification identified(const RandomRecording& made,
+                                 IdentifyOptions::Scrutiny scrutiny = IdentifyOptions::Scrutiny::thorough) {
   IdentifyOptions options;
+  options.scrutiny = scrutiny;
   options.structure_values = IdentifyOptions::StructureValues::placeholders;
   return identify(made.recording, Device(made.structure), options);
 }

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "campaign.hpp"
 #include "property/damaged_recordings.hpp"
 #include "zwidth/identification/identification.hpp"
 
@@ -14,7 +15,7 @@ TEST(LostRowsProperty, WhatIsSoundHoldsTheTruthAndStaysSound) {
   int whole_sound = 0;
   int stays_sound = 0;
   int missed = 0;
-  constexpr int count = 12;
+  const int count = test::by_tier(4, 12);
   int done = 0;
   for (std::uint64_t seed = 1; done < count; ++seed) {
     const auto made = test::damaged_recording(seed);
@@ -40,7 +41,7 @@ TEST(LostRowsProperty, WhatIsSoundHoldsTheTruthAndStaysSound) {
     ++whole_sound;
     stays_sound += is_sound ? 1 : 0;
   }
-  EXPECT_GE(whole_sound, 6);
+  EXPECT_GE(whole_sound, count / 2);
   EXPECT_GE(stays_sound, whole_sound - 1);
   EXPECT_LE(missed, 1);
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "campaign.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -70,7 +71,7 @@ TEST(SensitivityProperty, OfTheCriticalStiffnessEqualsCentralDifferences) {
   std::size_t compared = 0;
   std::size_t limited = 0;
   std::size_t unsure = 0;
-  const std::size_t devices = device_count(1000);
+  const std::size_t devices = device_count(test::by_tier<std::size_t>(210, 1000));
   for (std::size_t seed = 0; seed < devices; ++seed) {
     const auto kind = test::device_kinds[seed % test::device_kinds.size()];
     const DeviceParameters parameters = test::RandomDevices(seed + 4000).device(kind);
@@ -155,7 +156,7 @@ TEST(SensitivityProperty, OfTheAnyUserLimitEqualsCentralDifferences) {
   std::size_t limited = 0;
   std::size_t clear = 0;
   std::size_t unsure = 0;
-  const std::size_t devices = device_count(105);
+  const std::size_t devices = device_count(test::by_tier<std::size_t>(21, 105));
   for (std::size_t seed = 0; seed < devices; ++seed) {
     const auto kind = test::device_kinds[seed % test::device_kinds.size()];
     if (kind == "transfer_function") continue;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "campaign.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/design/notch_design.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
@@ -66,13 +67,14 @@ double scanned_phase_margin(const DiscreteStateSpace& plant, const Wall& wall) {
 
 std::size_t cases() {
   const char* asked = std::getenv("ZWIDTH_PROPERTY_CASES");
-  return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10), 1, 300) : 300;
+  const std::size_t most = by_tier<std::size_t>(40, 300);
+  return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10), 1, most) : most;
 }
 
 // ZWIDTH_CAMPAIGN_DEVICES=300 is the campaign: some minutes.
 std::size_t drifting_cases() {
   if (const char* campaign = std::getenv("ZWIDTH_CAMPAIGN_DEVICES")) return std::strtoul(campaign, nullptr, 10);
-  return std::min<std::size_t>(cases(), 8);
+  return std::min<std::size_t>(cases(), 3);
 }
 
 TEST(WallRecommendationProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {

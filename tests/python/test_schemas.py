@@ -48,7 +48,7 @@ OTHERS = [
     ["rig", "limit", LHIFAM],
     ["rig", "relay", LHIFAM],
     ["rig", "relay", "devices/lhifam_rigid.toml"],
-    ["rig", "identify", LHIFAM],
+    ["rig", "identify", LHIFAM, "--duration", "4"],
     *[["simulate", LHIFAM, "--duration", "0.2", "--user-force", force] for force in ("step:5@0.1", "ramp:5@0.1", "sine:1,5@0")],
     *[["rig", action, LHIFAM, "--velocity-limit", "1e-9"] for action in ("measure", "identify", "relay", "limit")],
     ["rig", "limit", LHIFAM, "--ceiling", "100", "--from", "90"],

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "campaign.hpp"
 #include "exact_closed_loop.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -69,7 +70,7 @@ Hub random_hub(unsigned seed) {
 }
 
 TEST(AlikeBranches, SixAreOneOfSixTimes) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < test::by_tier(10U, 40U); ++seed) {
     const Hub hub = random_hub(seed);
     const CriticalStiffness six = critical_stiffness(Device(with_branches(hub.alone, hub.branch, 6)));
     const CriticalStiffness one = critical_stiffness(Device(with_branches(hub.alone, times(hub.branch, 6.0), 1)));
@@ -86,7 +87,7 @@ TEST(AlikeBranches, SixAreOneOfSixTimes) {
 
 // Springs and masses apart by 1e-2 down to 1e-12: five modes that the hub hardly sees. Refused: "cancel beyond 30 digits".
 TEST(AlikeBranches, NearlyAlikeOnesAreAnswered) {
-  for (unsigned seed = 0; seed < 24; ++seed) {
+  for (unsigned seed = 0; seed < test::by_tier(6U, 24U); ++seed) {
     const Hub hub = random_hub(seed);
     DeviceParameters parameters = with_branches(hub.alone, hub.branch, 6);
     std::mt19937_64 random(seed);

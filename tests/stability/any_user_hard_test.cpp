@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "campaign.hpp"
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
 #include "stability/damper_response.hpp"
@@ -47,7 +48,7 @@ TEST(AnyUserLimit, IsNeverAboveTheFreeDevice) {
 }
 
 TEST(AnyUserLimit, IsNeverAboveTheFreeDeviceAtRandom) {
-  for (std::size_t seed = 0; seed < 420; ++seed) {
+  for (std::size_t seed = 0; seed < test::by_tier(105U, 420U); ++seed) {
     test::RandomDevices random(seed + 52000);
     const auto kind = test::device_kinds[seed % test::device_kinds.size()];
     DeviceParameters parameters = random.device(kind);

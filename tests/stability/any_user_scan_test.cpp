@@ -21,7 +21,7 @@ constexpr double rounding = 3e-6;  // of the limit towards w = 0, and 1e-8 elsew
 
 std::size_t device_count() {
   const char* wish = std::getenv("ZWIDTH_SCAN_DEVICES");
-  return wish != nullptr ? std::strtoul(wish, nullptr, 10) : 60;
+  return wish != nullptr ? std::strtoul(wish, nullptr, 10) : 15;
 }
 
 std::vector<double> dense_frequencies(const UserDiscs& discs, double period, test::RandomDevices& random) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "campaign.hpp"
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
 #include "study/random_studies.hpp"
@@ -35,8 +36,9 @@ double limit_of(const StableWalls& walls, double damping) {
 
 // Units that hardly differ have one region: that of the device, found by another route.
 TEST(RegionContours, AreTheRegionWhereUnitsHardlyDiffer) {
+  const unsigned seeds = test::by_tier(2U, 4U);
   std::size_t compared = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     test::RandomDevices random(seed);
     const Device device(random.device(seed % 2 == 0 ? "two_mass" : "fractional_delay"));
@@ -57,7 +59,7 @@ TEST(RegionContours, AreTheRegionWhereUnitsHardlyDiffer) {
     // The grid ends behind the region, and not far.
     EXPECT_GE(found.dampings.back(), region.region.most_damped->damping * (1.0 - 1e-9));
   }
-  EXPECT_GT(compared, 100U);
+  EXPECT_GT(compared, 25 * seeds);
 }
 
 // What the contours say of a wall is what counting the units that render it says.
@@ -94,7 +96,7 @@ TEST(RegionContours, AreTheSharesOfUnitsCountedOneByOne) {
 }
 
 TEST(RegionContours, LieWithinEachOtherAndEnd) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::by_tier(1U, 3U); ++seed) {
     const StudyRun run = test::random_study(seed, {.samples = 400});
     const RegionContours found = region_contours(run, 400);
     SCOPED_TRACE(seed);
