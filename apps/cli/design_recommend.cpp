@@ -18,6 +18,7 @@
 #include "results/wall_recommendation_json.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -91,7 +92,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
                          {shared.write});
   }
   if (!shared.write.empty() && !recommendation.wall) {
-    throw WorkFailed(fmt::format("{}: {} is not written: {}", file, shared.write, recommendation.reason));
+    throw WorkFailed(fmt::format("{}: {} is not written: {}", file, shared.write, text(recommendation.reason)));
   }
   outputs.put("--write", [&] {
     DeviceParameters walled = device.parameters();

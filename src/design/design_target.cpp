@@ -10,6 +10,7 @@
 #include <functional>
 #include <numbers>
 
+#include "counted.hpp"
 #include "design/any_user_judge.hpp"
 #include "design/design_parameter.hpp"
 #include "design/followed_numbers.hpp"
@@ -91,7 +92,7 @@ class Search {
     const NumberLimit there = number_limit(changed, options_.limit_of);
     if (there.trust.refused()) {
       target.value_needed.reset();
-      target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
+      target.why = {.code = FindingCode::limit_refused_at_value, .subjects = {{"reason", there.trust.reasons.front()}}};
     } else {
       target.why = reason_there(there, limit_at(moved, *target.value_needed, 2.0 * options_.stiffness).value_or(0.0));
       const AnyUserJudge::Judgement judgement = users_.of(changed);
@@ -226,29 +227,27 @@ class Search {
     return Device(std::move(moved));
   }
 
-  [[nodiscard]] std::string reason_there(const NumberLimit& there, double limit) const {
-    if (std::abs(excess(limit)) > reached * options_.stiffness) {
-      return "the limit jumps across the target there: another mechanism takes over";
-    }
-    if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
-    return there.at->limited_by.kind == Mechanism::Kind::rigid_body
-               ? "the limit is the target there, set by the rigid body"
-               : fmt::format("the limit is the target there, set by vibration mode {}", there.at->limited_by.mode);
+  [[nodiscard]] Finding reason_there(const NumberLimit& there, double limit) const {
+    using enum FindingCode;
+    if (std::abs(excess(limit)) > reached * options_.stiffness) return {.code = limit_jumps_across_target};
+    if (options_.goal == StiffnessGoal::any_user_limit) return {.code = any_user_limit_at_target};
+    if (there.at->limited_by.kind == Mechanism::Kind::rigid_body) return {.code = rigid_body_limit_at_target};
+    return {.code = mode_limit_at_target, .evidence = {counted("mode", there.at->limited_by.mode)}};
   }
 
-  [[nodiscard]] std::string reason_of_none(const DesignParameter& parameter, const Extremes& extremes) const {
+  [[nodiscard]] Finding reason_of_none(const DesignParameter& parameter, const Extremes& extremes) const {
     const bool below = extremes.most < options_.stiffness;
     const double nearest = below ? extremes.most : extremes.least;
     const bool is_stiffness = options_.limit_of == WallNumber::stiffness;
-    if (!std::isfinite(nearest))
-      return fmt::format("every {} is stable whatever it is", is_stiffness ? "wall" : "damper");
-    const std::string range = parameter.value > 0.0
-                                  ? fmt::format("within a factor of {:g} of its value", options_.factor)
-                                  : "at any value from 0 up to what is likely";
+    if (!std::isfinite(nearest)) {
+      return {.code = FindingCode::stable_at_every_value, .subjects = {{"what", is_stiffness ? "wall" : "damper"}}};
+    }
     const Units units = units_of(device_.parameters().motion);
-    return fmt::format(
-        "{} the limit gets no {} than {}", range, below ? "higher" : "lower",
-        is_stiffness ? quantity(nearest, units.stiffness) : fmt::format("{} {}", number(nearest), units.damping));
+    const std::string_view unit = is_stiffness ? units.stiffness : units.damping;
+    Finding why{.code = below ? FindingCode::limit_stays_below_target : FindingCode::limit_stays_above_target,
+                .evidence = {{"limit", nearest, unit}, {"threshold", options_.stiffness, unit}}};
+    if (parameter.value > 0.0) why.evidence.push_back({"factor", options_.factor});
+    return why;
   }
 
   const Device& device_;
@@ -360,7 +359,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     DesignTarget target;
     target.key = each.key;
     target.value_now = each.value;
-    target.why = "not followed: of so many bodies only the numbers are that move the limit most in a first step";
+    target.why = {.code = FindingCode::number_not_followed};
     result.targets.push_back(std::move(target));
   }
   std::ranges::stable_sort(result.targets, {}, cost);

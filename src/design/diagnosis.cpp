@@ -86,7 +86,7 @@ void rank(std::vector<OscillationCandidate>& candidates, const ObservedLoop& loo
 void compare_with_nobody(OscillationCandidate& held, const OscillationCandidate& nobody) {
   if (!held.fits || !nobody.fits) return;
   held.fits = false;
-  held.why += "; it does so without the operator too";
+  held.why.evidence.push_back({"without_operator", 1.0});
 }
 
 void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
@@ -96,7 +96,7 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
     candidates.push_back(linear_candidate(loop, OscillationCause::with_operator, loop.device));
     compare_with_nobody(candidates[1], candidates[0]);
     if (loop.stiffness && is_stable(loop.device) && candidates[0].fits) {
-      candidates[0].why += " once the file's user lets go, who keeps it stable";
+      candidates[0].why.evidence.push_back({"user_stabilises", 1.0});
     }
   } else {
     candidates.push_back(linear_candidate(loop, OscillationCause::device, loop.device));

@@ -99,8 +99,10 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
     result.trust.doubt(std::move(with));
   }
   for (Remark& remark : said.remarks) {
-    remark.what = fmt::format("with {}: {}", words_of(Holder::nobody), remark.what);
-    result.remarks.push_back(std::move(remark));
+    Finding with = *std::move(remark.finding);
+    with.subjects.push_back({"of_holder", std::string(words_of(Holder::nobody))});
+    result.remarks.push_back(remark.severity == Remark::Severity::note ? note(std::move(with))
+                                                                       : warning(std::move(with)));
   }
   const ModalForm form = modal_form(alone);
   result.shared = shared_walls(*found.walls, found.region, *result.walls, result.region);

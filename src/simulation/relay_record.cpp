@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "counted.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
 #include "simulation/oscillation_cycles.hpp"
@@ -89,18 +90,25 @@ Peak strongest_line(std::span<const double> force, std::span<const double> posit
   return peak;
 }
 
-/// What makes a record hopeless before any spectrum; empty when nothing does.
-std::string nothing_moves(std::span<const double> force, std::span<const double> position, double sampling_period) {
+/// What makes a record hopeless before any spectrum; nothing where it is not.
+std::optional<Finding> nothing_moves(std::span<const double> force, std::span<const double> position,
+                                     double sampling_period) {
   if (force.size() < least_samples) {
-    return fmt::format("the record has {} samples; at least {}", force.size(), least_samples);
+    return Finding{.code = FindingCode::record_too_short,
+                   .evidence = {counted("samples", force.size()), counted("threshold", least_samples)}};
   }
-  if (is_constant(force)) return "the force never changes";
-  if (is_constant(position)) return "the position never changes";
+  if (is_constant(force)) return Finding{.code = FindingCode::force_never_changes};
+  if (is_constant(position)) return Finding{.code = FindingCode::position_never_changes};
   const std::size_t half = force.size() / 2;
   const double since = static_cast<double>(half) * sampling_period;
-  if (is_constant(force.subspan(half))) return fmt::format("the force no longer changes after {:.4g} s", since);
-  if (is_constant(position.subspan(half))) return fmt::format("the position no longer changes after {:.4g} s", since);
-  return "";
+  const std::vector<Evidence> evidence{{"since", since}};
+  if (is_constant(force.subspan(half))) {
+    return Finding{.code = FindingCode::force_stops_changing, .evidence = evidence};
+  }
+  if (is_constant(position.subspan(half))) {
+    return Finding{.code = FindingCode::position_stops_changing, .evidence = evidence};
+  }
+  return std::nullopt;
 }
 
 /// The end of a record in which an oscillation no longer changes its swing.
@@ -195,8 +203,8 @@ tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const d
                                                                std::span<const double> position, double sampling_period,
                                                                const RelayAnalysisOptions& options) {
   check(force, position, sampling_period, options);
-  if (std::string reason = nothing_moves(force, position, sampling_period); !reason.empty()) {
-    return tl::unexpected(NoOscillation{std::move(reason)});
+  if (auto why = nothing_moves(force, position, sampling_period)) {
+    return tl::unexpected(NoOscillation{*std::move(why)});
   }
   const std::size_t half = force.size() / 2;
   // As one segment: a period may be longer than one of the segments asked for.
@@ -204,14 +212,15 @@ tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const d
   const double cycles_recorded = rough.per_sample() * static_cast<double>(force.size());
   if (!(cycles_recorded >= least_cycles)) {
     return tl::unexpected(NoOscillation{
-        fmt::format("the record holds no oscillation of at least {:.0f} cycles; record for longer", least_cycles)});
+        {.code = FindingCode::too_few_cycles, .evidence = {{"cycles", cycles_recorded}, {"threshold", least_cycles}}}});
   }
   const double cycles_per_segment = rough.per_sample() * static_cast<double>(options.segment_length);
   if (!(cycles_per_segment >= least_cycles_per_segment)) {
-    return tl::unexpected(NoOscillation{fmt::format(
-        "a segment of {} samples holds {:.2g} cycles of the oscillation near {:.3g} Hz; at least {:.0f}: make the "
-        "segments longer",
-        options.segment_length, cycles_per_segment, rough.per_sample() / sampling_period, least_cycles_per_segment)});
+    return tl::unexpected(NoOscillation{{.code = FindingCode::too_few_cycles_in_segment,
+                                         .evidence = {counted("segment", options.segment_length),
+                                                      {"cycles", cycles_per_segment},
+                                                      {"frequency_hz", rough.per_sample() / sampling_period},
+                                                      {"threshold", least_cycles_per_segment}}}});
   }
   // Four stretches at least in the last half.
   const auto stretch = std::min(
@@ -221,9 +230,8 @@ tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const d
   const auto steady_position = position.subspan(part.from);
   const Peak peak = strongest_line(steady_force, steady_position, options.segment_length);
   if (peak.line == 0 || peak.share < least_share) {
-    return tl::unexpected(NoOscillation{
-        fmt::format("no frequency stands out: the strongest holds {:.0f} % of the motion's power; at least {:.0f} %",
-                    100.0 * peak.share, 100.0 * least_share)});
+    return tl::unexpected(NoOscillation{{.code = FindingCode::no_frequency_stands_out,
+                                         .evidence = {{"share", peak.share}, {"threshold", least_share}}}});
   }
 
   RelayReading result;

@@ -20,8 +20,9 @@ const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
     for (const std::span<const Phrase> room :
-         {model_phrases(), stability_phrases(), design_phrases(), study_phrases(), simulation_phrases(), rig_phrases(),
-          signal_phrases(), io_phrases(), response_phrases(), identification_phrases()}) {
+         {model_phrases(), stability_phrases(), design_phrases(), reason_phrases(), study_phrases(),
+          simulation_phrases(), relay_phrases(), rig_phrases(), signal_phrases(), io_phrases(), response_phrases(),
+          identification_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);
     }
     return result;
@@ -54,6 +55,11 @@ std::string value_text(const Evidence& evidence, std::string_view format) {
   if (format == "time") return time_text(evidence.value);
   if (format == "percent") return percent(evidence.value);
   if (format == "limit") return !std::isfinite(evidence.value) ? "every stiffness" : value_text(evidence, {});
+  // "N s/m": the damping of a wall
+  if (format == "gain" && evidence.unit.find(" s") != std::string_view::npos) {
+    return fmt::format("{} {}", number(evidence.value), evidence.unit);
+  }
+  if (format == "gain") return value_text(evidence, {});
   if (format == "%") return fmt::format("{:.0f}", 100.0 * evidence.value);
   const bool is_share = format.front() == '%';
   const std::string spec = fmt::format("{{:{}}}", is_share ? format.substr(1) : format);
@@ -124,11 +130,16 @@ std::string_view name_of(FindingCode code) { return phrase_of(code).name; }
 
 FindingWords words_of(const Finding& finding) {
   const Phrase& phrase = phrase_of(finding.code);
-  const auto recording = std::ranges::find(finding.subjects, of_recording, &Subject::name);
-  const std::string whose = recording == finding.subjects.end() ? std::string() : recording->text + ": ";
+  std::string whose;
+  for (const Subject& each : finding.subjects) {
+    if (each.name == of_recording) whose = each.text + ": ";
+    if (each.name == of_holder) whose = "with " + each.text + ": ";
+  }
   return {whose + filled_in(finding, phrase.what), filled_in(finding, phrase.consequence),
           filled_in(finding, phrase.remedy)};
 }
+
+std::string text(const std::optional<Finding>& finding) { return finding ? text(*finding) : std::string(); }
 
 std::string text(const Finding& finding) {
   const FindingWords words = words_of(finding);

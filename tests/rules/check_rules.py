@@ -11,7 +11,7 @@ from pathlib import Path
 
 # Room: the rooms that its files may include, besides itself and the public headers that stand in no room.
 LIBRARY = {
-    "words": [],
+    "words": ["stability"],  # the names of who holds the device
     "model": [],
     "signal": [],
     "sampling": ["model"],

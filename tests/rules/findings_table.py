@@ -26,7 +26,8 @@ What zwidth may find, as it stands in `findings` of every document that has `tru
 | `remedy` | what to do about it; may be empty |
 | `text` | the sentence, as in `trust.reasons` or `remarks` |
 
-Each is listed once, what speaks against the numbers first. A sentence is its code's below; in braces stand its numbers, most of them in
+Each is listed once, what speaks against the numbers first. One without a severity below stands in a result's `reason`, `why` or
+`explanation` alone, in words. A sentence is its code's below; in braces stand its numbers, most of them in
 `evidence`, and names. `tests/rules/findings_table.py . --write` writes this file from the sources.
 
 A new finding is a line in `include/zwidth/finding_code.hpp`, a phrase in `src/words/ROOM_phrases.cpp`, and where it is found

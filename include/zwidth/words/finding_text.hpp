@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,6 @@ struct FindingWords {
 
 /// "what; consequence; remedy", without those that are empty.
 [[nodiscard]] std::string text(const Finding& finding);
+[[nodiscard]] std::string text(const std::optional<Finding>& finding);  ///< the same; empty where there is none
 
 }  // namespace zwidth
