@@ -21,19 +21,11 @@ void add(Trust& trust, Trust::Verdict least, Finding finding) {
   trust.findings.push_back(std::move(finding));
 }
 
-Finding stated(std::string reason) {
-  return {.code = FindingCode::stated, .subjects = {{"reason", std::move(reason)}}};
-}
-
 }  // namespace
 
 void Trust::doubt(Finding finding) { add(*this, Verdict::doubtful, std::move(finding)); }
 
 void Trust::refuse(Finding finding) { add(*this, Verdict::refused, std::move(finding)); }
-
-void Trust::doubt(std::string reason) { doubt(stated(std::move(reason))); }
-
-void Trust::refuse(std::string reason) { refuse(stated(std::move(reason))); }
 
 void Trust::inherit(const Trust& source) {
   verdict = std::max(verdict, source.verdict);
@@ -44,7 +36,8 @@ void Trust::inherit(const Trust& source) {
     findings.push_back(finding);
   }
   for (const std::string& reason : source.reasons) {
-    if (!has(reasons, reason)) add(*this, source.verdict, stated(reason));
+    if (has(reasons, reason)) continue;
+    add(*this, source.verdict, {.code = FindingCode::stated, .subjects = {{"reason", reason}}});
   }
 }
 

@@ -1,6 +1,5 @@
 #include "zwidth/design/design_target.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "counted.hpp"
 #include "design/any_user_judge.hpp"
@@ -276,21 +276,24 @@ std::optional<double> target_of(const DesignTargetOptions& options, double limit
 
 std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device) {
   if (options.times_now && (!(*options.times_now > 0.0) || !std::isfinite(*options.times_now))) {
-    return OptionProblem{"times_now", fmt::format("is {} times", *options.times_now), "must be finite and > 0"};
+    return option_problem("times_now", {.code = ProblemCode::not_finite_and_positive,
+                                        .evidence = {{"value", *options.times_now}, {"times", 1.0}}});
   }
   if (!options.times_now && (!(options.stiffness > 0.0) || !std::isfinite(options.stiffness))) {
-    return OptionProblem{"stiffness", fmt::format("is {}", options.stiffness), "must be finite and > 0"};
+    return option_problem("stiffness",
+                          {.code = ProblemCode::not_finite_and_positive, .evidence = {{"value", options.stiffness}}});
   }
   if (!(options.factor > 1.0) || !(options.factor <= 1e6)) {
-    return OptionProblem{"factor", fmt::format("is {}", options.factor), "must be above 1, at most 1e6"};
+    return option_problem("factor", {.code = ProblemCode::no_factor, .evidence = {{"value", options.factor}}});
   }
   if (options.goal == StiffnessGoal::any_user_limit) {
     if (!device.has_bodies()) {
-      return OptionProblem{"goal", "is the limit with any user", "a transfer function has no body for a user to hold"};
+      return option_problem("goal", {.code = ProblemCode::any_user_goal_of_transfer_function});
     }
     if (device.bodies().size() > most_bodies_for_any_user) {
-      return OptionProblem{"goal", fmt::format("is the limit with any user of {} bodies", device.bodies().size()),
-                           fmt::format("at most {} bodies", most_bodies_for_any_user)};
+      return option_problem(
+          "goal", {.code = ProblemCode::any_user_goal_of_many_bodies,
+                   .evidence = {counted("bodies", device.bodies().size()), counted("most", most_bodies_for_any_user)}});
     }
   }
   return std::nullopt;

@@ -1,7 +1,5 @@
 #include "zwidth/design/diagnosis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -136,13 +134,15 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
   const auto finite = [](double value) { return std::isfinite(value) && value >= 0.0; };
   if (options.amplitude && !(finite(*options.amplitude) && *options.amplitude > 0.0)) {
-    return OptionProblem{"amplitude", fmt::format("is {}", *options.amplitude), "must be > 0"};
+    return option_problem("amplitude",
+                          {.code = ProblemCode::not_positive, .evidence = {{"value", *options.amplitude}}});
   }
   if (options.stiffness && !finite(*options.stiffness)) {
-    return OptionProblem{"stiffness", fmt::format("is {}", *options.stiffness), "must be >= 0, 0 for a damper alone"};
+    return option_problem(
+        "stiffness", {.code = ProblemCode::negative, .evidence = {{"value", *options.stiffness}, {"or_damper", 1.0}}});
   }
   if (options.damping && !finite(*options.damping)) {
-    return OptionProblem{"damping", fmt::format("is {}", *options.damping), "must be >= 0"};
+    return option_problem("damping", {.code = ProblemCode::negative, .evidence = {{"value", *options.damping}}});
   }
   return std::nullopt;
 }
@@ -187,14 +187,12 @@ void doubt_recorded(const DominantOscillation& found, Trust& trust) {
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device) {
   const double nyquist = pi / device.loop().sampling_period;
   if (!(options.frequency > 0.0 && options.frequency <= nyquist * (1.0 + 1e-9))) {
-    return OptionProblem{"frequency", fmt::format("is {:.6g} Hz", options.frequency / (2.0 * pi)),
-                         fmt::format("must be above 0, at most half the sampling rate, {:.6g} Hz: what is faster is "
-                                     "seen as an alias",
-                                     nyquist / (2.0 * pi))};
+    return option_problem("frequency", {.code = ProblemCode::oscillation_beyond_nyquist,
+                                        .evidence = {{"frequency_hz", options.frequency / (2.0 * pi)},
+                                                     {"most_hz", nyquist / (2.0 * pi)}}});
   }
   if (options.stiffness == 0.0 && options.damping.value_or(device.parameters().wall.damping) == 0.0) {
-    return OptionProblem{"stiffness", "is 0 and so is the damping",
-                         "one of them must be above 0: there is no wall else"};
+    return option_problem("stiffness", {.code = ProblemCode::neither_stiffness_nor_damping});
   }
   return find_problem(options);
 }

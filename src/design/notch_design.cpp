@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "counted.hpp"
 #include "design/margin_wall.hpp"
 #include "design/notch_search.hpp"
 #include "require_valid.hpp"
@@ -187,12 +188,11 @@ std::optional<OptionProblem> find_problem(const NotchOptions& options, const Dev
   if (auto problem = find_drift_problem(options.drift, device)) return problem;
   if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.goal == StiffnessGoal::any_user_limit && !can_be_held(device)) {
-    return OptionProblem{"goal", "is the limit with any user",
-                         fmt::format("needs a device of at most {} bodies", most_bodies_for_any_user)};
+    return option_problem("goal", {.code = ProblemCode::any_user_goal_needs_bodies,
+                                   .evidence = {counted("most", most_bodies_for_any_user)}});
   }
   if (seen_modes(device).empty()) {
-    return OptionProblem{"notch", "has nothing to be tuned to",
-                         "needs a device with a vibration mode of a damping ratio below 1"};
+    return option_problem("notch", {.code = ProblemCode::no_mode_to_tune_to});
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "staged_progress.hpp"
 #include "zwidth/batch/batch_stiffness.hpp"
@@ -187,7 +188,7 @@ std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std:
 
 std::optional<OptionProblem> find_problem(const SweepOptions& options, const Device& device) {
   if (!options.any_user || device.has_bodies()) return std::nullopt;
-  return OptionProblem{"any_user", "is asked of a transfer function", "it has no body for a user to hold"};
+  return option_problem("any_user", {.code = ProblemCode::asked_of_transfer_function});
 }
 
 ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis>& axes, SweepOptions options,

@@ -1,7 +1,5 @@
 #include "zwidth/design/region.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -99,10 +97,10 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
     result.trust.doubt(std::move(with));
   }
   for (Remark& remark : said.remarks) {
-    Finding with = *std::move(remark.finding);
-    with.subjects.push_back({"of_holder", std::string(words_of(Holder::nobody))});
-    result.remarks.push_back(remark.severity == Remark::Severity::note ? note(std::move(with))
-                                                                       : warning(std::move(with)));
+    Finding alone_too = *std::move(remark.finding);
+    alone_too.subjects.push_back({"of_holder", std::string(words_of(Holder::nobody))});
+    result.remarks.push_back(remark.severity == Remark::Severity::note ? note(std::move(alone_too))
+                                                                       : warning(std::move(alone_too)));
   }
   const ModalForm form = modal_form(alone);
   result.shared = shared_walls(*found.walls, found.region, *result.walls, result.region);
@@ -115,7 +113,7 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
 std::optional<OptionProblem> find_problem(const RegionOptions& options) {
   const double deviation = options.outline.deviation;
   if (!(deviation > 0.0 && deviation < 1.0)) {
-    return OptionProblem{"outline.deviation", fmt::format("is {}", deviation), "must be above 0 and below 1"};
+    return option_problem("outline.deviation", {.code = ProblemCode::no_fraction, .evidence = {{"value", deviation}}});
   }
   return std::nullopt;
 }

@@ -1,7 +1,5 @@
 #include "zwidth/design/wall_recommendation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -358,12 +356,14 @@ WallRecommendation refused(Trust trust) {
 std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device) {
   if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.ripple && !(*options.ripple > 0.0 && std::isfinite(*options.ripple))) {
-    return OptionProblem{"ripple", fmt::format("is {}", *options.ripple), "must be a force > 0"};
+    return option_problem("ripple", {.code = ProblemCode::no_positive_quantity,
+                                     .evidence = {{"value", *options.ripple}},
+                                     .subjects = {{"what", "force"}}});
   }
   if (auto problem = find_drift_problem(options.drift, device)) return problem;
-  if (options.draws == 0) return OptionProblem{"draws", "is 0", "must be at least 1"};
+  if (options.draws == 0) return option_problem("draws", {.code = ProblemCode::none_asked});
   if (options.goal == WallGoal::critical_damping && !device.has_bodies()) {
-    return OptionProblem{"goal", "is critical damping", "needs a device of bodies: a transfer function has no mass"};
+    return option_problem("goal", {.code = ProblemCode::critical_damping_without_mass});
   }
   return std::nullopt;
 }

@@ -150,7 +150,9 @@ std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials) {
 
 std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, double sampling_period) {
   if (!(std::isfinite(options.hysteresis) && options.hysteresis >= 0.0)) {
-    return OptionProblem{"hysteresis", fmt::format("is {}", options.hysteresis), "a position in m or rad, 0 or more"};
+    return option_problem("hysteresis", {.code = ProblemCode::below_bound,
+                                         .evidence = {{"value", options.hysteresis}, {"bound", 0.0}},
+                                         .subjects = {{"measure", "position"}}});
   }
   if (auto problem = find_problem(options.analysis)) {
     problem->member.insert(0, "analysis.");
@@ -159,9 +161,8 @@ std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, dou
   if (!options.device) return std::nullopt;
   const double expected = options.device->loop().sampling_period;
   if (std::abs(sampling_period / expected - 1.0) <= same_period) return std::nullopt;
-  return OptionProblem{
-      "device", fmt::format("loop.sampling_period: is {} s, the recording's is {:.6g} s", expected, sampling_period),
-      "they must agree"};
+  return option_problem("device", {.code = ProblemCode::sampling_periods_disagree,
+                                   .evidence = {{"expected", expected}, {"period", sampling_period}}});
 }
 
 RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress) {

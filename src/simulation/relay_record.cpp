@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "counted.hpp"
 #include "signal/averaged_spectra.hpp"
@@ -189,12 +190,14 @@ void remark_signals(RelayReading& result, std::span<const double> position, cons
 
 std::optional<OptionProblem> find_problem(const RelayAnalysisOptions& options) {
   if (options.segment_length < least_samples) {
-    return OptionProblem{"segment_length", fmt::format("is {} samples", options.segment_length),
-                         fmt::format("at least {}", least_samples)};
+    return option_problem("segment_length",
+                          {.code = ProblemCode::too_few,
+                           .evidence = {counted("value", options.segment_length), counted("least", least_samples)},
+                           .subjects = {{"unit", "samples"}}});
   }
   if (!(options.steady_tolerance > 0.0 && options.steady_tolerance < 1.0)) {
-    return OptionProblem{"steady_tolerance", fmt::format("is {}", options.steady_tolerance),
-                         "a relative difference above 0, below 1"};
+    return option_problem("steady_tolerance", {.code = ProblemCode::no_relative_difference,
+                                               .evidence = {{"value", options.steady_tolerance}}});
   }
   return std::nullopt;
 }

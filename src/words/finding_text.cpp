@@ -46,10 +46,25 @@ std::string time_text(double time) {
   return fmt::format("{:.6g} s", time);
 }
 
+// A quantity with the units of both motions.
+std::string measure_text(std::string_view measure) {
+  static constexpr std::array measures{std::pair{"force", "a force in N or N m"},
+                                       std::pair{"position", "a position in m or rad"},
+                                       std::pair{"distance", "a distance in m or rad"},
+                                       std::pair{"speed", "a speed in m/s or rad/s"},
+                                       std::pair{"time", "a time in s"},
+                                       std::pair{"stiffness", "a stiffness in N/m or N m/rad"}};
+  for (const auto& [name, text] : measures) {
+    if (measure == name) return text;
+  }
+  throw Error(ErrorCode::invalid_argument, fmt::format("\"{}\" is no measure", measure));
+}
+
 std::string value_text(const Evidence& evidence, std::string_view format) {
   if (format.empty()) {
     return evidence.unit.empty() ? number(evidence.value) : quantity(evidence.value, evidence.unit);
   }
+  if (format == "exact") return fmt::format("{}", evidence.value);
   if (format == "n") return fmt::format("{:.0f}", evidence.value);
   if (format == "s") return evidence.value == 1.0 ? "" : "s";
   if (format == "time") return time_text(evidence.value);
@@ -80,8 +95,6 @@ bool holds(const Finding& finding, std::string_view condition) {
   return value == condition.substr(equals + 1);
 }
 
-std::string filled_in(const Finding& finding, std::string_view phrase);
-
 // What stands in a pair of braces.
 std::string filled(const Finding& finding, std::string_view field) {
   if (field.front() == '?' || field.front() == '!') {
@@ -95,7 +108,7 @@ std::string filled(const Finding& finding, std::string_view field) {
   const auto evidence = std::ranges::find(finding.evidence, name, &Evidence::name);
   if (evidence != finding.evidence.end()) return value_text(*evidence, format);
   const auto subject = std::ranges::find(finding.subjects, name, &Subject::name);
-  if (subject != finding.subjects.end()) return subject->text;
+  if (subject != finding.subjects.end()) return format == "of" ? measure_text(subject->text) : subject->text;
   if (name == "key") return finding.key;
   throw Error(ErrorCode::invalid_argument,
               fmt::format("the finding \"{}\" lacks \"{}\", which its sentence names", name_of(finding.code), name));
@@ -111,7 +124,9 @@ std::size_t closing_brace(std::string_view phrase, std::size_t open) {
   return phrase.size() - 1;
 }
 
-std::string filled_in(const Finding& finding, std::string_view phrase) {
+}  // namespace
+
+std::string internal::filled_in(const Finding& finding, std::string_view phrase) {
   std::string result;
   while (!phrase.empty()) {
     const std::size_t open = phrase.find('{');
@@ -123,8 +138,6 @@ std::string filled_in(const Finding& finding, std::string_view phrase) {
   }
   return result;
 }
-
-}  // namespace
 
 std::string_view name_of(FindingCode code) { return phrase_of(code).name; }
 

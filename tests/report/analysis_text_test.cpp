@@ -242,7 +242,7 @@ TEST(AnalysisText, ExplainsUnbounded) {
 
 TEST(AnalysisText, ARefusedAnswerCountsNoCrossovers) {
   AnalysedDevice analysed = unlimited_transfer_function();
-  analysed.analysis.critical.trust.refuse("its poles crowd");
+  analysed.analysis.critical.trust.refuse({.code = FindingCode::stated, .subjects = {{"reason", "its poles crowd"}}});
   analysed.analysis.critical.status = StiffnessStatus::refused;
   EXPECT_THAT(unwrapped(text_of(analysed)), Not(HasSubstr("Phase crossovers")));
 }
