@@ -4,7 +4,7 @@
 
 namespace zwidth {
 
-/// What may be wrong with an option, in one list. words_of() of words/problem_text.hpp makes the sentence.
+/// What may be wrong with an option or an argument, and what a computation fails of, in one list. words_of() of words/problem_text.hpp makes the sentence.
 enum class ProblemCode : std::uint16_t {
   // bounds
   not_above,                   ///< a quantity is not above its bound
@@ -120,6 +120,95 @@ enum class ProblemCode : std::uint16_t {
   // studies
   damping_varies,    ///< regions are over every damping
   no_specification,  ///< failures need a specification
+
+  // numbers of the device
+  no_number_of_device,       ///< no number of the device is called that
+  not_of_the_limit,          ///< a number of simulation alone
+  range_not_finite,          ///< a range has an end that is not finite
+  range_without_width,       ///< the ends of a range are one
+  range_without_factor,      ///< equal factors need ends above 0
+  values_out_of_range,       ///< too few or too many values of a number
+  too_many_numbers_swept,    ///< a sweep is of one or two numbers
+  swept_twice,               ///< a sweep of one number over itself
+  too_many_points,           ///< a sweep has too many points
+  seconds_below_zero,        ///< a time is below 0
+  no_parameters,             ///< a study without a parameter
+  too_many_parameters,       ///< too many parameters vary
+  parameter_given_twice,     ///< one number varies twice
+  reaches_no_device,         ///< a distribution reaches what is no device
+  rows_not_one_a_parameter,  ///< a correlation needs as many rows as parameters
+  row_of_other_length,       ///< a correlation needs rows as long as parameters
+  diagonal_not_one,          ///< a correlation's diagonal is 1
+  no_correlation,            ///< a correlation is not from -1 to 1
+  not_symmetric,             ///< a correlation is not symmetric
+  not_positive_definite,     ///< a correlation is not positive definite
+
+  // calls
+  no_body_for_user,                   ///< a transfer function has no body
+  no_body_to_start_from,              ///< a transfer function has no body
+  start_offset_without_bodies,        ///< a transfer function has no body
+  largest_damping_not_positive,       ///< a damping is not finite and above 0
+  region_deviation_no_fraction,       ///< a deviation is not between 0 and 1
+  outline_deviation_no_fraction,      ///< a deviation is not between 0 and 1
+  branch_factor_too_small,            ///< a factor is not above 1
+  recording_without_channel,          ///< a recording has no channel
+  recording_without_two_channels,     ///< a relay is recorded as force and position
+  no_recording,                       ///< there is no recording
+  recordings_of_two_periods,          ///< recordings of two sampling periods
+  drift_not_possible,                 ///< a drift is not from above -1 to 10
+  drift_without_links,                ///< the device has no link
+  raster_without_walls,               ///< a raster has no wall
+  velocity_filter_below_zero,         ///< a velocity filter is not finite and at least 0
+  virtual_damper_below_zero,          ///< a damper is not at least 0
+  grid_not_rising,                    ///< the stiffnesses of a grid do not rise
+  other_devices_limit,                ///< a limit is of another device
+  no_uncertainty,                     ///< the device has no uncertainty
+  no_draws,                           ///< no device is drawn
+  force_per_count_undefined,          ///< a period or a resolution is not possible
+  users_range_not_possible,           ///< a range of users is not possible
+  wall_not_possible,                  ///< a wall's number is not possible
+  sampling_period_not_positive,       ///< a sampling period is not above 0
+  delay_below_zero,                   ///< a delay is below 0
+  filter_below_zero,                  ///< a velocity filter is below 0
+  floor_below_zero,                   ///< a floor is below 0
+  relay_amplitude_not_positive,       ///< a relay without force
+  relay_hysteresis_below_zero,        ///< a hysteresis is below 0
+  half_periods_not_ordered,           ///< half-periods are not in order
+  delay_not_possible,                 ///< a delay is below 0
+  too_many_bodies_with_friction,      ///< too many bodies rub
+  motion_too_fast,                    ///< a motion is too fast to follow in time
+  force_and_position_of_two_lengths,  ///< force and position have different lengths
+  force_not_finite,                   ///< a force is not finite
+  position_not_finite,                ///< a position is not finite
+  no_sampling_period,                 ///< a sampling period is not above 0
+  period_or_samples_not_possible,     ///< a period or a sample is not possible
+  ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
+  transform_of_nothing,               ///< a transform of no samples
+  transform_of_other_length,          ///< a transform of another length
+  power_density_not_possible,         ///< a rate or a sample is not possible
+  signal_period_not_positive,         ///< a sampling period is not above 0
+  samples_of_channel_not_finite,      ///< a sample is not finite
+  cutoff_not_possible,                ///< a cutoff is not below half the rate
+  share_not_possible,                 ///< a share is not between 0 and 1
+  count_no_share,                     ///< more than all
+  weights_not_possible,               ///< weights are not possible
+  answers_not_one_a_point,            ///< as many answers as points are needed
+  answer_not_finite,                  ///< an answer is not finite
+  indices_not_possible,               ///< too few samples, or too many dimensions
+  too_many_samples_in_memory,         ///< too many samples to keep
+  specification_missing,              ///< failures need a specification
+  samples_out_of_range,               ///< a number of samples is out of its range
+
+  // computations that do not come to their end
+  outline_not_closed,        ///< the boundary of the region does not close
+  boundary_not_followed,     ///< the boundary of the region turns too often
+  boundary_pieces_coincide,  ///< a mode is not damped
+  crossover_off_boundary,    ///< a crossover is not on the boundary
+  region_changes_too_often,  ///< the region changes too often
+  crossovers_not_found,      ///< modes cancel at the sensed body
+  disk_peak_not_found,       ///< the disk margin's peak is not found
+  response_out_of_range,     ///< a pole grows too fast for the sampling period
+  response_not_computed,     ///< too many poles lie together
 };
 
 }  // namespace zwidth

@@ -150,7 +150,8 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
 /// The oscillation of a recording that dominant_oscillation() reads; nothing where nothing oscillates: the strongest line
 /// holds hardly anything of what moves, as in noise and in a sweep, or is rounding.
 std::optional<DominantOscillation> recorded_oscillation(const Recording& recording) {
-  if (recording.channels.empty()) throw Error(ErrorCode::invalid_argument, "the recording has no channel");
+  if (recording.channels.empty())
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::recording_without_channel});
   const std::vector<double>& position = recording.channels.front().samples;
   const auto found = dominant_oscillation(position, recording.sampling_period);
   constexpr double least_share = 0.1;

@@ -1,7 +1,5 @@
 #include "zwidth/design/notch_design.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -199,10 +197,10 @@ std::optional<OptionProblem> find_problem(const NotchOptions& options, const Dev
 
 Device drifted(const Device& device, double drift) {
   if (!(drift > -1.0 && drift <= 10.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("the drift is {}; must be above -1, up to 10", drift));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::drift_not_possible, .evidence = {{"value", drift}}});
   }
   if (drift == 0.0) return device;
-  if (device.links().empty()) throw Error(ErrorCode::invalid_argument, "a drift of the modes needs a [[link]]");
+  if (device.links().empty()) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::drift_without_links});
   DeviceParameters parameters = device.parameters();
   parameters.uncertainty.reset();
   for (Link& link : parameters.links) {

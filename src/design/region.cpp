@@ -9,7 +9,6 @@
 
 #include "design/region_check.hpp"
 #include "design/region_structure.hpp"
-#include "percent.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -169,7 +168,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
 }
 
 WallRaster wall_raster(const WallRegion& region, std::size_t count) {
-  if (count == 0) throw Error(ErrorCode::invalid_argument, "a raster of 0 walls; at least one");
+  if (count == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::raster_without_walls});
   if (region.status != WallRegion::Status::bounded) return {};
   const auto middles = [count](double largest) {
     constexpr double beyond = 1.1;

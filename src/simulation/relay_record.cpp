@@ -31,21 +31,23 @@ constexpr double noticeable_drift = 0.2;          // of the amplitude, over the 
 constexpr std::size_t least_encoder_steps = 10;
 constexpr double scatters_allowed = 3.0;  // of the swing about its mean, in a steady part
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
+[[noreturn]] void refuse(const Problem& problem) { throw Error(ErrorCode::invalid_argument, problem); }
 
 void check(std::span<const double> force, std::span<const double> position, double sampling_period,
            const RelayAnalysisOptions& options) {
   if (force.size() != position.size()) {
-    refuse(fmt::format("{} samples of force, {} of position; equally many", force.size(), position.size()));
+    refuse({.code = ProblemCode::force_and_position_of_two_lengths,
+            .evidence = {counted("force", force.size()), counted("position", position.size())}});
   }
   const auto is_finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(force.begin(), force.end(), is_finite)) refuse("the force is not finite");
-  if (!std::all_of(position.begin(), position.end(), is_finite)) refuse("the position is not finite");
+  if (!std::all_of(force.begin(), force.end(), is_finite)) refuse({.code = ProblemCode::force_not_finite});
+  if (!std::all_of(position.begin(), position.end(), is_finite)) refuse({.code = ProblemCode::position_not_finite});
   if (!(is_finite(sampling_period) && sampling_period > 0.0)) {
-    refuse(fmt::format("sampling period of {} s; above 0", sampling_period));
+    refuse({.code = ProblemCode::no_sampling_period, .evidence = {{"value", sampling_period}}});
   }
   if (const auto problem = find_problem(options)) {
-    refuse(fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
 }
 

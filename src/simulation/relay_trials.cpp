@@ -22,7 +22,7 @@ constexpr std::size_t samples_per_report = 1 << 10;
 
 std::size_t samples_per_trial(const Device& device, const RelayOptions& options) {
   if (!device.has_bodies() && options.start_offset != 0.0) {
-    throw Error(ErrorCode::needs_bodies, "a start offset needs bodies; a transfer function starts at rest at 0");
+    throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::start_offset_without_bodies});
   }
   require_valid(find_problem(options, device));
   return static_cast<std::size_t>(std::round(options.duration / device.loop().sampling_period));

@@ -22,9 +22,9 @@ std::optional<OptionProblem> find_discrete_problem(const Distribution& distribut
   const std::vector<double>& weights = distribution.weights;
   if (values.empty()) return option_problem("values", {.code = ProblemCode::no_values});
   if (weights.size() != values.size()) {
-    return option_problem("weights",
-                          {.code = ProblemCode::weights_not_one_a_value,
-                           .evidence = {counted("weights", weights.size()), counted("values", values.size())}});
+    return option_problem("weights", {.code = ProblemCode::weights_not_one_a_value,
+                                      .evidence = {internal::counted("weights", weights.size()),
+                                                   internal::counted("values", values.size())}});
   }
   const auto entry_problem = [](const char* member, ProblemCode code, double value) {
     return option_problem(member, {.code = code, .evidence = {{"value", value}, {"entry", 1.0}}});

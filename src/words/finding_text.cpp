@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "percent.hpp"
+#include "words/percent.hpp"
 #include "words/phrase.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"

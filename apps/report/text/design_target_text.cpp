@@ -104,7 +104,7 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
     if (each.value_needed) {
       (each.safe.value_or(true) ? reaching : lowering).add(each);
     } else {
-      without += wrap(fmt::format("{}: {}", shortened(each.key, target_width), text(each.why)), line_width, 4)
+      without += wrap(fmt::format("{}: {}", shortened(each.key, target_width), zwidth::text(each.why)), line_width, 4)
                      .replace(0, 4, "  - ");
     }
   }

@@ -77,7 +77,7 @@ class RecommendationWriter {
     if (answer_.trust.refused()) return text;
     text += line("asked for", asked());
     if (!answer_.wall) {
-      text += line("no wall", text(answer_.reason));
+      text += line("no wall", zwidth::text(answer_.reason));
     } else {
       text += wall_lines(*answer_.wall);
     }
