@@ -24,12 +24,6 @@ Remark warning(Finding finding) {
   return remark_of(std::move(finding), Remark::Severity::warning);
 }
 
-std::string remark_line(const Remark& remark) {
-  std::string line = remark.what;
-  for (const std::string& part : {remark.consequence, remark.remedy}) {
-    if (!part.empty()) line += "; " + part;
-  }
-  return line;
-}
+std::string remark_line(const Remark& remark) { return text({remark.what, remark.consequence, remark.remedy}); }
 
 }  // namespace zwidth

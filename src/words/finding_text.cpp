@@ -130,13 +130,14 @@ FindingWords words_of(const Finding& finding) {
           filled_in(finding, phrase.remedy)};
 }
 
-std::string text(const Finding& finding) {
-  const FindingWords words = words_of(finding);
+std::string text(const FindingWords& words) {
   std::string line = words.what;
   for (const std::string& part : {words.consequence, words.remedy}) {
     if (!part.empty()) line += "; " + part;
   }
   return line;
 }
+
+std::string text(const Finding& finding) { return text(words_of(finding)); }
 
 }  // namespace zwidth

@@ -22,6 +22,7 @@ struct FindingWords {
 [[nodiscard]] FindingWords words_of(const Finding& finding);
 
 /// "what; consequence; remedy", without those that are empty.
-[[nodiscard]] std::string text(const Finding& finding);
+[[nodiscard]] std::string text(const FindingWords& words);
+[[nodiscard]] std::string text(const Finding& finding);  ///< of words_of(finding)
 
 }  // namespace zwidth
