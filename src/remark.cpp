@@ -1,5 +1,6 @@
 #include "zwidth/remark.hpp"
 
+#include <cassert>
 #include <utility>
 
 #include "zwidth/words/finding_text.hpp"
@@ -8,6 +9,7 @@ namespace zwidth {
 namespace {
 
 Remark remark_of(Finding finding, Remark::Severity severity) {
+  assert(finding.severity <= worst_severity(finding.code));
   FindingWords words = words_of(finding);
   return {severity, std::move(words.what), std::move(words.consequence), std::move(words.remedy), std::move(finding)};
 }

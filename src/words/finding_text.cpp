@@ -122,6 +122,8 @@ std::string filled_in(const Finding& finding, std::string_view phrase) {
 
 std::string_view name_of(FindingCode code) { return phrase_of(code).name; }
 
+Finding::Severity worst_severity(FindingCode code) { return phrase_of(code).worst; }
+
 FindingWords words_of(const Finding& finding) {
   const Phrase& phrase = phrase_of(finding.code);
   const auto recording = std::ranges::find(finding.subjects, of_recording, &Subject::name);

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "zwidth/finding_code.hpp"
+#include "zwidth/finding.hpp"
 
 namespace zwidth::internal {
 
@@ -22,6 +22,7 @@ namespace zwidth::internal {
 struct Phrase {
   FindingCode code;
   const char* name;
+  Finding::Severity worst;  // that is made of it: a doubt may be a remark too, and a refusal of a part a doubt
   const char* what;
   const char* consequence = "";
   const char* remedy = "";

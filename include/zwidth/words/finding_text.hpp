@@ -10,6 +10,9 @@ namespace zwidth {
 /// The code's name, as documents give it: "wall_not_surely_stable".
 [[nodiscard]] std::string_view name_of(FindingCode code);
 
+/// The worst that is made of a finding of this code; where less hangs on it, it is less.
+[[nodiscard]] Finding::Severity worst_severity(FindingCode code);
+
 /// A finding in words.
 struct FindingWords {
   std::string what;         ///< one line: "force is constant from 3.2 s to 4.1 s"
