@@ -1,6 +1,7 @@
 #include "zwidth/trust.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "zwidth/words/finding_text.hpp"
@@ -15,6 +16,7 @@ bool has(const std::vector<std::string>& reasons, const std::string& reason) {
 void add(Trust& trust, Trust::Verdict least, Finding finding) {
   trust.verdict = std::max(trust.verdict, least);
   finding.severity = least == Trust::Verdict::refused ? Finding::Severity::refusal : Finding::Severity::doubt;
+  assert(finding.severity <= worst_severity(finding.code));
   std::string reason = text(finding);
   if (has(trust.reasons, reason)) return;
   trust.reasons.push_back(std::move(reason));

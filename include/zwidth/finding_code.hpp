@@ -329,7 +329,7 @@ enum class FindingCode : std::uint16_t {
   excitation_moves_few_steps,       ///< the excitation moves the device by few encoder steps
   excitation_of_doubtful_device,    ///< the excitation is computed of a device that is doubted
   stroke_without_friction,          ///< the stroke is computed without Coulomb friction
-  channel_in_counts,                ///< a channel holds whole numbers, as an encoder or a converter counts
+  channel_in_counts,                ///< a channel (0: force, 1: motion) holds whole numbers, as a converter counts
   force_of_two_values,              ///< a force of two values: an amplifier that gives less does not show
   channels_of_two_motions,          ///< force and motion of a linear and a rotary device
   channel_of_other_quantity,        ///< a column's unit is that of another quantity

@@ -62,6 +62,7 @@
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/option_text.hpp"
 #include "zwidth/problem_code.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/quantity.hpp"

@@ -141,6 +141,8 @@ std::string internal::filled_in(const Finding& finding, std::string_view phrase)
 
 std::string_view name_of(FindingCode code) { return phrase_of(code).name; }
 
+Finding::Severity worst_severity(FindingCode code) { return phrase_of(code).worst; }
+
 FindingWords words_of(const Finding& finding) {
   const Phrase& phrase = phrase_of(finding.code);
   std::string whose;
@@ -152,15 +154,16 @@ FindingWords words_of(const Finding& finding) {
           filled_in(finding, phrase.remedy)};
 }
 
-std::string text(const std::optional<Finding>& finding) { return finding ? text(*finding) : std::string(); }
-
-std::string text(const Finding& finding) {
-  const FindingWords words = words_of(finding);
+std::string text(const FindingWords& words) {
   std::string line = words.what;
   for (const std::string& part : {words.consequence, words.remedy}) {
     if (!part.empty()) line += "; " + part;
   }
   return line;
 }
+
+std::string text(const Finding& finding) { return text(words_of(finding)); }
+
+std::string text(const std::optional<Finding>& finding) { return finding ? text(*finding) : std::string(); }
 
 }  // namespace zwidth

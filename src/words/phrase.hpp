@@ -26,6 +26,7 @@ namespace zwidth::internal {
 struct Phrase {
   FindingCode code;
   const char* name;
+  Finding::Severity worst;  // that is made of it: a doubt may be a remark too, and a refusal of a part a doubt
   const char* what;
   const char* consequence = "";
   const char* remedy = "";

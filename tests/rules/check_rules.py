@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Holds the sources to the rules of CONTRIBUTING.md.
 
-usage: check_rules.py ROOT RULE      RULE: flow, words, sentences, sizes, names, disk or headers
+usage: check_rules.py ROOT RULE      RULE: flow, words, sentences, sizes, names, disk, headers or apart
 Prints every line that breaks the rule, and exits with 1 where there is one.
 """
 
@@ -186,9 +186,25 @@ def headers(root):
             yield path, 1, "zwidth.hpp lacks it"
 
 
+def apart(root):
+    """What is known of a finding or a problem stands in its fields: nothing looks for it in the sentence."""
+    part = r"(?:what|allowed|remedy|consequence|meaning|message|reason|sentence)"
+    asks = r"(?:r?find\w*|split|substr\w*|slice|starts_with|ends_with|startsWith|endsWith|includes|indexOf|match|search)\("
+    taken = re.compile(rf"\b{part}(?:\(\))?!?(?:\.|->|\?\.)(?:{asks}|replace(?:All)?\([\"'/])|\.test\([^)]*\b{part}\b")
+    # CLI11 and nlohmann-json tell by their messages alone.
+    others = ("usage_error.cpp", "request_problem.cpp", "request_document.cpp")
+    paths = [*files(root, "include", "src", "apps", "bindings"), *(root / "bindings").rglob("*.py")]
+    paths += [path for path in sorted((root / "web/src").rglob("*")) if path.suffix in (".ts", ".svelte")]
+    for path in paths:
+        for number, line in lines(path):
+            if taken.search(line) and "'\\n'" not in line and path.name not in others:
+                yield path, number, f"takes a sentence apart: {line.strip()}"
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
-    rules = {"flow": flow, "words": words, "sizes": sizes, "names": names, "disk": disk, "headers": headers, "sentences": sentences}
+    rules = {"flow": flow, "words": words, "sentences": sentences, "sizes": sizes, "names": names, "disk": disk, "headers": headers}
+    rules["apart"] = apart
     rule = rules[sys.argv[2]]
     broken = list(rule(root))
     for path, number, what in broken:

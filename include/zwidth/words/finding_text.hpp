@@ -11,6 +11,9 @@ namespace zwidth {
 /// The code's name, as documents give it: "wall_not_surely_stable".
 [[nodiscard]] std::string_view name_of(FindingCode code);
 
+/// The worst that is made of a finding of this code; where less hangs on it, it is less.
+[[nodiscard]] Finding::Severity worst_severity(FindingCode code);
+
 /// A finding in words.
 struct FindingWords {
   std::string what;         ///< one line: "force is constant from 3.2 s to 4.1 s"
@@ -23,7 +26,8 @@ struct FindingWords {
 [[nodiscard]] FindingWords words_of(const Finding& finding);
 
 /// "what; consequence; remedy", without those that are empty.
-[[nodiscard]] std::string text(const Finding& finding);
+[[nodiscard]] std::string text(const FindingWords& words);
+[[nodiscard]] std::string text(const Finding& finding);                 ///< of words_of(finding)
 [[nodiscard]] std::string text(const std::optional<Finding>& finding);  ///< the same; empty where there is none
 
 }  // namespace zwidth
