@@ -4,7 +4,8 @@
 
 namespace zwidth {
 
-/// What may be wrong with an option or an argument, and what a computation fails of, in one list. words_of() of words/problem_text.hpp makes the sentence.
+/// What may be wrong with an option or an argument, and what a computation fails of, in one list. words_of() of
+/// words/problem_text.hpp makes the sentence.
 enum class ProblemCode : std::uint16_t {
   // bounds
   not_above,                   ///< a quantity is not above its bound
@@ -143,6 +144,22 @@ enum class ProblemCode : std::uint16_t {
   not_symmetric,             ///< a correlation is not symmetric
   not_positive_definite,     ///< a correlation is not positive definite
 
+  // uncertainty of the device
+  no_parameter_of_device,      ///< no number of the device is called that
+  number_without_value,        ///< the device does not have this number
+  key_twice,                   ///< a key stands twice
+  uncertainty_says_nothing,    ///< nothing is uncertain
+  too_many_uncertain,          ///< too many numbers are uncertain
+  covariance_rows_missing,     ///< a covariance needs as many rows as parameters
+  covariance_numbers_missing,  ///< a covariance needs rows as long as parameters
+  no_variance,                 ///< a variance is out of its range
+  covariance_not_symmetric,    ///< a covariance is not symmetric
+  covariance_too_large,        ///< a covariance is larger than two variances allow
+  no_covariance,               ///< a covariance is not positive semidefinite
+  key_given_twice,             ///< a key is given twice
+  values_of_two_lengths,       ///< numbers change by lists of two lengths
+  nothing_changed,             ///< no number changes
+
   // calls
   no_body_for_user,                   ///< a transfer function has no body
   no_body_to_start_from,              ///< a transfer function has no body
@@ -200,15 +217,26 @@ enum class ProblemCode : std::uint16_t {
   samples_out_of_range,               ///< a number of samples is out of its range
 
   // computations that do not come to their end
-  outline_not_closed,        ///< the boundary of the region does not close
-  boundary_not_followed,     ///< the boundary of the region turns too often
-  boundary_pieces_coincide,  ///< a mode is not damped
-  crossover_off_boundary,    ///< a crossover is not on the boundary
-  region_changes_too_often,  ///< the region changes too often
-  crossovers_not_found,      ///< modes cancel at the sensed body
-  disk_peak_not_found,       ///< the disk margin's peak is not found
-  response_out_of_range,     ///< a pole grows too fast for the sampling period
-  response_not_computed,     ///< too many poles lie together
+  outline_not_closed,              ///< the boundary of the region does not close
+  boundary_not_followed,           ///< the boundary of the region turns too often
+  boundary_pieces_coincide,        ///< a mode is not damped
+  crossover_off_boundary,          ///< a crossover is not on the boundary
+  region_changes_too_often,        ///< the region changes too often
+  crossovers_not_found,            ///< modes cancel at the sensed body
+  disk_peak_not_found,             ///< the disk margin's peak is not found
+  response_out_of_range,           ///< a pole grows too fast for the sampling period
+  response_not_computed,           ///< too many poles lie together
+  no_path_of_transfer_function,    ///< a transfer function has no body
+  no_body_of_path,                 ///< a path ends at no body
+  state_space_of_other_sizes,      ///< the matrices of a state space do not fit
+  state_space_entry_not_possible,  ///< an entry of a state space is out of its range
+  modes_too_close_for_digits,      ///< modes too close for 31 digits, and too many bodies for exact arithmetic
+  modes_not_found,                 ///< numbers lie too many powers of ten apart
+  poles_not_found,                 ///< numbers lie too many powers of ten apart
+  too_many_poles_coincide,         ///< too many poles coincide
+  too_many_poles_cancel,           ///< too many poles nearly coincide
+  modes_not_told_apart,            ///< modes lie too close together
+  poles_not_told_apart,            ///< poles that nearly coincide lie close to others
 };
 
 }  // namespace zwidth

@@ -31,7 +31,7 @@ TEST(ProblemText, EveryCodeHasWordsOfItsOwnName) {
     EXPECT_EQ(name_of(each.code), each.name);
     names.insert(each.name);
   }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(ProblemCode::response_not_computed) + 1) << "the last code";
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(ProblemCode::poles_not_told_apart) + 1) << "the last code";
 }
 
 TEST(ProblemText, GivesANumberWithAllItsDigitsAndItsUnit) {
