@@ -17,6 +17,7 @@
 
 #include "property/random_devices.hpp"
 #include "property/random_notch_options.hpp"
+#include "zwidth/words/finding_text.hpp"
 #include "zwidth/zwidth.hpp"
 
 namespace {
@@ -48,7 +49,7 @@ std::string recommendation(Device device, test::RandomDevices& random) {
   options.goal = std::array{WallGoal::stiffness, WallGoal::width, WallGoal::critical_damping}[random.index(3)];
   if (random.chance(0.5)) options.ripple = random.log_uniform(1e-3, 1.0);
   const WallRecommendation answer = recommend_wall(Device(parameters), options);
-  if (!answer.wall) return answer.reason;
+  if (!answer.wall) return text(answer.reason);
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), "%.12g %.12g %.12g, notch at %.12g Hz, %zu alternatives, %s",
                 *answer.wall->wall.stiffness, answer.wall->wall.damping, answer.wall->wall.velocity_filter_hz,

@@ -13,7 +13,8 @@ inline void doubt_all(const Trust& source, Trust& trust) {
   for (const std::string& reason : source.reasons) {
     const auto finding =
         std::ranges::find_if(source.findings, [&](const Finding& each) { return text(each) == reason; });
-    finding != source.findings.end() ? trust.doubt(*finding) : trust.doubt(reason);
+    const Finding stated{.code = FindingCode::stated, .subjects = {{"reason", reason}}};
+    trust.doubt(finding != source.findings.end() ? *finding : stated);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "zwidth/remark.hpp"
 
+#include <cassert>
 #include <utility>
 
 #include "zwidth/words/finding_text.hpp"
@@ -8,6 +9,7 @@ namespace zwidth {
 namespace {
 
 Remark remark_of(Finding finding, Remark::Severity severity) {
+  assert(finding.severity <= worst_severity(finding.code));
   FindingWords words = words_of(finding);
   return {severity, std::move(words.what), std::move(words.consequence), std::move(words.remedy), std::move(finding)};
 }
@@ -24,12 +26,6 @@ Remark warning(Finding finding) {
   return remark_of(std::move(finding), Remark::Severity::warning);
 }
 
-std::string remark_line(const Remark& remark) {
-  std::string line = remark.what;
-  for (const std::string& part : {remark.consequence, remark.remedy}) {
-    if (!part.empty()) line += "; " + part;
-  }
-  return line;
-}
+std::string remark_line(const Remark& remark) { return text({remark.what, remark.consequence, remark.remedy}); }
 
 }  // namespace zwidth

@@ -1,6 +1,7 @@
 #include "zwidth/trust.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "zwidth/words/finding_text.hpp"
@@ -15,14 +16,11 @@ bool has(const std::vector<std::string>& reasons, const std::string& reason) {
 void add(Trust& trust, Trust::Verdict least, Finding finding) {
   trust.verdict = std::max(trust.verdict, least);
   finding.severity = least == Trust::Verdict::refused ? Finding::Severity::refusal : Finding::Severity::doubt;
+  assert(finding.severity <= worst_severity(finding.code));
   std::string reason = text(finding);
   if (has(trust.reasons, reason)) return;
   trust.reasons.push_back(std::move(reason));
   trust.findings.push_back(std::move(finding));
-}
-
-Finding stated(std::string reason) {
-  return {.code = FindingCode::stated, .subjects = {{"reason", std::move(reason)}}};
 }
 
 }  // namespace
@@ -30,10 +28,6 @@ Finding stated(std::string reason) {
 void Trust::doubt(Finding finding) { add(*this, Verdict::doubtful, std::move(finding)); }
 
 void Trust::refuse(Finding finding) { add(*this, Verdict::refused, std::move(finding)); }
-
-void Trust::doubt(std::string reason) { doubt(stated(std::move(reason))); }
-
-void Trust::refuse(std::string reason) { refuse(stated(std::move(reason))); }
 
 void Trust::inherit(const Trust& source) {
   verdict = std::max(verdict, source.verdict);
@@ -44,7 +38,8 @@ void Trust::inherit(const Trust& source) {
     findings.push_back(finding);
   }
   for (const std::string& reason : source.reasons) {
-    if (!has(reasons, reason)) add(*this, source.verdict, stated(reason));
+    if (has(reasons, reason)) continue;
+    add(*this, source.verdict, {.code = FindingCode::stated, .subjects = {{"reason", reason}}});
   }
 }
 

@@ -154,7 +154,7 @@ void require_stable(const AnalyzeOptions& options, const std::vector<report::Ana
   for (std::size_t i = 0; i < analysed.size(); ++i) {
     const Analysis& analysis = analysed[i].analysis;
     const std::string& file = options.devices.files[i];
-    const std::string place = "--require-stable: " + file;
+    const CommandText place = CommandText("--require-stable: ") + file;
     switch (verdict_on_wall(analysis)) {
       case WallVerdict::stable:
         break;

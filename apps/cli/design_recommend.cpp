@@ -18,6 +18,7 @@
 #include "results/wall_recommendation_json.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -73,7 +74,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
                    const NotchArguments& shared, bool json) {
   if (devices.files.size() != 1) throw BadInput("--recommend", "takes one device file");
   for (const char* option : {"--notch", "--sweep", "--compare", "--target", "--output", "--any-user"}) {
-    if (command.count(option) > 0) throw BadInput("--recommend", fmt::format("excludes {}", option));
+    if (command.count(option) > 0) throw BadInput("--recommend", CommandText("excludes ") + CommandText(option));
   }
   for (const char* option : {"--far-from-modes", "--lower-any-user"}) {
     if (command.count(option) > 0) throw BadInput(option, "is for a notch", "add --notch");
@@ -91,7 +92,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
                          {shared.write});
   }
   if (!shared.write.empty() && !recommendation.wall) {
-    throw WorkFailed(fmt::format("{}: {} is not written: {}", file, shared.write, recommendation.reason));
+    throw WorkFailed(fmt::format("{}: {} is not written: {}", file, shared.write, text(recommendation.reason)));
   }
   outputs.put("--write", [&] {
     DeviceParameters walled = device.parameters();

@@ -57,7 +57,7 @@ void check_limits(const ExciteArguments& arguments, const Excitation& excitation
   if (arguments.beyond_limits) return write_warnings(excitation.check->exceeded);
   std::string problems;
   for (const Remark& remark : excitation.check->exceeded) problems += remark_line(remark) + "\n";
-  throw WorkFailed(problems + "nothing is written; --beyond-limits writes it all the same");
+  throw WorkFailed(CommandText(problems) + CommandText("nothing is written; --beyond-limits writes it all the same"));
 }
 
 void check(const ExciteArguments& arguments) {
@@ -96,9 +96,9 @@ void run_excite(const ExciteArguments& arguments) {
 
 /// Options that only some kinds of signal have are refused with the others.
 void check_kind(const CLI::App& command, const ExciteArguments& arguments) {
-  const auto refuse = [&](const char* option, bool applies, std::string_view whose) {
+  const auto refuse = [&](const char* option, bool applies, const CommandText& whose) {
     if (command.count(option) > 0 && !applies) {
-      throw BadInput(option, fmt::format("is for {}", whose), fmt::format("--kind is {}", arguments.kind));
+      throw BadInput(option, CommandText("is for ") + whose, CommandText("--kind is ") + arguments.kind);
     }
   };
   refuse("--periods", arguments.kind == "multisine", "a multisine");

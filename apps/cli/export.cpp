@@ -56,7 +56,7 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
     for (const std::string& format : formats) {
       if (arguments.format == format) return;
     }
-    throw BadInput(option, fmt::format("is for --format {}", fmt::join(formats, " and ")));
+    throw BadInput(option, CommandText("is for --format ") + fmt::format("{}", fmt::join(formats, " and ")));
   };
   if (arguments.format.empty() != arguments.units.has_value()) {
     if (arguments.units) throw BadInput("--units", "is given beside --format", "give one of them");
@@ -111,15 +111,15 @@ WallToRun released_wall(const ExportArguments& arguments) {
   const WallToRunOptions options{arguments.stiffness, arguments.safety_factor, arguments.accept_doubt};
   if (const auto problem = find_problem(options, device)) {
     if (!problem->member.empty()) refuse(*problem, options_of_wall);
-    refuse_input(
-        {file, 0, 0, "", problem->what, fmt::format("{}, or give --stiffness or --safety-factor", problem->allowed)});
+    refuse_input({file, 0, 0, "", problem->what,
+                  OptionText(problem->allowed) + CommandText(", or give --stiffness or --safety-factor")});
   }
   WallToRun wall = worked(arguments.devices.files.front(), [&] { return wall_to_run(device, options); });
   if (wall.share) check_share(arguments, *wall.share);
   if (!wall.released) {
     const Trust& trust = wall.analysis.trust;
-    throw WorkFailed(
-        file, report::verdict_text(trust) + (trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
+    throw WorkFailed(file, CommandText(report::verdict_text(trust)) +
+                               CommandText(trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
   }
   return wall;
 }

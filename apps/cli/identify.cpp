@@ -69,10 +69,11 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
     const std::string group = option->get_group();
     for (const auto& [only, of_group] :
          {std::pair{"time-domain", in_time_group}, std::pair{"inverse-dynamics", inverse_dynamics_group}}) {
-      if (group == of_group && method != only) throw BadInput(name, fmt::format("is for --method {}", only));
+      if (group == of_group && method != only)
+        throw BadInput(name, CommandText("is for --method ") + std::string(only));
     }
     if (const auto why = why_not(*option, method)) {
-      throw BadInput(name, fmt::format("is not for --method {}, which {}", method, *why),
+      throw BadInput(name, CommandText("is not for --method ") + fmt::format("{}, which {}", method, *why),
                      "leave it out, or the method");
     }
   }

@@ -1,6 +1,8 @@
 #include "cli/input_problem.hpp"
 
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,13 +13,19 @@ namespace zwidth::cli {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> options_of_members = {
-    {{"`rate`", "--rate"},
-     {"`time_column`", "--time"},
-     {"`time_scale`", "--time-scale"},
-     {"`timer_bits`", "--timer-bits"},
-     {"`skip_rows`", "--skip-rows"},
-     {"`lowest`", "--lowest-hz"},
-     {"`highest`", "--highest-hz"}}};
+    {{"rate", "--rate"},
+     {"time_column", "--time"},
+     {"time_scale", "--time-scale"},
+     {"timer_bits", "--timer-bits"},
+     {"skip_rows", "--skip-rows"},
+     {"lowest", "--lowest-hz"},
+     {"highest", "--highest-hz"}}};
+
+std::optional<std::string> option_of(std::string_view member) {
+  const auto found = std::ranges::find(options_of_members, member, [](const auto& each) { return each.first; });
+  if (found == options_of_members.end()) return std::nullopt;
+  return std::string(found->second);
+}
 
 }  // namespace
 
@@ -28,11 +36,7 @@ std::vector<InputProblem> problems_in(const InputError& error) {
       each.place.file.clear();
       each.place.option = "--set";
     }
-    for (const auto& [member, option] : options_of_members) {
-      for (auto at = each.allowed.find(member); at != std::string::npos; at = each.allowed.find(member, at)) {
-        each.allowed.replace(at, member.size(), option);
-      }
-    }
+    each.name_options(option_of);
   }
   return problems;
 }

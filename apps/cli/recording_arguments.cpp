@@ -87,9 +87,9 @@ RequestedMotion requested_motion(const RecordingArguments& arguments) {
     found = &candidate;
   }
   if (!found) {
-    throw BadInput(
-        "--position", "missing",
-        "name the column of the motion with --position, --velocity or --acceleration" + columns_of(arguments));
+    throw BadInput("--position", "missing",
+                   CommandText("name the column of the motion with --position, --velocity or --acceleration") +
+                       columns_of(arguments));
   }
   return *found;
 }

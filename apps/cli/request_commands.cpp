@@ -194,7 +194,7 @@ tl::expected<RequestAnswer, Problem> answer_or_problem(const CommandRequest& req
   } catch (const WorkFailed& error) {
     // The document says itself what of it is refused.
     if (!own.output.empty()) return answer_in(own);
-    return tl::unexpected(failure_in(error.reason));
+    return tl::unexpected(failure_in(error));
   } catch (const Error& error) {
     return tl::unexpected(Problem{"", error.what(), ""});
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -14,7 +15,6 @@ namespace zwidth::cli {
 namespace {
 
 constexpr std::string_view in_options = "options.";
-constexpr std::string_view letters_of_options = "abcdefghijklmnopqrstuvwxyz0123456789-";
 
 /// What errors call the file that a study came from.
 std::string study_file(const std::variant<std::string, std::filesystem::path>& study) {
@@ -35,15 +35,12 @@ server::Problem with_names(server::Problem problem, server::CommandRequest::Nami
   if (problem.where.starts_with(in_options)) problem.where = listed(problem.where, naming);
   problem.place.option = listed(problem.place.option, naming);
   const bool is_document = naming == server::CommandRequest::Naming::document;
-  for (std::string* text : {&problem.what, &problem.allowed}) {
-    for (std::size_t at = text->find("--"); at != std::string::npos; at = text->find("--", at + 1)) {
-      const std::size_t end = std::min(text->find_first_not_of(letters_of_options, at), text->size());
-      const std::string name = text->substr(at + 2, end - at - 2);
-      if (std::ranges::find(options, name) == options.end()) continue;
-      const bool has_prefix = is_document && name != recording;
-      text->replace(at, end - at, (has_prefix ? std::string(in_options) : "") + listed(name, naming));
-    }
-  }
+  problem.name_options([&](const std::string& option) -> std::optional<std::string> {
+    const std::string name = option.starts_with("--") ? option.substr(2) : "";
+    if (std::ranges::find(options, name) == options.end()) return std::nullopt;
+    const bool has_prefix = is_document && name != recording;
+    return (has_prefix ? std::string(in_options) : "") + listed(name, naming);
+  });
   return problem;
 }
 
@@ -70,9 +67,9 @@ server::Problem problem_in(const InputProblem& told, const server::CommandReques
     tells_key = true;
   }
   // What `where` does not say.
-  if (!tells_key) problem.what = place.key + ": " + problem.what;
+  if (!tells_key) problem.begin_with(place.key + ": ");
   const bool is_known = is_device || is_study || is_recording || place.file.empty();
-  if (!is_known) problem.what = place.file + ": " + problem.what;
+  if (!is_known) problem.begin_with(place.file + ": ");
   if (is_override) place.option.clear();
   if (place.option.starts_with("--")) place.option.erase(0, 2);
   return {std::move(where), std::move(problem)};
@@ -86,11 +83,13 @@ server::Problem problem_in(const BadInput& refused, const server::CommandRequest
   return first;
 }
 
-server::Problem failure_in(std::string reason) {
-  for (std::size_t end = reason.find('\n'); end != std::string::npos; end = reason.find('\n', end)) {
-    reason.replace(end, 1, "; ");
+server::Problem failure_in(const WorkFailed& failure) {
+  InputProblem problem{{}, failure.reason.text, {}, {}, failure.reason.options};
+  for (std::size_t end = problem.what.find('\n'); end != std::string::npos; end = problem.what.find('\n', end)) {
+    problem.what.replace(end, 1, "; ");
+    for (NamedOption& option : problem.options_of_what) option.at += option.at > end ? 1 : 0;
   }
-  return {"", std::move(reason), ""};
+  return {"", std::move(problem)};
 }
 
 server::Problem problem_of_cli11(const std::string& message, std::string_view file,

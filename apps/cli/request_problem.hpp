@@ -17,8 +17,8 @@ inline constexpr const char* study_name = "study";
 [[nodiscard]] server::Problem problem_in(const BadInput& refused, const server::CommandRequest& request);
 [[nodiscard]] server::Problem problem_in(const InputProblem& told, const server::CommandRequest& request);
 
-/// The reason why work failed: it has no place, and its parts stay together.
-[[nodiscard]] server::Problem failure_in(std::string reason);
+/// Why the work failed: it has no place, and its lines stay together.
+[[nodiscard]] server::Problem failure_in(const WorkFailed& failure);
 
 /// CLI11's message about an option as the request's problem. `file`: what its positional argument is, device or recording.
 [[nodiscard]] server::Problem problem_of_cli11(const std::string& message, std::string_view file,

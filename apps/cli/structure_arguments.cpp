@@ -37,7 +37,7 @@ Structure structure_by_name(const StructureArguments& arguments, std::optional<d
                                       stated_motion(recordings)};
   check(options);
   const NamedStructure named = named_structure(arguments.structure, options).value();
-  auto device = parse_device(write_device(named.parameters), "--structure " + arguments.structure, arguments.overrides);
+  auto device = parse_device(write_device(named.parameters), arguments.structure, arguments.overrides);
   if (!device) refuse_input(device.error());
   return {*std::move(device), named.values};
 }

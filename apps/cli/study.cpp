@@ -138,7 +138,8 @@ void run_study(const StudyArguments& arguments) {
   if (const auto problem = find_problem(options, device, file->distributions)) refuse(*problem, options_of_study);
   if (arguments.result.empty() && options.samples > most_samples_in_memory) {
     throw BadInput("--samples", fmt::format("is {}", options.samples),
-                   fmt::format("at most {} without --output, which keeps them on the disk", most_samples_in_memory));
+                   CommandText(fmt::format("at most {}", most_samples_in_memory)) +
+                       CommandText(" without --output, which keeps them on the disk"));
   }
   check_threads("--threads", options.threads);
   check_samples("--samples", units_of(options, file->distributions.parameters.size()));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,11 +14,33 @@
 
 namespace zwidth::cli {
 
+/// A sentence with the options that it names, "add --csv FILE". Only a literal names any.
+struct CommandText : OptionText {
+  // NOLINTBEGIN(google-explicit-constructor): as OptionText
+  CommandText(const char* literal) : OptionText(std::string(literal), options_in(literal)) {}
+  CommandText(std::string plain) : OptionText(std::move(plain)) {}
+  CommandText(OptionText sentence) : OptionText(std::move(sentence)) {}
+  // NOLINTEND(google-explicit-constructor)
+
+ private:
+  static std::vector<NamedOption> options_in(std::string_view literal) {
+    std::vector<NamedOption> found;
+    for (std::size_t at = literal.find("--"); at != std::string_view::npos;) {
+      const std::size_t end =
+          std::min(literal.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-", at), literal.size());
+      if (end > at + 2) found.push_back({std::string(literal.substr(at, end - at)), at, end - at});
+      at = literal.find("--", end);
+    }
+    return found;
+  }
+};
+
 /// What is wrong with the value of an option: "--duration".
-[[nodiscard]] inline InputProblem problem_of_value(std::string_view option, std::string what, std::string allowed,
+[[nodiscard]] inline InputProblem problem_of_value(std::string_view option, CommandText what, CommandText allowed,
                                                    std::optional<std::string> suggestion = std::nullopt) {
-  InputProblem problem{{}, std::move(what), std::move(allowed), std::move(suggestion)};
+  InputProblem problem{{}, std::move(what.text), {}, std::move(suggestion), std::move(what.options)};
   problem.place.option = option;
+  problem.allow(std::move(allowed));
   return problem;
 }
 
@@ -31,7 +54,7 @@ struct BadInput : std::runtime_error {
   explicit BadInput(std::vector<InputProblem> all) : std::runtime_error(lines_of(all)), problems(std::move(all)) {}
   explicit BadInput(InputProblem problem) : BadInput(std::vector<InputProblem>{std::move(problem)}) {}
   /// Of an option; empty: of none.
-  BadInput(std::string_view option, std::string what, std::string allowed = "")
+  BadInput(std::string_view option, CommandText what, CommandText allowed = "")
       : BadInput(problem_of_value(option, std::move(what), std::move(allowed))) {}
 
   std::vector<InputProblem> problems;
@@ -51,12 +74,12 @@ struct RefusedValue {
 
 /// The work itself failed (cannot write, does not converge): main prints the message and exits with status 1.
 struct WorkFailed : std::runtime_error {
-  explicit WorkFailed(const std::string& why) : std::runtime_error(why), reason(why) {}
+  explicit WorkFailed(CommandText why) : WorkFailed("", std::move(why)) {}
   /// The work on what is called `name` (a file; empty: nothing).
-  WorkFailed(const std::string& name, const std::string& why)
-      : std::runtime_error((name.empty() ? "" : name + ": ") + why), reason(why) {}
+  WorkFailed(const std::string& name, CommandText why)
+      : std::runtime_error((name.empty() ? "" : name + ": ") + why.text), reason(std::move(why)) {}
 
-  std::string reason;  ///< without the name
+  OptionText reason;  ///< without the name
 };
 
 /// What is wrong with the library's arguments, in the file `name` (empty: in none).

@@ -87,7 +87,7 @@ InputProblem problem_of_cli11(const std::string& message) {
   }
   const auto choice = parted(message, " not in {");
   const auto given = choice && choice->after.ends_with('}') ? parted(choice->before, ": ") : std::nullopt;
-  if (!given) return problem_of_value("", message, "");
+  if (!given) return problem_of_value("", CommandText(message.c_str()), "");
   const std::vector<std::string> words = parts_of(choice->after.substr(0, choice->after.size() - 1), ',');
   const std::string near = nearest_word(given->after, words);
   const std::string what = fmt::format("is {}", given->after);

@@ -7,6 +7,7 @@
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
 namespace {
@@ -96,9 +97,9 @@ Json with_margins_json(const WallSummary& walls) {
 Json walls_json(const std::optional<WallSummary>& walls) {
   if (!walls) return nullptr;
   return {{"with_damper", with_damper_json(*walls)},
-          {"why_no_damper", text_or_null(walls->why_no_damper)},
+          {"why_no_damper", text_or_null(text(walls->why_no_damper))},
           {"with_margins", with_margins_json(*walls)},
-          {"why_no_margins", text_or_null(walls->why_no_margins)}};
+          {"why_no_margins", text_or_null(text(walls->why_no_margins))}};
 }
 
 std::optional<std::string> uncertainty_warning(const DeviceParameters& device) {

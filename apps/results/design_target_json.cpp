@@ -1,6 +1,7 @@
 #include "results/design_target_json.hpp"
 
 #include "results/units.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
 
@@ -24,7 +25,7 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
     json["targets"].push_back(Json{{"parameter", each.key},
                                    {"value_now", each.value_now},
                                    {"value_needed", Json(each.value_needed)},
-                                   {"why", each.why},
+                                   {"why", text(each.why)},
                                    {"any_user_then", each.any_user_then},
                                    {"safe", each.safe}});
   }

@@ -4,6 +4,7 @@
 
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
 
@@ -21,7 +22,7 @@ static void to_json(Json& json, const OscillationCandidate& candidate) {
           {"damping", candidate.damping},
           {"amplitude", candidate.amplitude},
           {"limited_by", candidate.limited_by},
-          {"why", candidate.why},
+          {"why", text(candidate.why)},
           {"otherwise", candidate.otherwise}};
 }
 

@@ -7,6 +7,7 @@
 #include "results/csv.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
 
@@ -56,7 +57,7 @@ Json trial_json(const RelayTrial& trial, const RelayResult& result) {
   const bool is_simulated = result.source == RelayResult::Source::simulation;
   const auto& reading = trial.result;
   return {{"oscillates", reading.has_value()},
-          {"reason", reading ? Json(nullptr) : Json(reading.error().reason)},
+          {"reason", reading ? Json(nullptr) : Json(text(reading.error().why))},
           {"start_offset", is_simulated ? Json(trial.start_offset) : Json(nullptr)},
           {"friction_factor", is_simulated ? Json(trial.friction_factor) : Json(nullptr)},
           {"result", reading ? reading_json(*reading, result.sampling_period) : Json(nullptr)},
@@ -82,7 +83,8 @@ Json relay_json(const RelayResult& result) {
   for (const RelayTrial& trial : result.trials) json["trials"].push_back(trial_json(trial, result));
   json["mean"] = result.mean;
   json["predictions"] = result.prediction;
-  json["explanation"] = result.explanation;
+  json["explanation"] = Json::array();
+  for (const Finding& each : result.explanation) json["explanation"].push_back(text(each));
   json["limit_reading"] = result.limit_reading;
   json["trust"] = result.trust;
   json["remarks"] = result.remarks;

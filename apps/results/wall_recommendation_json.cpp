@@ -4,6 +4,7 @@
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
 namespace {
@@ -49,7 +50,7 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
                    {"drift", options.drift}};
   json["drifts_checked"] = recommendation.drifts_checked;
   json["status"] = recommendation.status;
-  json["reason"] = recommendation.reason.empty() ? Json(nullptr) : Json(recommendation.reason);
+  json["reason"] = recommendation.reason ? Json(text(*recommendation.reason)) : Json(nullptr);
   if (recommendation.wall) {
     add_wall(json, *recommendation.wall, period);
   } else {

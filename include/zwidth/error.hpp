@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zwidth/input_problem.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth {
 
@@ -27,6 +28,8 @@ class Error : public std::runtime_error {
   /// The same of arguments, with what is wrong with each.
   Error(ErrorCode code, const std::string& message, std::vector<InputProblem> problems)
       : std::runtime_error(message), code_(code), problems_(std::move(problems)) {}
+  /// In the words of a problem: "what; allowed".
+  Error(ErrorCode code, const Problem& problem);
   /// What kind of failure it is.
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
   /// What is wrong with the arguments: members of an options struct or keys of a device; empty where no more is known

@@ -91,6 +91,52 @@ enum class FindingCode : std::uint16_t {
   openffboard_estimator,                ///< where the firmware's position and velocity come from
   drive_velocity_limit,                 ///< the drive's velocity limit bounds the spring
 
+  // reasons of design: why there is no answer, and what an oscillation is
+  no_stiffness_too_much,                  ///< the force does not move what is sensed: every wall is stable
+  no_damping_too_much,                    ///< the same of dampers
+  every_wall_destabilised,                ///< some passive user destabilises any wall: nothing damps a motion
+  every_damper_destabilised,              ///< the same of dampers
+  hardly_any_wall_keeps_margins,          ///< with some passive user only a very soft wall keeps the margins
+  no_wall_stable_with_any_damper,         ///< no wall is stable from K = 0 on
+  no_damper_stable,                       ///< no damper is stable from B = 0 on
+  no_wall_with_damped_contact,            ///< no wall keeps the margins without a swinging contact
+  no_wall_keeps_margins_with_any_filter,  ///< no wall keeps the margins with any damper and velocity filter
+  lower_end_leaves_no_margins,            ///< at the lower end of the uncertainty no wall keeps the margins
+  uncertainty_leaves_no_margins,          ///< in more than a share of the draws no wall keeps what is asked
+  uncertainty_leaves_no_damper,           ///< the uncertainty leaves no damper
+  drift_leaves_no_wall,                   ///< at some drift of the modes no wall keeps what is asked
+  drift_leaves_no_damper,                 ///< at some drift of the modes no damper keeps what is asked
+  notch_lowers_any_user_limit,            ///< the notch lowers the limit with any passive user at some drift
+  largest_damper_unknown,                 ///< the largest damper alone is not known
+  no_damper_too_large,                    ///< every damper alone is stable
+  device_refused,                         ///< the device's numbers are refused
+  too_many_bodies_for_wall_summary,       ///< the walls beside an analysis take long for so many bodies
+  limit_refused_at_value,                 ///< the limit at the value found is refused, for `reason`
+  limit_jumps_across_target,              ///< the limit jumps across the target: another mechanism takes over
+  any_user_limit_at_target,               ///< the limit over all passive users is the target at the value
+  rigid_body_limit_at_target,             ///< the limit is the target at the value, set by the rigid body
+  mode_limit_at_target,                   ///< the limit is the target at the value, set by a vibration mode
+  stable_at_every_value,                  ///< every wall or damper is stable at every value of the number
+  limit_stays_below_target,               ///< at no value of the number the limit gets as high as the target
+  limit_stays_above_target,               ///< at no value of the number the limit gets as low as the target
+  number_not_followed,                    ///< of many numbers those that move the limit most are followed
+  no_crossover,                           ///< no stiffness puts a pole on the unit circle
+  crossover_at_frequency,                 ///< a phase crossover near the frequency observed
+  loop_stable,                            ///< the loop is stable with this wall
+  loop_unstable,                          ///< the loop is unstable with this wall
+  no_user_destabilises_wall,              ///< no passive user makes a wall oscillate at the frequency observed
+  no_user_destabilises_damper,            ///< no passive user makes a damper oscillate at the frequency observed
+  some_user_destabilises,                 ///< some passive user makes it oscillate at the frequency
+  unstable_without_steps,                 ///< the loop is unstable without the encoder's steps
+  no_crossover_for_steps,                 ///< the encoder's steps have no phase crossover to swing at
+  friction_holds_against_steps,           ///< friction holds against half an encoder step's force
+  swing_beyond_steps,                     ///< the swing is larger than the encoder's steps keep up
+  cycle_of_steps,                         ///< the encoder is a relay: a cycle at a phase crossover
+  resonance_of_steps,                     ///< the loop resonates and swings by many encoder steps
+  friction_destabilises_nothing,          ///< friction that holds a body makes no stable loop unstable
+  friction_cycle_of_other_swing,          ///< the cycle of friction has another amplitude
+  friction_cycle,                         ///< a cycle of friction at the frequency
+
   // study
   units_without_answer,            ///< some units have no answer and count as failures
   unit_limits_doubtful,            ///< the limits of some units are doubtful
@@ -148,6 +194,33 @@ enum class FindingCode : std::uint16_t {
   relay_reads_more,                   ///< a relay reads more than the limit of linear theory
   relay_reads_less,                   ///< a relay reads less than the limit of linear theory
   relay_without_wall,                 ///< the relay's numbers are without the wall's damper and filters
+
+  // reasons of relays: why a record is not read, and what a reading means
+  record_too_short,                   ///< fewer samples than can be analysed
+  force_never_changes,                ///< a force of one value
+  position_never_changes,             ///< a position of one value
+  force_stops_changing,               ///< the force is constant in the last half
+  position_stops_changing,            ///< the position is constant in the last half
+  too_few_cycles,                     ///< the record holds no oscillation of enough cycles
+  too_few_cycles_in_segment,          ///< a segment holds too few cycles of the oscillation
+  no_frequency_stands_out,            ///< the strongest line holds a small share of the motion's power
+  trials_at_different_oscillations,   ///< the trials settle at different oscillations
+  no_linear_crossover,                ///< linear theory knows no phase crossover
+  reads_more_at_crossover,            ///< it oscillates near a phase crossover, and reads more
+  reads_less_at_crossover,            ///< it oscillates near a phase crossover, and reads less
+  oscillates_off_crossovers,          ///< it oscillates at no phase crossover
+  reading_confirms_limit,             ///< the reading is the limit of linear theory
+  reading_coincides_with_limit,       ///< the reading is the limit's stiffness at another frequency
+  reading_above_limit,                ///< the reading lies above the limit of linear theory
+  reading_below_limit,                ///< the reading lies below the limit of linear theory
+  no_linear_limit,                    ///< linear theory gives no finite limit
+  friction_leaves_no_cycle,           ///< with friction, first harmonics give no oscillation near this one
+  friction_moves_cycle,               ///< friction moves the oscillation away from the crossover
+  friction_leaves_cycle,              ///< friction leaves the oscillation near the crossover
+  sampled_relay_without_oscillation,  ///< the sampled relay alone has no simple oscillation
+  sampled_relay_has_this_one,         ///< this oscillation is an exact one of the sampled relay alone
+  sampled_relay_apart_by_friction,    ///< this oscillation is none of the sampled relay's: friction
+  sampled_relay_apart_by_switches,  ///< this oscillation is none of the sampled relay's: more switches, or the encoder
 
   // rig
   interrupted,                  ///< the session was interrupted
@@ -256,7 +329,7 @@ enum class FindingCode : std::uint16_t {
   excitation_moves_few_steps,       ///< the excitation moves the device by few encoder steps
   excitation_of_doubtful_device,    ///< the excitation is computed of a device that is doubted
   stroke_without_friction,          ///< the stroke is computed without Coulomb friction
-  channel_in_counts,                ///< a channel holds whole numbers, as an encoder or a converter counts
+  channel_in_counts,                ///< a channel (0: force, 1: motion) holds whole numbers, as a converter counts
   force_of_two_values,              ///< a force of two values: an amplifier that gives less does not show
   channels_of_two_motions,          ///< force and motion of a linear and a rotary device
   channel_of_other_quantity,        ///< a column's unit is that of another quantity

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "zwidth/option_text.hpp"
 
 namespace zwidth {
 
@@ -17,10 +21,19 @@ struct InputPlace {
 
 /// What is wrong with an input, and what to write instead: the one form in which refusals travel.
 struct InputProblem {
-  InputPlace place;                       ///< where
-  std::string what;                       ///< what is wrong: "is -1"
-  std::string allowed;                    ///< what is allowed, or the remedy; may be empty
-  std::optional<std::string> suggestion;  ///< a value to put there, as an override takes it: "0.5 ms", "handle"
+  InputPlace place;                               ///< where
+  std::string what;                               ///< what is wrong: "is -1"
+  std::string allowed;                            ///< what is allowed, or the remedy; may be empty
+  std::optional<std::string> suggestion;          ///< a value to put there, as an override takes it: "0.5 ms", "handle"
+  std::vector<NamedOption> options_of_what = {};  ///< that `what` names
+  std::vector<NamedOption> options_of_allowed = {};  ///< that `allowed` names
+
+  /// What is allowed, and the options that it names.
+  void allow(OptionText remedy);
+  /// Puts a text ahead of `what`.
+  void begin_with(const std::string& text);
+  /// Calls every option that the sentences name as `called` says; one for which it has no name stays as it is.
+  void name_options(const std::function<std::optional<std::string>(const std::string&)>& called);
 
   /// One line: "OPTION: FILE:LINE:COLUMN: KEY: WHAT; ALLOWED", as far as there is each.
   [[nodiscard]] std::string str() const;

@@ -29,10 +29,6 @@ struct Trust {
   void doubt(Finding finding);
   /// Refused, for this finding.
   void refuse(Finding finding);
-  /// At least doubtful, for this reason: FindingCode::stated.
-  void doubt(std::string reason);
-  /// Refused, for this reason: FindingCode::stated.
-  void refuse(std::string reason);
   /// What is computed from `source` is trusted no more than it: the worse verdict of both, the reasons of both, each
   /// once.
   void inherit(const Trust& source);

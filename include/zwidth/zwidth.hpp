@@ -62,6 +62,8 @@
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/option_text.hpp"
+#include "zwidth/problem_code.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/remark.hpp"
@@ -118,3 +120,4 @@
 #include "zwidth/study/study_run.hpp"
 #include "zwidth/trust.hpp"
 #include "zwidth/words/finding_text.hpp"
+#include "zwidth/words/problem_text.hpp"

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "batch/kernel/kernel_columns.hpp"
+#include "counted.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
 #include "zwidth/error.hpp"
@@ -157,11 +158,12 @@ std::string BatchStiffness::failure_of(std::size_t i) const {
 
 std::optional<OptionProblem> find_problem(const BatchOptions& options, const Device& device) {
   if (options.any_user && !device.has_bodies()) {
-    return OptionProblem{"any_user", "is asked of a transfer function", "it has no body for a user to hold"};
+    return option_problem("any_user", {.code = ProblemCode::asked_of_transfer_function});
   }
   if (options.threads > most_batch_threads) {
-    return OptionProblem{"threads", fmt::format("is {}", options.threads),
-                         fmt::format("must be 0 (all cores) to {}", most_batch_threads)};
+    return option_problem("threads", {.code = ProblemCode::too_many_threads,
+                                      .evidence = {internal::counted("value", options.threads),
+                                                   internal::counted("most", most_batch_threads)}});
   }
   return std::nullopt;
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "counted.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -33,29 +35,35 @@ ControllerOptions wall_controller(const Wall& wall) {
 }
 
 std::optional<OptionProblem> find_problem(const ControllerOptions& options, double sampling_period) {
-  const auto problem = [](const char* member, double value, const char* allowed) {
-    return OptionProblem{member, fmt::format("is {}", value), allowed};
+  using enum ProblemCode;
+  const auto problem = [](const char* member, ProblemCode code, double value, std::vector<Subject> subjects = {}) {
+    return option_problem(
+        member, {.code = code, .evidence = {{"value", value}, {"bound", 0.0}}, .subjects = std::move(subjects)});
   };
-  if (!std::isfinite(options.position)) return problem("position", options.position, "a number of m or rad");
-  if (!is_at_least_zero(options.stiffness)) return problem("stiffness", options.stiffness, "a number >= 0");
-  if (!is_at_least_zero(options.damping)) return problem("damping", options.damping, "a number >= 0");
+  if (!std::isfinite(options.position)) {
+    return problem("position", no_number, options.position, {{"in", "m or rad"}});
+  }
+  if (!is_at_least_zero(options.stiffness)) return problem("stiffness", below_zero, options.stiffness);
+  if (!is_at_least_zero(options.damping)) return problem("damping", below_zero, options.damping);
   if (!is_at_least_zero(options.velocity_filter_hz)) {
-    return problem("velocity_filter_hz", options.velocity_filter_hz, "a number of Hz >= 0");
+    return problem("velocity_filter_hz", below_zero, options.velocity_filter_hz, {{"in", "Hz"}});
   }
   if (!is_at_least_zero(options.hysteresis)) {
-    return problem("hysteresis", options.hysteresis, "a position in m or rad, 0 or more");
+    return problem("hysteresis", below_bound, options.hysteresis, {{"measure", "position"}});
   }
   const bool is_relay = options.kind == ControllerOptions::Kind::relay;
   if (!is_at_least_zero(options.amplitude) || (is_relay && options.amplitude == 0.0)) {
-    return problem("amplitude", options.amplitude, "a force in N or N m above 0");
+    return problem("amplitude", not_above, options.amplitude, {{"measure", "force"}});
   }
   if (options.filters.size() > max_wall_filters) {
-    return OptionProblem{"filters", fmt::format("are {}", options.filters.size()),
-                         fmt::format("at most {}", max_wall_filters)};
+    return option_problem("filters", {.code = too_many,
+                                      .evidence = {internal::counted("value", options.filters.size()),
+                                                   internal::counted("most", max_wall_filters)}});
   }
   for (const WallFilter& filter : options.filters) {
     if (const auto wrong = find_problem(filter, sampling_period)) {
-      return OptionProblem{"filters", wrong->what, wrong->allowed};
+      return option_problem("filters",
+                            {.code = of_the_device, .subjects = {{"what", wrong->what}, {"allowed", wrong->allowed}}});
     }
   }
   return std::nullopt;

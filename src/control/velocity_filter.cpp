@@ -1,7 +1,5 @@
 #include "zwidth/control/velocity_filter.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "zwidth/error.hpp"
@@ -11,10 +9,13 @@ namespace zwidth {
 
 VelocityFilter::VelocityFilter(double cutoff_hz, double sampling_period) : rate_(1.0 / sampling_period) {
   if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("sampling period is {} s; must be > 0", sampling_period));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::sampling_period_not_positive,
+                                              .evidence = {{"value", sampling_period}},
+                                              .subjects = {{"unit", "s"}}});
   }
   if (!(std::isfinite(cutoff_hz) && cutoff_hz >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("velocity filter is {} Hz; must be >= 0", cutoff_hz));
+    throw Error(ErrorCode::invalid_argument,
+                {.code = ProblemCode::filter_below_zero, .evidence = {{"value", cutoff_hz}}});
   }
   pole_ = velocity_filter_pole(cutoff_hz, sampling_period);
 }

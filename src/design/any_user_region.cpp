@@ -1,7 +1,5 @@
 #include "zwidth/design/any_user_region.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -126,11 +124,11 @@ AnyUserRegion any_user_region(const Device& device, const StableWalls& walls, do
                               AnyUserRegionOptions options) {
   if (!(largest_damping > 0.0) || !std::isfinite(largest_damping)) {
     throw Error(ErrorCode::invalid_argument,
-                "the largest damping is " + fmt::format("{}", largest_damping) + "; must be finite and > 0");
+                {.code = ProblemCode::largest_damping_not_positive, .evidence = {{"value", largest_damping}}});
   }
   if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "the region's deviation is " + fmt::format("{}", options.deviation) + "; must be above 0 and below 1");
+                {.code = ProblemCode::region_deviation_no_fraction, .evidence = {{"value", options.deviation}}});
   }
   StagedProgress stages(options.progress);
   stages.next(scan_share);

@@ -248,8 +248,7 @@ std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, cons
   SegmentList list;
   for (std::size_t left = max_estimated_intervals; !stack.empty(); --left) {
     if (left == 0) {
-      throw Error(ErrorCode::did_not_converge,
-                  "the boundary of the stable walls could not be followed: it turns too often");
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::boundary_not_followed});
     }
     if (left % intervals_per_report == 0) tell(progress, 0.0);
     const auto [begin, end] = stack.back();

@@ -195,7 +195,7 @@ class BoundaryTracer {
   void join(BoundaryPoint& moved, const BoundaryPoint& fixed) {
     const double gap = apart(wall(moved), wall(fixed));
     if (gap > joint_) {
-      throw Error(ErrorCode::did_not_converge, "the outline of the stable walls does not close");
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::outline_not_closed});
     }
     gap_ = std::max(gap_, gap);
     moved.stiffness = fixed.stiffness;

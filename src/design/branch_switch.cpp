@@ -1,6 +1,5 @@
 #include "zwidth/design/branch_switch.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -148,7 +147,7 @@ std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffn
 std::vector<BranchSwitch> branch_switches(const Device& device, BranchSwitchOptions options) {
   if (!(options.factor > 1.0) || !std::isfinite(options.factor)) {
     throw Error(ErrorCode::invalid_argument,
-                "the factor is " + fmt::format("{}", options.factor) + "; must be above 1");
+                {.code = ProblemCode::branch_factor_too_small, .evidence = {{"value", options.factor}}});
   }
   const Wall& wall = device.parameters().wall;
   const CriticalStiffness own = critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});

@@ -71,7 +71,7 @@ class DamperRecommendation {
       const DamperLimits::Strongest strongest = limits_.strongest(cutoff);
       if (!std::isfinite(strongest.damping)) {
         result.status = WallRecommendation::Status::unbounded;
-        result.reason = "no damping is too much for this device: its force does not move what is sensed";
+        result.reason = Finding{.code = FindingCode::no_damping_too_much};
         return result;
       }
       const Damper found{{strongest.damping, cutoff}, strongest.bound};
@@ -85,7 +85,7 @@ class DamperRecommendation {
     if (options_.drift > 0.0) result.drifts_checked = drifts_held;
     if (best) lower(*best, result);
     if (!best || !(best->damper.damping > 0.0)) {
-      if (result.reason.empty()) result.reason = why_no_damper();
+      if (!result.reason) result.reason = why_no_damper();
       return result;
     }
     RecommendedWall wall = described("recommended", *best, result.trust);
@@ -110,11 +110,11 @@ class DamperRecommendation {
     const auto& uncertainty = device_.parameters().uncertainty;
     if (uncertainty && !uncertainty->parameters.empty()) {
       take(drawn(device_, options_), tail_of_dampers, WallBound::uncertainty);
-      if (!(found.damper.damping > 0.0)) result.reason = "the uncertainty of the device leaves no damper";
+      if (!(found.damper.damping > 0.0)) result.reason = Finding{.code = FindingCode::uncertainty_leaves_no_damper};
     }
     if (options_.drift > 0.0 && found.damper.damping > 0.0) {
       take(with_drifts(device_, options_.drift), 0.0, WallBound::drift);
-      if (!(found.damper.damping > 0.0)) result.reason = "the drift of the modes leaves no damper";
+      if (!(found.damper.damping > 0.0)) result.reason = Finding{.code = FindingCode::drift_leaves_no_damper};
     }
   }
 
@@ -148,11 +148,9 @@ class DamperRecommendation {
     if (!trust.refused()) result.alternatives.push_back(std::move(wall));
   }
 
-  [[nodiscard]] std::string why_no_damper() const {
+  [[nodiscard]] Finding why_no_damper() const {
     const double nobody = critical_damping(with_wall(device_, 0.0, {})).damping;
-    return nobody > 0.0 ? "some passive user destabilises any damper, however weak: nothing damps a motion that the "
-                          "user can drive"
-                        : "no damper is stable from B = 0 on";
+    return {.code = nobody > 0.0 ? FindingCode::every_damper_destabilised : FindingCode::no_damper_stable};
   }
 
   void remark_on_bounds(WallRecommendation& result) const {

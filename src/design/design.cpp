@@ -1,7 +1,5 @@
 #include "zwidth/design/design.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +11,9 @@ namespace zwidth {
 
 std::optional<OptionProblem> find_problem(const DesignOptions& options) {
   if (options.branch_switch_factor > 1.0 && std::isfinite(options.branch_switch_factor)) return std::nullopt;
-  return OptionProblem{"branch_switch_factor", fmt::format("is {}", options.branch_switch_factor),
-                       "must be finite and above 1"};
+  return option_problem("branch_switch_factor",
+                        {.code = ProblemCode::not_finite_and_above,
+                         .evidence = {{"value", options.branch_switch_factor}, {"bound", 1.0}}});
 }
 
 Design design(const Device& device, const DesignOptions& options) {

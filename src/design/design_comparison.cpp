@@ -1,7 +1,5 @@
 #include "zwidth/design/design_comparison.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -53,16 +51,19 @@ std::optional<double> stiffness_of(const CriticalStiffness& critical) {
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const std::optional<Operator>& user) {
-  if (variants.variants.empty()) return OptionProblem{"variants", "is empty", "there is no design to compare"};
+  if (variants.variants.empty()) return option_problem("variants", {.code = ProblemCode::no_designs});
   if (!user) return std::nullopt;
   for (const DeviceVariant& each : variants.variants) {
     if (!each.device.has_bodies() && is_present(*user)) {
-      return OptionProblem{"user", "is of a transfer function", "it has no body for a user to hold"};
+      return option_problem("user", {.code = ProblemCode::user_of_transfer_function});
     }
     DeviceParameters held = each.device.parameters();
     held.user = *user;
     if (const auto problem = find_problem(held)) {
-      return OptionProblem{"user", fmt::format("{}: {}", problem->key, problem->what), problem->allowed};
+      return option_problem(
+          "user", {.code = ProblemCode::of_the_device,
+                   .evidence = {{"colon", 1.0}},
+                   .subjects = {{"key", problem->key}, {"what", problem->what}, {"allowed", problem->allowed}}});
     }
   }
   return std::nullopt;

@@ -1,6 +1,5 @@
 #include "zwidth/design/design_target.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,7 +8,9 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <utility>
 
+#include "counted.hpp"
 #include "design/any_user_judge.hpp"
 #include "design/design_parameter.hpp"
 #include "design/followed_numbers.hpp"
@@ -91,7 +92,7 @@ class Search {
     const NumberLimit there = number_limit(changed, options_.limit_of);
     if (there.trust.refused()) {
       target.value_needed.reset();
-      target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
+      target.why = {.code = FindingCode::limit_refused_at_value, .subjects = {{"reason", there.trust.reasons.front()}}};
     } else {
       target.why = reason_there(there, limit_at(moved, *target.value_needed, 2.0 * options_.stiffness).value_or(0.0));
       const AnyUserJudge::Judgement judgement = users_.of(changed);
@@ -226,29 +227,27 @@ class Search {
     return Device(std::move(moved));
   }
 
-  [[nodiscard]] std::string reason_there(const NumberLimit& there, double limit) const {
-    if (std::abs(excess(limit)) > reached * options_.stiffness) {
-      return "the limit jumps across the target there: another mechanism takes over";
-    }
-    if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
-    return there.at->limited_by.kind == Mechanism::Kind::rigid_body
-               ? "the limit is the target there, set by the rigid body"
-               : fmt::format("the limit is the target there, set by vibration mode {}", there.at->limited_by.mode);
+  [[nodiscard]] Finding reason_there(const NumberLimit& there, double limit) const {
+    using enum FindingCode;
+    if (std::abs(excess(limit)) > reached * options_.stiffness) return {.code = limit_jumps_across_target};
+    if (options_.goal == StiffnessGoal::any_user_limit) return {.code = any_user_limit_at_target};
+    if (there.at->limited_by.kind == Mechanism::Kind::rigid_body) return {.code = rigid_body_limit_at_target};
+    return {.code = mode_limit_at_target, .evidence = {counted("mode", there.at->limited_by.mode)}};
   }
 
-  [[nodiscard]] std::string reason_of_none(const DesignParameter& parameter, const Extremes& extremes) const {
+  [[nodiscard]] Finding reason_of_none(const DesignParameter& parameter, const Extremes& extremes) const {
     const bool below = extremes.most < options_.stiffness;
     const double nearest = below ? extremes.most : extremes.least;
     const bool is_stiffness = options_.limit_of == WallNumber::stiffness;
-    if (!std::isfinite(nearest))
-      return fmt::format("every {} is stable whatever it is", is_stiffness ? "wall" : "damper");
-    const std::string range = parameter.value > 0.0
-                                  ? fmt::format("within a factor of {:g} of its value", options_.factor)
-                                  : "at any value from 0 up to what is likely";
+    if (!std::isfinite(nearest)) {
+      return {.code = FindingCode::stable_at_every_value, .subjects = {{"what", is_stiffness ? "wall" : "damper"}}};
+    }
     const Units units = units_of(device_.parameters().motion);
-    return fmt::format(
-        "{} the limit gets no {} than {}", range, below ? "higher" : "lower",
-        is_stiffness ? quantity(nearest, units.stiffness) : fmt::format("{} {}", number(nearest), units.damping));
+    const std::string_view unit = is_stiffness ? units.stiffness : units.damping;
+    Finding why{.code = below ? FindingCode::limit_stays_below_target : FindingCode::limit_stays_above_target,
+                .evidence = {{"limit", nearest, unit}, {"threshold", options_.stiffness, unit}}};
+    if (parameter.value > 0.0) why.evidence.push_back({"factor", options_.factor});
+    return why;
   }
 
   const Device& device_;
@@ -277,21 +276,24 @@ std::optional<double> target_of(const DesignTargetOptions& options, double limit
 
 std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device) {
   if (options.times_now && (!(*options.times_now > 0.0) || !std::isfinite(*options.times_now))) {
-    return OptionProblem{"times_now", fmt::format("is {} times", *options.times_now), "must be finite and > 0"};
+    return option_problem("times_now", {.code = ProblemCode::not_finite_and_positive,
+                                        .evidence = {{"value", *options.times_now}, {"times", 1.0}}});
   }
   if (!options.times_now && (!(options.stiffness > 0.0) || !std::isfinite(options.stiffness))) {
-    return OptionProblem{"stiffness", fmt::format("is {}", options.stiffness), "must be finite and > 0"};
+    return option_problem("stiffness",
+                          {.code = ProblemCode::not_finite_and_positive, .evidence = {{"value", options.stiffness}}});
   }
   if (!(options.factor > 1.0) || !(options.factor <= 1e6)) {
-    return OptionProblem{"factor", fmt::format("is {}", options.factor), "must be above 1, at most 1e6"};
+    return option_problem("factor", {.code = ProblemCode::no_factor, .evidence = {{"value", options.factor}}});
   }
   if (options.goal == StiffnessGoal::any_user_limit) {
     if (!device.has_bodies()) {
-      return OptionProblem{"goal", "is the limit with any user", "a transfer function has no body for a user to hold"};
+      return option_problem("goal", {.code = ProblemCode::any_user_goal_of_transfer_function});
     }
     if (device.bodies().size() > most_bodies_for_any_user) {
-      return OptionProblem{"goal", fmt::format("is the limit with any user of {} bodies", device.bodies().size()),
-                           fmt::format("at most {} bodies", most_bodies_for_any_user)};
+      return option_problem(
+          "goal", {.code = ProblemCode::any_user_goal_of_many_bodies,
+                   .evidence = {counted("bodies", device.bodies().size()), counted("most", most_bodies_for_any_user)}});
     }
   }
   return std::nullopt;
@@ -360,7 +362,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     DesignTarget target;
     target.key = each.key;
     target.value_now = each.value;
-    target.why = "not followed: of so many bodies only the numbers are that move the limit most in a first step";
+    target.why = {.code = FindingCode::number_not_followed};
     result.targets.push_back(std::move(target));
   }
   std::ranges::stable_sort(result.targets, {}, cost);

@@ -1,7 +1,5 @@
 #include "zwidth/design/diagnosis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -86,7 +84,7 @@ void rank(std::vector<OscillationCandidate>& candidates, const ObservedLoop& loo
 void compare_with_nobody(OscillationCandidate& held, const OscillationCandidate& nobody) {
   if (!held.fits || !nobody.fits) return;
   held.fits = false;
-  held.why += "; it does so without the operator too";
+  held.why.evidence.push_back({"without_operator", 1.0});
 }
 
 void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
@@ -96,7 +94,7 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
     candidates.push_back(linear_candidate(loop, OscillationCause::with_operator, loop.device));
     compare_with_nobody(candidates[1], candidates[0]);
     if (loop.stiffness && is_stable(loop.device) && candidates[0].fits) {
-      candidates[0].why += " once the file's user lets go, who keeps it stable";
+      candidates[0].why.evidence.push_back({"user_stabilises", 1.0});
     }
   } else {
     candidates.push_back(linear_candidate(loop, OscillationCause::device, loop.device));
@@ -136,13 +134,15 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
   const auto finite = [](double value) { return std::isfinite(value) && value >= 0.0; };
   if (options.amplitude && !(finite(*options.amplitude) && *options.amplitude > 0.0)) {
-    return OptionProblem{"amplitude", fmt::format("is {}", *options.amplitude), "must be > 0"};
+    return option_problem("amplitude",
+                          {.code = ProblemCode::not_positive, .evidence = {{"value", *options.amplitude}}});
   }
   if (options.stiffness && !finite(*options.stiffness)) {
-    return OptionProblem{"stiffness", fmt::format("is {}", *options.stiffness), "must be >= 0, 0 for a damper alone"};
+    return option_problem(
+        "stiffness", {.code = ProblemCode::negative, .evidence = {{"value", *options.stiffness}, {"or_damper", 1.0}}});
   }
   if (options.damping && !finite(*options.damping)) {
-    return OptionProblem{"damping", fmt::format("is {}", *options.damping), "must be >= 0"};
+    return option_problem("damping", {.code = ProblemCode::negative, .evidence = {{"value", *options.damping}}});
   }
   return std::nullopt;
 }
@@ -150,7 +150,8 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
 /// The oscillation of a recording that dominant_oscillation() reads; nothing where nothing oscillates: the strongest line
 /// holds hardly anything of what moves, as in noise and in a sweep, or is rounding.
 std::optional<DominantOscillation> recorded_oscillation(const Recording& recording) {
-  if (recording.channels.empty()) throw Error(ErrorCode::invalid_argument, "the recording has no channel");
+  if (recording.channels.empty())
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::recording_without_channel});
   const std::vector<double>& position = recording.channels.front().samples;
   const auto found = dominant_oscillation(position, recording.sampling_period);
   constexpr double least_share = 0.1;
@@ -187,14 +188,12 @@ void doubt_recorded(const DominantOscillation& found, Trust& trust) {
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device) {
   const double nyquist = pi / device.loop().sampling_period;
   if (!(options.frequency > 0.0 && options.frequency <= nyquist * (1.0 + 1e-9))) {
-    return OptionProblem{"frequency", fmt::format("is {:.6g} Hz", options.frequency / (2.0 * pi)),
-                         fmt::format("must be above 0, at most half the sampling rate, {:.6g} Hz: what is faster is "
-                                     "seen as an alias",
-                                     nyquist / (2.0 * pi))};
+    return option_problem("frequency", {.code = ProblemCode::oscillation_beyond_nyquist,
+                                        .evidence = {{"frequency_hz", options.frequency / (2.0 * pi)},
+                                                     {"most_hz", nyquist / (2.0 * pi)}}});
   }
   if (options.stiffness == 0.0 && options.damping.value_or(device.parameters().wall.damping) == 0.0) {
-    return OptionProblem{"stiffness", "is 0 and so is the damping",
-                         "one of them must be above 0: there is no wall else"};
+    return option_problem("stiffness", {.code = ProblemCode::neither_stiffness_nor_damping});
   }
   return find_problem(options);
 }

@@ -169,36 +169,36 @@ std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& 
   const Wall& wall = parameters.wall;
   const bool cascade = firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc;
   if (!wall.stiffness || !(*wall.stiffness > 0.0)) {
-    return OptionProblem{"wall.stiffness", "is missing or 0", "the wall that the drive is to make needs one"};
+    return option_problem("wall.stiffness", {.code = ProblemCode::no_stiffness_for_drive});
   }
   if (!wall.filters.empty()) {
-    return OptionProblem{"wall.filter", "is given", "the firmware has no such filter: leave it out"};
+    return option_problem("wall.filter", {.code = ProblemCode::filter_unknown_to_drive});
   }
   if (wall.velocity_filter_hz > 0.0 && firmware != DriveFirmware::simplefoc) {
-    return OptionProblem{"wall.velocity_filter_hz", "is given", "the firmware has no such filter: leave it out"};
+    return option_problem("wall.velocity_filter_hz", {.code = ProblemCode::filter_unknown_to_drive});
   }
   if (parameters.motion == Motion::linear && !drive.travel) {
-    return OptionProblem{"driver.travel", "is missing", "a linear device needs its travel per turn"};
+    return option_problem("driver.travel", {.code = ProblemCode::travel_missing});
   }
   if (cascade && !(wall.damping > 0.0)) {
-    return OptionProblem{"wall.damping", "is 0", "the firmware's stiffness is a gain of its damping: give one > 0"};
+    return option_problem("wall.damping", {.code = ProblemCode::damping_needed_by_drive});
   }
   if (firmware == DriveFirmware::simplefoc && !drive.torque_per_volt && !drive.torque_constant) {
-    return OptionProblem{"driver.torque_per_volt", "is missing",
-                         "the firmware counts in volts or amperes: give it, or driver.torque_constant"};
+    return option_problem("driver.torque_per_volt", {.code = ProblemCode::torque_per_volt_missing});
   }
   const bool in_shares = firmware == DriveFirmware::openffboard || firmware == DriveFirmware::vesc;
   if (in_shares && !parameters.actuator.force_limit) {
-    return OptionProblem{"actuator.force_limit", "is missing",
-                         "the firmware counts in shares of its largest torque: give the force that it makes"};
+    return option_problem("actuator.force_limit", {.code = ProblemCode::force_limit_missing});
   }
   if (firmware != DriveFirmware::openffboard) return std::nullopt;
   if (wall.damping > 0.0) {
-    return OptionProblem{"wall.damping", fmt::format("is {}", wall.damping), "an end stop has none: must be 0"};
+    return option_problem("wall.damping",
+                          {.code = ProblemCode::end_stop_without_damping, .evidence = {{"value", wall.damping}}});
   }
   const double gain = numbers_of(firmware, device).front().value;
   if (!(gain >= 1.0 && gain <= most_endstop)) {
-    return OptionProblem{"wall.stiffness", fmt::format("is an esgain of {:g}", gain), "must be 1 to 255"};
+    return option_problem("wall.stiffness", {.code = ProblemCode::end_stop_gain_out_of_range,
+                                             .evidence = {{"value", gain}, {"least", 1.0}, {"most", most_endstop}}});
   }
   return std::nullopt;
 }
@@ -206,22 +206,25 @@ std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& 
 std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, DriveFirmware firmware,
                                           const Device& device) {
   if (options.sampling_period && !(std::isfinite(*options.sampling_period) && *options.sampling_period > 0.0)) {
-    return OptionProblem{"sampling_period", fmt::format("is {}", *options.sampling_period), "must be a time > 0"};
+    return option_problem("sampling_period", {.code = ProblemCode::no_positive_quantity,
+                                              .evidence = {{"value", *options.sampling_period}},
+                                              .subjects = {{"what", "time"}}});
   }
   const double period = options.sampling_period.value_or(period_of(firmware, device));
   if (options.delay && !(*options.delay >= 0.0 && *options.delay <= max_delay_samples * period)) {
-    return OptionProblem{"delay", fmt::format("is {}", *options.delay),
-                         fmt::format("must be 0 to {} of the drive's periods", max_delay_samples)};
+    return option_problem("delay", {.code = ProblemCode::delay_out_of_range,
+                                    .evidence = {{"value", *options.delay}, {"most", max_delay_samples}}});
   }
   if (!has_loop(firmware)) {
     if (!options.estimator_bandwidth) return std::nullopt;
-    return OptionProblem{"estimator_bandwidth", "is given", "is for odrive and moteus: the others have no such loop"};
+    return option_problem("estimator_bandwidth", {.code = ProblemCode::no_estimator});
   }
   const double bandwidth = bandwidth_of(firmware, options);
   const double most = firmware == DriveFirmware::moteus ? 0.25 * turn / period : 0.5 / period;
   if (bandwidth > 0.0 && bandwidth < most) return std::nullopt;
-  return OptionProblem{"estimator_bandwidth", fmt::format("is {} rad/s", bandwidth),
-                       fmt::format("must be > 0 and below {:g} at the drive's rate", most)};
+  return option_problem("estimator_bandwidth", {.code = ProblemCode::estimator_bandwidth_out_of_range,
+                                                .evidence = {{"value", bandwidth}, {"most", most}},
+                                                .subjects = {{"unit", "rad/s"}}});
 }
 
 DriveGains drive_gains(const Device& device, DriveFirmware firmware, const DriveLoopOptions& options) {

@@ -1,7 +1,5 @@
 #include "design/margin_wall.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -154,13 +152,13 @@ std::optional<double> short_of_phase(std::complex<double> minus_one_over_plant, 
 std::optional<OptionProblem> find_problem(const RequiredMargins& margins) {
   constexpr double most_gain = 1e5;  // 100 dB
   if (!(margins.gain >= 1.0 && margins.gain <= most_gain)) {
-    return OptionProblem{"gain_margin",
-                         fmt::format("is {:.4g} dB, a factor of {:.4g}", 20.0 * std::log10(margins.gain), margins.gain),
-                         "must be from 0 to 100 dB, a factor of 1 to 1e5"};
+    return option_problem("gain_margin",
+                          {.code = ProblemCode::gain_margin_out_of_range,
+                           .evidence = {{"decibels", 20.0 * std::log10(margins.gain)}, {"factor", margins.gain}}});
   }
   if (!(margins.phase >= 0.0 && margins.phase <= 0.5 * std::numbers::pi)) {
-    return OptionProblem{"phase_margin", fmt::format("is {} degrees", degrees(margins.phase)),
-                         "must be from 0 to 90 degrees"};
+    return option_problem("phase_margin", {.code = ProblemCode::phase_margin_out_of_range,
+                                           .evidence = {{"degrees", degrees(margins.phase)}}});
   }
   return std::nullopt;
 }

@@ -1,7 +1,5 @@
 #include "zwidth/design/notch_design.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "counted.hpp"
 #include "design/margin_wall.hpp"
 #include "design/notch_search.hpp"
 #include "require_valid.hpp"
@@ -187,22 +186,21 @@ std::optional<OptionProblem> find_problem(const NotchOptions& options, const Dev
   if (auto problem = find_drift_problem(options.drift, device)) return problem;
   if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.goal == StiffnessGoal::any_user_limit && !can_be_held(device)) {
-    return OptionProblem{"goal", "is the limit with any user",
-                         fmt::format("needs a device of at most {} bodies", most_bodies_for_any_user)};
+    return option_problem("goal", {.code = ProblemCode::any_user_goal_needs_bodies,
+                                   .evidence = {counted("most", most_bodies_for_any_user)}});
   }
   if (seen_modes(device).empty()) {
-    return OptionProblem{"notch", "has nothing to be tuned to",
-                         "needs a device with a vibration mode of a damping ratio below 1"};
+    return option_problem("notch", {.code = ProblemCode::no_mode_to_tune_to});
   }
   return std::nullopt;
 }
 
 Device drifted(const Device& device, double drift) {
   if (!(drift > -1.0 && drift <= 10.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("the drift is {}; must be above -1, up to 10", drift));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::drift_not_possible, .evidence = {{"value", drift}}});
   }
   if (drift == 0.0) return device;
-  if (device.links().empty()) throw Error(ErrorCode::invalid_argument, "a drift of the modes needs a [[link]]");
+  if (device.links().empty()) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::drift_without_links});
   DeviceParameters parameters = device.parameters();
   parameters.uncertainty.reset();
   for (Link& link : parameters.links) {

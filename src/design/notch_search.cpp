@@ -1,13 +1,12 @@
 #include "design/notch_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "infinity.hpp"
 #include "staged_progress.hpp"
@@ -54,10 +53,12 @@ RequiredMargins required(const NotchOptions& options) {
 }
 
 std::optional<OptionProblem> find_drift_problem(double drift, const Device& device) {
-  const std::string asked = fmt::format("is {} %", 100.0 * drift);
-  if (!(drift >= 0.0 && drift <= 0.9)) return OptionProblem{"drift", asked, "must be from 0 to 90 %"};
+  const auto problem = [drift](ProblemCode code) {
+    return option_problem("drift", {.code = code, .evidence = {{"percent", 100.0 * drift}}});
+  };
+  if (!(drift >= 0.0 && drift <= 0.9)) return problem(ProblemCode::drift_out_of_range);
   if (drift == 0.0 || !device.links().empty()) return std::nullopt;
-  return OptionProblem{"drift", asked, "must be 0: there is no link whose modes drift"};
+  return problem(ProblemCode::no_modes_to_drift);
 }
 
 std::vector<double> seen_modes(const Device& device) {

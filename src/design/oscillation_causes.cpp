@@ -1,7 +1,5 @@
 #include "design/oscillation_causes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -69,7 +67,9 @@ double critical_pole_frequency(const Device& device) {
   return frequency;
 }
 
-std::string hertz_text(double frequency) { return quantity(hertz(frequency), "Hz"); }
+Evidence frequency_of(double frequency, std::string_view name = "frequency_hz") {
+  return {name, hertz(frequency), "Hz"};
+}
 
 /// The wall's C(z) = K + B v as a filter: what multiplies it scales the whole force.
 WallFilter controller(const Wall& wall, double period) {
@@ -108,13 +108,17 @@ std::vector<NumberLimit::Crossing> crossings_of_force(const ObservedLoop& loop) 
   return crossings;
 }
 
-std::string gain_text(const ObservedLoop& loop, double value) {
+Evidence gain_evidence(const ObservedLoop& loop, double value, std::string_view name = "gain") {
   const Units units = units_of(loop.device.parameters().motion);
-  return loop.number == WallNumber::stiffness ? quantity(value, units.stiffness)
-                                              : fmt::format("{} {}", number(value), units.damping);
+  return {name, value, loop.number == WallNumber::stiffness ? units.stiffness : units.damping};
 }
 
-std::string_view walls(const ObservedLoop& loop) { return loop.number == WallNumber::stiffness ? "walls" : "dampers"; }
+/// Some passive user makes walls, or dampers, from this one on oscillate.
+Finding by_some_user(const ObservedLoop& loop, double gain) {
+  return {.code = FindingCode::some_user_destabilises,
+          .evidence = {gain_evidence(loop, gain)},
+          .subjects = {{"what", loop.number == WallNumber::stiffness ? "wall" : "damper"}}};
+}
 
 void set_gain(const ObservedLoop& loop, double value, OscillationCandidate& candidate) {
   (loop.number == WallNumber::stiffness ? candidate.stiffness : candidate.damping) = value;
@@ -157,9 +161,8 @@ void look_for_nearest_user(const ObservedLoop& loop, const UserDiscs& discs, Osc
     if (distance_to_fit(other) < distance_to_fit(candidate)) candidate = std::move(other);
   }
   if (candidate.otherwise) {
-    candidate.why = fmt::format("some passive user can make {} from {} on oscillate at {}", walls(loop),
-                                gain_text(loop, candidate.stiffness ? *candidate.stiffness : *candidate.damping),
-                                hertz_text(candidate.frequency));
+    candidate.why = by_some_user(loop, candidate.stiffness ? *candidate.stiffness : *candidate.damping);
+    candidate.why.evidence.push_back(frequency_of(candidate.frequency));
   }
 }
 
@@ -242,16 +245,16 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
   if (nearest != nullptr) set_crossing(loop, *nearest, candidate);
   if (!loop.stiffness) {
     if (nearest == nullptr) {
-      candidate.why = "no stiffness puts a pole on the unit circle";
+      candidate.why = {.code = FindingCode::no_crossover};
       return candidate;
     }
     candidate.fits = apart(nearest->frequency, loop.frequency) <= near;
     if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / nearest->frequency};
-    candidate.why = fmt::format("a phase crossover at {}: unstable from {} on", hertz_text(nearest->frequency),
-                                gain_text(loop, nearest->value));
+    candidate.why = {.code = FindingCode::crossover_at_frequency,
+                     .evidence = {frequency_of(nearest->frequency), gain_evidence(loop, nearest->value)}};
     if (critical.at && critical.value < nearest->value) {
-      candidate.why += fmt::format(", but walls from {} on already oscillate at {}", gain_text(loop, critical.value),
-                                   hertz_text(critical.at->frequency));
+      candidate.why.evidence.push_back(gain_evidence(loop, critical.value, "softest"));
+      candidate.why.evidence.push_back(frequency_of(critical.at->frequency, "softest_hz"));
     }
     return candidate;
   }
@@ -262,7 +265,7 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
     if (unstable == 0.0 || apart(frequency, loop.frequency) < apart(unstable, loop.frequency)) unstable = frequency;
   }
   if (unstable == 0.0) {
-    candidate.why = "the loop is stable with this wall";
+    candidate.why = {.code = FindingCode::loop_stable};
     for (const NumberLimit::Crossing& each : critical.crossings) {
       if (each.frequency > 0.0 && each.value > 0.0) take_if_nearer(loop, each, candidate);
     }
@@ -276,9 +279,9 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
     candidate.frequency = unstable;
   }
   candidate.fits = true;  // whatever else is in the loop: it does not stay at rest
-  candidate.why = fmt::format("the loop is unstable with this wall: it grows at {}", hertz_text(unstable));
+  candidate.why = {.code = FindingCode::loop_unstable, .evidence = {frequency_of(unstable)}};
   if (!between && apart(candidate.frequency, loop.frequency) > near) {
-    candidate.why += ", and where a force limit, a wall that only pushes or a hand lets it settle may be elsewhere";
+    candidate.why.evidence.push_back({"settles_elsewhere", 1.0});
   }
   return candidate;
 }
@@ -297,19 +300,17 @@ OscillationCandidate user_candidate(const ObservedLoop& loop) {
     if (share == 0.0 && gain && least <= *gain) break;
   }
   if (!std::isfinite(least)) {
-    candidate.why = loop.number == WallNumber::stiffness
-                        ? "no passive user can make a wall of any stiffness oscillate there"
-                        : "no passive user can make any damper oscillate there";
+    candidate.why = {.code = loop.number == WallNumber::stiffness ? FindingCode::no_user_destabilises_wall
+                                                                  : FindingCode::no_user_destabilises_damper};
     look_for_nearest_user(loop, discs, candidate);
     return candidate;
   }
   set_gain(loop, least, candidate);
   candidate.fits = !gain || *gain >= of_user_limit * least;
-  candidate.why =
-      fmt::format("some passive user can make {} from {} on oscillate there", walls(loop), gain_text(loop, least));
+  candidate.why = by_some_user(loop, least);
   if (candidate.fits && gain && !is_stable(without_operator(loop.device))) {
     candidate.fits = false;
-    candidate.why += "; this one oscillates with nobody holding";
+    candidate.why.evidence.push_back({"with_nobody", 1.0});
   } else if (!candidate.fits) {
     look_for_nearest_user(loop, discs, candidate);
   }
@@ -324,7 +325,7 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
   OscillationCandidate candidate;
   candidate.cause = OscillationCause::quantisation;
   if (!is_stable(loop.device)) {
-    candidate.why = "the loop is unstable without the encoder's steps";
+    candidate.why = {.code = FindingCode::unstable_without_steps};
     return candidate;
   }
   const double period = loop.device.loop().sampling_period;
@@ -337,7 +338,7 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
     }
   }
   if (nearest == nullptr) {
-    candidate.why = "the loop has no phase crossover above its gain for the steps to swing at";
+    candidate.why = {.code = FindingCode::no_crossover_for_steps};
     return candidate;
   }
   candidate.frequency = nearest->frequency;
@@ -349,26 +350,25 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
       0.5 * step * std::abs(*loop.stiffness + damper_response(virtual_damper(loop.device), period, nearest->frequency));
   const Units units = units_of(parameters.motion);
   if (friction >= relay) {
-    candidate.why = fmt::format("friction of {} holds against half a step's force of {}",
-                                quantity(friction, units.force), quantity(relay, units.force));
+    candidate.why = {.code = FindingCode::friction_holds_against_steps,
+                     .evidence = {{"friction", friction, units.force}, {"force", relay, units.force}}};
     return candidate;
   }
   const double largest = std::max(counts_of_quantisation * step, largest_swing_of_steps(loop, step));
   if (loop.amplitude && *loop.amplitude > largest) {
-    candidate.why = fmt::format("it swings by {}, more than steps of {} keep up at this frequency, {}",
-                                quantity(*loop.amplitude, units.length), quantity(step, units.length),
-                                quantity(largest, units.length));
+    candidate.why = {.code = FindingCode::swing_beyond_steps,
+                     .evidence = {{"amplitude", *loop.amplitude, units.length},
+                                  {"resolution", step, units.length},
+                                  {"threshold", largest, units.length}}};
     candidate.otherwise = {.amplitude = *loop.amplitude / largest};
     return candidate;
   }
   // Steps far from a sine swing far from the crossover, but not by more than a step or two.
   candidate.fits = loop.amplitude || apart(nearest->frequency, loop.frequency) <= near_harmonic;
   if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / nearest->frequency};
-  candidate.why = fmt::format("at rest between two steps the encoder is a relay: a cycle at the phase crossover {}",
-                              hertz_text(nearest->frequency));
+  candidate.why = {.code = FindingCode::cycle_of_steps, .evidence = {frequency_of(nearest->frequency)}};
   if (loop.amplitude && *loop.amplitude > counts_of_quantisation * step) {
-    candidate.why = fmt::format("the loop resonates: an error within half a step keeps up swings of up to {} there",
-                                quantity(largest, units.length));
+    candidate.why = {.code = FindingCode::resonance_of_steps, .evidence = {{"amplitude", largest, units.length}}};
   }
   return candidate;
 }
@@ -403,24 +403,23 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
     sliding = -1.0;
   }
   if (!best) {
-    candidate.why = "friction that holds a body still makes no stable loop unstable";
+    candidate.why = {.code = FindingCode::friction_destabilises_nothing};
     return candidate;
   }
   candidate.amplitude = friction_amplitude(with_friction_as_damping(loop.device, *best), *best, candidate.frequency);
   const double share = loop.amplitude.value_or(*candidate.amplitude) / *candidate.amplitude;
   if (share > most_of_amplitude || share < least_of_amplitude) {
     const std::string_view unit = units_of(loop.device.parameters().motion).length;
-    candidate.why = fmt::format("its cycle at {} would swing by {}, not by {}", hertz_text(candidate.frequency),
-                                quantity(*candidate.amplitude, unit), quantity(*loop.amplitude, unit));
+    candidate.why = {.code = FindingCode::friction_cycle_of_other_swing,
+                     .evidence = {frequency_of(candidate.frequency),
+                                  {"amplitude", *candidate.amplitude, unit},
+                                  {"observed", *loop.amplitude, unit}}};
     candidate.otherwise = {.frequency = frequency_needed(loop, candidate.frequency, near_harmonic), .amplitude = share};
     return candidate;
   }
   candidate.fits = apart(candidate.frequency, loop.frequency) <= near_harmonic;
   if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / candidate.frequency};
-  candidate.why = fmt::format(
-      "the loop is stable with its bodies sliding by this little and unstable where friction holds them: a cycle at "
-      "about {}",
-      hertz_text(candidate.frequency));
+  candidate.why = {.code = FindingCode::friction_cycle, .evidence = {frequency_of(candidate.frequency)}};
   return candidate;
 }
 

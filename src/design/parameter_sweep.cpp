@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "counted.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/error.hpp"
@@ -30,25 +32,28 @@ std::optional<DeviceProblem> find_axis_problem(const DeviceParameters& parameter
   const std::string key = full_parameter_key(parameters, axis.key);
   const std::vector<std::string> keys = parameter_keys(parameters);
   if (std::ranges::find(keys, key) == keys.end()) {
-    return DeviceProblem{axis.key, "is no number of the device",
-                         fmt::format("the numbers of this device are {}", fmt::join(keys, ", "))};
+    return device_problem(axis.key, {.code = ProblemCode::no_number_of_device,
+                                     .subjects = {{"numbers", fmt::format("{}", fmt::join(keys, ", "))}}});
   }
   if (is_for_simulation(key)) {
-    return DeviceProblem{key, "does not change the critical stiffness", "sweep a number that does"};
+    return device_problem(key, {.code = ProblemCode::not_of_the_limit});
   }
   if (!std::isfinite(axis.first) || !std::isfinite(axis.last)) {
-    return DeviceProblem{key, fmt::format("runs from {} to {}", axis.first, axis.last), "both ends must be finite"};
+    return device_problem(
+        key, {.code = ProblemCode::range_not_finite, .evidence = {{"first", axis.first}, {"last", axis.last}}});
   }
   if (axis.first == axis.last) {
-    return DeviceProblem{key, fmt::format("runs from {} to {}", axis.first, axis.last), "the ends must differ"};
+    return device_problem(
+        key, {.code = ProblemCode::range_without_width, .evidence = {{"first", axis.first}, {"last", axis.last}}});
   }
   if (axis.spacing == SweepAxis::Spacing::logarithmic && !(axis.first > 0.0 && axis.last > 0.0)) {
-    return DeviceProblem{key, fmt::format("runs from {} to {} by equal factors", axis.first, axis.last),
-                         "both ends must be > 0"};
+    return device_problem(
+        key, {.code = ProblemCode::range_without_factor, .evidence = {{"first", axis.first}, {"last", axis.last}}});
   }
   if (axis.count < 2 || axis.count > most_sweep_points) {
-    return DeviceProblem{key, fmt::format("takes {} values", axis.count),
-                         fmt::format("must be 2 to {}", most_sweep_points)};
+    return device_problem(
+        key, {.code = ProblemCode::values_out_of_range,
+              .evidence = {counted("count", axis.count), counted("least", 2), counted("most", most_sweep_points)}});
   }
   return std::nullopt;
 }
@@ -163,7 +168,8 @@ std::vector<double> values_of(const SweepAxis& axis) {
 
 std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std::vector<SweepAxis>& axes) {
   if (axes.empty() || axes.size() > 2) {
-    return DeviceProblem{"sweep", fmt::format("has {} parameters", axes.size()), "must be one or two"};
+    return device_problem(
+        "sweep", {.code = ProblemCode::too_many_numbers_swept, .evidence = {counted("parameters", axes.size())}});
   }
   for (const SweepAxis& axis : axes) {
     if (auto problem = find_axis_problem(device.parameters(), axis)) return problem;
@@ -171,11 +177,12 @@ std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std:
   if (axes.size() == 2) {
     const std::string first = full_parameter_key(device.parameters(), axes[0].key);
     if (first == full_parameter_key(device.parameters(), axes[1].key)) {
-      return DeviceProblem{first, "is swept twice", "the two parameters must differ"};
+      return device_problem(first, {.code = ProblemCode::swept_twice});
     }
     if (axes[0].count > most_sweep_points / axes[1].count) {
-      return DeviceProblem{"sweep", fmt::format("has {} times {} points", axes[0].count, axes[1].count),
-                           fmt::format("must be at most {} in all", most_sweep_points)};
+      return device_problem("sweep", {.code = ProblemCode::too_many_points,
+                                      .evidence = {counted("count", axes[0].count), counted("other", axes[1].count),
+                                                   counted("most", most_sweep_points)}});
     }
   }
   const Points points(device, axes);
@@ -187,7 +194,7 @@ std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std:
 
 std::optional<OptionProblem> find_problem(const SweepOptions& options, const Device& device) {
   if (!options.any_user || device.has_bodies()) return std::nullopt;
-  return OptionProblem{"any_user", "is asked of a transfer function", "it has no body for a user to hold"};
+  return option_problem("any_user", {.code = ProblemCode::asked_of_transfer_function});
 }
 
 ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis>& axes, SweepOptions options,

@@ -1,7 +1,5 @@
 #include "zwidth/design/region.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -11,7 +9,6 @@
 
 #include "design/region_check.hpp"
 #include "design/region_structure.hpp"
-#include "percent.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -99,8 +96,10 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
     result.trust.doubt(std::move(with));
   }
   for (Remark& remark : said.remarks) {
-    remark.what = fmt::format("with {}: {}", words_of(Holder::nobody), remark.what);
-    result.remarks.push_back(std::move(remark));
+    Finding alone_too = *std::move(remark.finding);
+    alone_too.subjects.push_back({"of_holder", std::string(words_of(Holder::nobody))});
+    result.remarks.push_back(remark.severity == Remark::Severity::note ? note(std::move(alone_too))
+                                                                       : warning(std::move(alone_too)));
   }
   const ModalForm form = modal_form(alone);
   result.shared = shared_walls(*found.walls, found.region, *result.walls, result.region);
@@ -113,7 +112,7 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
 std::optional<OptionProblem> find_problem(const RegionOptions& options) {
   const double deviation = options.outline.deviation;
   if (!(deviation > 0.0 && deviation < 1.0)) {
-    return OptionProblem{"outline.deviation", fmt::format("is {}", deviation), "must be above 0 and below 1"};
+    return option_problem("outline.deviation", {.code = ProblemCode::no_fraction, .evidence = {{"value", deviation}}});
   }
   return std::nullopt;
 }
@@ -169,7 +168,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
 }
 
 WallRaster wall_raster(const WallRegion& region, std::size_t count) {
-  if (count == 0) throw Error(ErrorCode::invalid_argument, "a raster of 0 walls; at least one");
+  if (count == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::raster_without_walls});
   if (region.status != WallRegion::Status::bounded) return {};
   const auto middles = [count](double largest) {
     constexpr double beyond = 1.1;

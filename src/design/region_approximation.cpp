@@ -1,7 +1,5 @@
 #include "zwidth/design/region_approximation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -102,7 +100,7 @@ FormulaFacts facts_of(RegionApproximation::Formula formula) {
 std::vector<RegionApproximation> region_approximations(const Device& device, double velocity_filter_hz) {
   if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
     throw Error(ErrorCode::invalid_argument,
-                "the velocity filter has " + fmt::format("{}", velocity_filter_hz) + " Hz; must be finite and >= 0");
+                {.code = ProblemCode::velocity_filter_below_zero, .evidence = {{"value", velocity_filter_hz}}});
   }
   if (!device.has_bodies()) return {};
   double damping = 0.0;

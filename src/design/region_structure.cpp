@@ -99,8 +99,7 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz,
   find_slabs(found, stages.stage());
   // Nothing stable, where pieces of boundary lie on one another to rounding, is no answer.
   if (slabs.empty() && !told_apart_) {
-    throw Error(ErrorCode::did_not_converge,
-                "pieces of the boundary of the stable walls lie on one another to rounding: a mode is not damped");
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::boundary_pieces_coincide});
   }
   stages.done();
 }
@@ -224,7 +223,7 @@ std::vector<RegionCell> RegionStructure::cells_by_isolation(double damping) cons
     const auto nearest = std::min_element(branches.begin(), branches.end(),
                                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     if (nearest == branches.end() || distance(*nearest) > same_angle * angle) {
-      throw Error(ErrorCode::did_not_converge, "a crossover is not on the stability boundary that was followed");
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
     }
     return {BoundaryKind::oscillation, static_cast<std::size_t>(nearest - branches.begin())};
   };
@@ -339,8 +338,7 @@ void RegionStructure::add_slabs(double bottom, double top, const Progress& progr
       continue;
     }
     if (divisions_left_-- == 0) {
-      throw Error(ErrorCode::did_not_converge,
-                  "the stable stiffnesses change too often as the virtual damper varies for their region to be told");
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::region_changes_too_often});
     }
     const double division = lower == 0.0          ? upper / first_division
                             : upper > 4.0 * lower ? std::sqrt(lower * upper)

@@ -1,7 +1,5 @@
 #include "zwidth/design/safe_wall.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -270,10 +268,11 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
 
 std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
   if (!(options.safety_factor > 0.0 && options.safety_factor < 1.0)) {
-    return OptionProblem{"safety_factor", fmt::format("is {}", options.safety_factor), "must be above 0 and below 1"};
+    return option_problem("safety_factor",
+                          {.code = ProblemCode::no_fraction, .evidence = {{"value", options.safety_factor}}});
   }
   for (const auto& [member, draws] : {std::pair{"draws", options.draws}, {"any_user_draws", options.any_user_draws}}) {
-    if (draws == 0) return OptionProblem{member, "is 0", "must be at least 1"};
+    if (draws == 0) return option_problem(member, {.code = ProblemCode::none_asked});
   }
   return std::nullopt;
 }

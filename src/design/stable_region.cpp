@@ -1,7 +1,5 @@
 #include "zwidth/design/stable_region.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -46,7 +44,7 @@ std::vector<StableComponent> components_of(std::vector<TracedBoundary> boundarie
     if (std::abs(area) <= sliver * largest) continue;
     StableComponent& component = by_number[traced.component];
     if (area < 0.0 || !component.outline.arcs.empty()) {
-      throw Error(ErrorCode::did_not_converge, "the outline of the stable walls does not close");
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::outline_not_closed});
     }
     component.area = area;
     component.outline = std::move(traced.boundary);
@@ -103,7 +101,7 @@ void find_extremes(StableRegion& region, const BoundaryCurve& curve, double devi
 StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
   if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("the outline's deviation is {}; must be above 0 and below 1", options.deviation));
+                {.code = ProblemCode::outline_deviation_no_fraction, .evidence = {{"value", options.deviation}}});
   }
   const RegionStructure& structure = walls.structure();
   StableRegion region;

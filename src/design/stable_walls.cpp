@@ -1,7 +1,5 @@
 #include "zwidth/design/stable_walls.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,7 +14,7 @@ namespace {
 FilteredPlant checked(FilteredPlant plant, double velocity_filter_hz) {
   if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("the velocity filter has {} Hz; must be finite and >= 0", velocity_filter_hz));
+                {.code = ProblemCode::velocity_filter_below_zero, .evidence = {{"value", velocity_filter_hz}}});
   }
   return plant;
 }
@@ -31,7 +29,8 @@ double StableWalls::velocity_filter_hz() const { return structure_->curve.veloci
 
 std::vector<StableInterval> StableWalls::stable_stiffnesses(double damping) const {
   if (!(damping >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("the virtual damper has {}; must be >= 0", damping));
+    throw Error(ErrorCode::invalid_argument,
+                {.code = ProblemCode::virtual_damper_below_zero, .evidence = {{"value", damping}}});
   }
   const auto& slabs = structure_->slabs;
   const auto slab = std::partition_point(slabs.begin(), slabs.end(),
@@ -50,7 +49,7 @@ std::vector<std::uint8_t> stable_on_grid(const StableWalls& walls, std::span<con
                                          std::span<const double> dampings) {
   if (!std::is_sorted(stiffnesses.begin(), stiffnesses.end()) ||
       std::any_of(stiffnesses.begin(), stiffnesses.end(), [](double value) { return std::isnan(value); })) {
-    throw Error(ErrorCode::invalid_argument, "the stiffnesses of the grid do not rise");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::grid_not_rising});
   }
   std::vector<std::uint8_t> stable(stiffnesses.size() * dampings.size(), 0);
   auto row = stable.begin();

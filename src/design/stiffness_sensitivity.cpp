@@ -36,7 +36,7 @@ std::vector<Sensitivity> at_crossover(const Device& device, const SampledPlant& 
     const FilteredPlant seen = filtered_plant(unfiltered, wall.filters);
     const GainLocus locus(seen, GainLocus::Gain::stiffness, 0.0, {wall.damping, wall.velocity_filter_hz});
     if (!(locus.by_terms(angle).gain_noise() <= same)) return {};
-    throw Error(ErrorCode::invalid_argument, "the critical stiffness handed in is not that of the device");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::other_devices_limit});
   }
   const Complex by_angle = -open * (filters.log_by_angle + plant.by_angle / plant.value) - damper.by_angle;
   const double along = is_real ? 0.0 : by_angle.real() / by_angle.imag();

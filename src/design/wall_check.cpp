@@ -147,15 +147,14 @@ Device without_wall(const Device& device) {
   return Device(std::move(parameters));
 }
 
-std::string why_negligible(const Device& walled) {
+std::optional<Finding> why_negligible(const Device& walled) {
   constexpr double negligible = 1e-6;
   const DeviceParameters& parameters = walled.parameters();
   const double alone = critical_stiffness(walled).stiffness;
   if (!std::isfinite(alone) || *parameters.wall.stiffness >= negligible * alone) return {};
-  return fmt::format(
-      "with some passive user no wall stiffer than {} keeps the margins asked: hardly anything damps a motion that "
-      "the user can drive (the device's own damping, not the wall's, is what bears a user)",
-      quantity(*parameters.wall.stiffness, units_of(parameters.motion).stiffness));
+  return Finding{.code = FindingCode::hardly_any_wall_keeps_margins,
+                 .evidence = {{"stiffness", *parameters.wall.stiffness, units_of(parameters.motion).stiffness},
+                              {"threshold", negligible * alone, units_of(parameters.motion).stiffness}}};
 }
 
 }  // namespace zwidth::internal

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "zwidth/design/wall_recommendation.hpp"
+#include "zwidth/finding.hpp"
 
 namespace zwidth::internal {
 
@@ -17,6 +18,6 @@ void check_wall(const Device& walled, const RecommendationOptions& options, bool
 
 /// Why a wall that some passive user bounds is none worth rendering: below a millionth of what the device renders alone.
 /// Empty where it is one.
-[[nodiscard]] std::string why_negligible(const Device& walled);
+[[nodiscard]] std::optional<Finding> why_negligible(const Device& walled);
 
 }  // namespace zwidth::internal

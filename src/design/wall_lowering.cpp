@@ -38,18 +38,17 @@ WallLowering::Kept WallLowering::lowered(double stiffness, VirtualDamper damper,
     if (uncertain && lower(draws(notch), WallBound::uncertainty)) changed = drifting;
     if (!(kept.stiffness > 0.0)) {
       kept.why_none =
-          "the uncertainty of the device leaves no wall: in more than 2.5 % of the devices drawn from it none keeps "
-          "what is asked; identify the device from more or longer recordings";
+          Finding{.code = FindingCode::uncertainty_leaves_no_margins, .evidence = {{"threshold", tail_of_draws}}};
       return kept;
     }
     if (drifting && lower(drifts(notch), WallBound::drift)) changed = uncertain;
     if (changed || !(kept.stiffness > 0.0)) {
       if (kept.stiffness > 0.0 && round + 1 < rounds_of_lowering) continue;
-      return {0.0, {}, {}, "the drift of the modes leaves no wall: at some drift none keeps what is asked"};
+      return {0.0, {}, {}, Finding{.code = FindingCode::drift_leaves_no_wall}};
     }
   }
   if (drifting && notch && !drifts(notch).has_no_lower_limit_than(drifts({}), kept.damper)) {
-    return {0.0, {}, {}, "the notch lowers the limit with any user at some drift of the modes"};
+    return {0.0, {}, {}, Finding{.code = FindingCode::notch_lowers_any_user_limit}};
   }
   return kept;
 }

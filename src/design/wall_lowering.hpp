@@ -3,9 +3,9 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "design/lower_end.hpp"
+#include "zwidth/finding.hpp"
 
 namespace zwidth::internal {
 
@@ -20,7 +20,7 @@ class WallLowering {
     double stiffness = 0.0;  // 0: none
     VirtualDamper damper;
     std::optional<WallBound> by;  // what has lowered it
-    std::string why_none;
+    std::optional<Finding> why_none;
   };
   // No stiffer and no more damped than this one, with `notch` behind its filters. None where the notch lowers the limit
   // with any user at a drift.

@@ -1,7 +1,5 @@
 #include "zwidth/design/wall_recommendation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,7 +58,7 @@ class Recommendation {
     std::optional<Candidate> best = best_without_notch();
     if (best && !std::isfinite(best->stiffest.stiffness)) {
       result.status = WallRecommendation::Status::unbounded;
-      result.reason = "no stiffness is too much for this device: its force does not move what is sensed";
+      result.reason = Finding{.code = FindingCode::no_stiffness_too_much};
       return result;
     }
     const std::optional<Candidate> plain = best;
@@ -72,10 +70,10 @@ class Recommendation {
     if (best && limits_.has_users()) {
       result.reason =
           why_negligible(with_wall(limits_of(best->notch).device(), best->stiffest.stiffness, best->damper));
-      if (!result.reason.empty()) best.reset();
+      if (result.reason) best.reset();
     }
     if (!best) {
-      result.reason = result.reason.empty() ? why_none() : result.reason;
+      if (!result.reason) result.reason = why_none();
       return result;
     }
     Trust trust;
@@ -186,7 +184,7 @@ class Recommendation {
     candidate.value = WallSearch::value_of(options_.goal, kept.stiffness, kept.damper.damping);
     // Softer at the same margins or less damped: the device as it is must still keep them.
     if (!limits_of(candidate.notch).keeps(kept.stiffness, kept.damper)) {
-      result.reason = "at the lower end of the uncertainty no wall keeps the margins asked";
+      result.reason = Finding{.code = FindingCode::lower_end_leaves_no_margins};
       return std::nullopt;
     }
     return candidate;
@@ -200,7 +198,7 @@ class Recommendation {
     WallRecommendation without;
     std::optional<Candidate> unnotched = lowered(plain, without);
     if (!unnotched || (notched && notched->value > unnotched->value * (1.0 + worth_a_notch))) return notched;
-    result.reason.clear();
+    result.reason.reset();
     return unnotched;
   }
 
@@ -303,17 +301,14 @@ class Recommendation {
     return {damper, limits_of(best.notch).stiffest(damper, goal), 0.0, best.notch};
   }
 
-  [[nodiscard]] std::string why_none() {
-    if (limits_.has_users() && limits_.limit({}) == 0.0) {
-      return "some passive user destabilises any wall, however soft: nothing damps a motion that the user can drive "
-             "(the device's own damping, not the wall's, is what bears a user)";
-    }
+  [[nodiscard]] Finding why_none() {
+    using enum FindingCode;
+    if (limits_.has_users() && limits_.limit({}) == 0.0) return {.code = every_wall_destabilised};
     if (!limits_.has_users() && critical_stiffness(filtered_plant(device_)).status == StiffnessStatus::none_stable) {
-      return "no wall is stable from K = 0 on, with any damper tried";
+      return {.code = no_wall_stable_with_any_damper};
     }
-    if (options_.goal == WallGoal::critical_damping)
-      return "no wall keeps the margins asked without a swinging contact";
-    return "no wall keeps the margins asked, with any damper and velocity filter tried; ask for less phase margin";
+    if (options_.goal == WallGoal::critical_damping) return {.code = no_wall_with_damped_contact};
+    return {.code = no_wall_keeps_margins_with_any_filter};
   }
 
   void remark_on_bounds(WallRecommendation& result) const {
@@ -361,12 +356,14 @@ WallRecommendation refused(Trust trust) {
 std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device) {
   if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.ripple && !(*options.ripple > 0.0 && std::isfinite(*options.ripple))) {
-    return OptionProblem{"ripple", fmt::format("is {}", *options.ripple), "must be a force > 0"};
+    return option_problem("ripple", {.code = ProblemCode::no_positive_quantity,
+                                     .evidence = {{"value", *options.ripple}},
+                                     .subjects = {{"what", "force"}}});
   }
   if (auto problem = find_drift_problem(options.drift, device)) return problem;
-  if (options.draws == 0) return OptionProblem{"draws", "is 0", "must be at least 1"};
+  if (options.draws == 0) return option_problem("draws", {.code = ProblemCode::none_asked});
   if (options.goal == WallGoal::critical_damping && !device.has_bodies()) {
-    return OptionProblem{"goal", "is critical damping", "needs a device of bodies: a transfer function has no mass"};
+    return option_problem("goal", {.code = ProblemCode::critical_damping_without_mass});
   }
   return std::nullopt;
 }

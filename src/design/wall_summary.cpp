@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "infinity.hpp"
 #include "stability/any_user_search.hpp"
 #include "staged_progress.hpp"
@@ -99,11 +100,11 @@ std::optional<double> largest_damper(const Device& device, const Analysis& analy
 void add_damper(const Device& device, const Analysis& analysis, const Progress& progress, WallSummary& summary) {
   const std::optional<double> largest = largest_damper(device, analysis, progress);
   if (!largest) {
-    summary.why_no_damper = "the largest damper alone is not known";
+    summary.why_no_damper = Finding{.code = FindingCode::largest_damper_unknown};
     return;
   }
   if (std::isinf(*largest)) {
-    summary.why_no_damper = "no damper is too large";
+    summary.why_no_damper = Finding{.code = FindingCode::no_damper_too_large};
     return;
   }
   LimitOverDamping limits(device, progress);
@@ -115,7 +116,7 @@ void add_margins(const Device& device, const Progress& progress, WallSummary& su
   if (recommendation.wall) {
     summary.with_margins = std::move(recommendation.wall);
   } else if (recommendation.trust.refused()) {
-    summary.why_no_margins = recommendation.trust.reasons.front();
+    summary.why_no_margins = recommendation.trust.findings.front();
   } else {
     summary.why_no_margins = recommendation.reason;
   }
@@ -126,11 +127,13 @@ void add_margins(const Device& device, const Progress& progress, WallSummary& su
 WallSummary wall_summary(const Device& device, const Analysis& analysis, const WallSummaryOptions& options) {
   WallSummary summary;
   if (analysis.trust.refused()) {
-    summary.why_no_damper = summary.why_no_margins = "the device is refused";
+    summary.why_no_damper = summary.why_no_margins = Finding{.code = FindingCode::device_refused};
     return summary;
   }
   if (device.bodies().size() > options.most_bodies) {
-    summary.why_no_damper = summary.why_no_margins = fmt::format("takes long for {} bodies", device.bodies().size());
+    summary.why_no_damper = summary.why_no_margins =
+        Finding{.code = FindingCode::too_many_bodies_for_wall_summary,
+                .evidence = {counted("bodies", device.bodies().size()), counted("threshold", options.most_bodies)}};
     return summary;
   }
   StagedProgress stages(options.progress);

@@ -1,7 +1,5 @@
 #include "zwidth/design/wall_to_run.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
@@ -21,22 +19,26 @@ Device with_stiffness(const Device& device, double stiffness) {
 
 std::optional<OptionProblem> find_problem(const WallToRunOptions& options, const Device& device) {
   if (options.stiffness && options.safety_factor) {
-    return OptionProblem{"safety_factor", "is given beside a stiffness", "each sets the stiffness: give one of them"};
+    return option_problem("safety_factor", {.code = ProblemCode::stiffness_given_twice});
   }
   if (options.stiffness && !(std::isfinite(*options.stiffness) && *options.stiffness > 0.0)) {
-    return OptionProblem{"stiffness", fmt::format("is {}", *options.stiffness),
-                         fmt::format("a number of {} > 0", units_of(device.parameters().motion).stiffness)};
+    return option_problem("stiffness",
+                          {.code = ProblemCode::not_above_zero,
+                           .evidence = {{"value", *options.stiffness}},
+                           .subjects = {{"in", std::string(units_of(device.parameters().motion).stiffness)}}});
   }
   if (options.stiffness) {
     DeviceParameters parameters = device.parameters();
     parameters.wall.stiffness = options.stiffness;
     if (const auto problem = find_problem(parameters)) {
-      return OptionProblem{"stiffness", problem->key + " " + problem->what, problem->allowed};
+      return option_problem(
+          "stiffness", {.code = ProblemCode::of_the_device,
+                        .subjects = {{"key", problem->key}, {"what", problem->what}, {"allowed", problem->allowed}}});
     }
   }
   if (options.safety_factor) return find_problem(SafeWallOptions{.safety_factor = *options.safety_factor});
   if (!options.stiffness && !device.parameters().wall.stiffness) {
-    return OptionProblem{"", "wall.stiffness: is missing: there is no wall to write", "set it"};
+    return option_problem("", {.code = ProblemCode::no_wall_to_write});
   }
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "counted.hpp"
 #include "model/implausible_numbers.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -44,6 +45,7 @@ bool has_two_values(const std::vector<double>& samples) {
 Finding counts_finding(const Channel& channel, std::size_t place) {
   const bool is_whole = channel.samples.front() == std::round(channel.samples.front());
   return {.code = FindingCode::channel_in_counts,
+          .evidence = {counted("channel_index", place)},
           .subjects = {{"channel", channel.name},
                        {"role", place == 0 ? "force" : "motion"},
                        {"counts", is_whole ? "whole" : "half"}}};

@@ -28,7 +28,7 @@ NumberCell ExportLines::number(std::string_view cell) {
   return read_number(cell, decimal_mark_.value_or('.'));
 }
 
-InputError ExportLines::refused(const ExportLine& line, std::string what, std::string allowed) const {
+InputError ExportLines::refused(const ExportLine& line, std::string what, OptionText allowed) const {
   return {source(), line.line.number, 1, "", std::move(what), std::move(allowed)};
 }
 

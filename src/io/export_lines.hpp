@@ -45,7 +45,7 @@ class ExportLines {
   void set_decimal_mark(char mark) { decimal_mark_ = mark; }
 
   [[nodiscard]] const std::string& source() const { return lines_.file().source(); }
-  [[nodiscard]] InputError refused(const ExportLine& line, std::string what, std::string allowed) const;
+  [[nodiscard]] InputError refused(const ExportLine& line, std::string what, OptionText allowed) const;
   /// The refusal of a cell in which a number must stand.
   [[nodiscard]] InputError no_number(const ExportLine& line, std::size_t cell, const std::string& column) const;
 

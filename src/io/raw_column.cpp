@@ -33,7 +33,7 @@ void fill_run(std::vector<double>& values, std::size_t first, std::size_t next) 
 
 }  // namespace
 
-InputError refused_sample(const RawColumn& column, std::size_t sample, std::string what, std::string allowed) {
+InputError refused_sample(const RawColumn& column, std::size_t sample, std::string what, OptionText allowed) {
   const bool has_lines = static_cast<bool>(column.line);
   if (!has_lines) what = fmt::format("sample {}: {}", sample + 1, what);
   return {column.source,

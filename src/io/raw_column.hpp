@@ -21,7 +21,7 @@ struct RawColumn {
 
 /// The refusal of a column at a sample (from 0): with the sample's line where the file has lines.
 [[nodiscard]] InputError refused_sample(const RawColumn& column, std::size_t sample, std::string what,
-                                        std::string allowed);
+                                        OptionText allowed);
 
 /// "line 57", or "sample 56" (from 1) where the file has no lines.
 [[nodiscard]] std::string place_of(const RawColumn& column, std::size_t sample);

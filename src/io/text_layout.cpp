@@ -282,9 +282,9 @@ std::optional<InputError> text_above_the_rows(const Reading& reading, const std:
                       1,
                       reading.names() ? shortened(header_names(reading)[c]) : std::to_string(c + 1),
                       why_no_number(line.cells[c], reading.notation().decimal_mark),
-                      fmt::format("must be a number; where the line is part of a header, pass over all of it "
-                                  "(`skip_rows` {})",
-                                  reading.lines()[reading.first_clean_row()].number - 1)};
+                      OptionText("must be a number; where the line is part of a header, pass over all of it "
+                                 "(`skip_rows` ") +
+                          fmt::format("{})", reading.lines()[reading.first_clean_row()].number - 1)};
   }
   return std::nullopt;
 }
@@ -347,8 +347,8 @@ tl::expected<TextLayout, InputError> detect_layout(std::span<const TextLine> hea
     return tl::unexpected(
         InputError{source, header.number, 1, "",
                    fmt::format("the header has {} cells and the rows have {}", header.cells.size(), reading.columns()),
-                   fmt::format("must have a name for each column; where it is no header, pass it over (`skip_rows` {})",
-                               header.number)});
+                   OptionText("must have a name for each column; where it is no header, pass it over (`skip_rows` ") +
+                       fmt::format("{})", header.number)});
   }
   if (auto refusal = text_above_the_rows(reading, source)) return tl::unexpected(std::move(*refusal));
 

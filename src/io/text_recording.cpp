@@ -84,7 +84,7 @@ const ExportFormat* export_format_of(TextLines& lines, const RecordingOptions& o
 
 /// A time that is no number has its own remedy.
 InputError no_time(InputError refusal) {
-  refusal.allowed = "times must be numbers, such as seconds from the start; or state the rate instead (`rate`)";
+  refusal.allow("times must be numbers, such as seconds from the start; or state the rate instead (`rate`)");
   return refusal;
 }
 

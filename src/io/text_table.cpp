@@ -184,9 +184,9 @@ InputError TextTable::wrong_cells(const TextLine& line, std::size_t cells, std::
           1,
           "",
           fmt::format("has {}", in_words(cells)),
-          fmt::format("must have {} as {}{}", in_words(columns()),
-                      has_header() ? "the header has" : "most of the first lines have",
-                      rows_above < few && !has_header() ? "; lines of a header can be passed over (`skip_rows`)" : "")};
+          OptionText(fmt::format("must have {} as {}", in_words(columns()),
+                                 has_header() ? "the header has" : "most of the first lines have")) +
+              (rows_above < few && !has_header() ? "; lines of a header can be passed over (`skip_rows`)" : "")};
 }
 
 }  // namespace zwidth::internal

@@ -76,6 +76,11 @@ unsigned bits_of_wrap(double before, double after, double period) {
   return 0;
 }
 
+OptionText times_of_timer(unsigned bits) {
+  return OptionText(fmt::format("times must rise: this looks like a timer of {} bits that wraps (", bits)) +
+         "`timer_bits` " + fmt::format("{})", bits);
+}
+
 tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& times) {
   const auto& t = times.values;
   const auto rises = [](double before, double after) { return after > before; };
@@ -92,11 +97,9 @@ tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& ti
     }
     const double period = std::max(i >= 2 ? t[i - 1] - t[i - 2] : 0.0, i + 1 < t.size() ? t[i + 1] - t[i] : 0.0);
     const unsigned bits = bits_of_wrap(t[i - 1], t[i], period);
-    return Refusal(refused_sample(times, i, fmt::format("the time falls from {:.12g} to {:.12g}", t[i - 1], t[i]),
-                                  bits > 0 ? fmt::format("times must rise: this looks like a timer of {} bits that "
-                                                         "wraps (`timer_bits` {})",
-                                                         bits, bits)
-                                           : "times must rise, or state the rate instead (`rate`)"));
+    return Refusal(refused_sample(
+        times, i, fmt::format("the time falls from {:.12g} to {:.12g}", t[i - 1], t[i]),
+        bits > 0 ? times_of_timer(bits) : OptionText("times must rise, or state the rate instead (`rate`)")));
   }
   return {};
 }

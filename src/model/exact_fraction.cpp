@@ -1,12 +1,12 @@
 #include "model/exact_fraction.hpp"
 
 #include <flint/fmpz_poly_mat.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "counted.hpp"
 #include "model/device_matrices.hpp"
 #include "zwidth/error.hpp"
 
@@ -120,10 +120,8 @@ ExactFraction exact_fraction(const TransferFunction& transfer_function) {
 ExactFraction exact_fraction(const Device& device, Path path, IntegerPolynomial& denominator) {
   const std::size_t n = device.bodies().size();
   if (n > max_exact_bodies) {
-    throw Error(ErrorCode::did_not_converge,
-                fmt::format("the modes of {} bodies lie too close together for double-double arithmetic, and exact "
-                            "arithmetic takes at most {} bodies: join bodies whose links are stiff",
-                            n, max_exact_bodies));
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_too_close_for_digits,
+                                              .evidence = {counted("bodies", n), counted("most", max_exact_bodies)}});
   }
   const DeviceMatrices<ExactSum> m = device_matrices<ExactSum>(device);
   long lowest = std::numeric_limits<long>::max();

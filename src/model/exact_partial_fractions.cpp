@@ -1,13 +1,13 @@
 #include "model/exact_partial_fractions.hpp"
 
 #include <acb_poly.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "counted.hpp"
 #include "model/exact_poles.hpp"
 #include "model/partial_fractions.hpp"
 #include "zwidth/error.hpp"
@@ -199,9 +199,7 @@ std::optional<ModalTerm> rounded_term(const Fraction& fraction, const std::vecto
     term.denominator[i] = leading((*denominator)[i]);
     term.denominator_rest[i] = leading((*denominator)[i] - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
-      throw Error(ErrorCode::did_not_converge,
-                  "the modes of the device could not be found: its numbers lie too many powers of ten apart; check "
-                  "their units");
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_not_found});
     }
   }
   for (const std::size_t i : fraction.poles) {
@@ -299,8 +297,7 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
   for (const Fraction& fraction : fractions) {
     if (fraction.degree() > ModalTerm::max_degree) {
       throw Error(ErrorCode::did_not_converge,
-                  fmt::format("more than {} poles of the device coincide: lower the order of the model",
-                              ModalTerm::max_degree));
+                  {.code = ProblemCode::too_many_poles_coincide, .evidence = {counted("most", ModalTerm::max_degree)}});
     }
     std::optional<ModalTerm> term = rounded_term(fraction, poles, labels.has_bodies);
     if (!term) return std::nullopt;
@@ -308,9 +305,8 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
   }
   if (cancellation > carried_cancellation) {
     throw Error(ErrorCode::did_not_converge,
-                fmt::format("more than {} poles of the device lie so close together that their terms cancel to 1 part "
-                            "in {:.0e}: lower the order of the model",
-                            ModalTerm::max_degree, cancellation));
+                {.code = ProblemCode::too_many_poles_cancel,
+                 .evidence = {counted("most", ModalTerm::max_degree), {"cancellation", cancellation}}});
   }
   return form;
 }
@@ -347,10 +343,7 @@ ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels&
     partial_fractions::share_lag(*form, lag);
     return *form;
   }
-  throw Error(
-      ErrorCode::did_not_converge,
-      "the device's modes lie too close together to tell them apart, so nothing is computed: lower the order of the "
-      "model, or merge bodies that move alike");
+  throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_not_told_apart});
 }
 
 }  // namespace zwidth::internal

@@ -5,7 +5,9 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "counted.hpp"
 #include "model/device_matrices.hpp"
 #include "model/exact_partial_fractions.hpp"
 #include "model/modal_forms.hpp"
@@ -63,9 +65,7 @@ std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, 
   }
   const double step = improve_roots(extended, roots, last_step, max_sweeps_in_extended);
   if (!(step <= unresolved_step)) {
-    throw Error(
-        ErrorCode::did_not_converge,
-        "the poles of the device could not be found: its numbers lie too many powers of ten apart; check their units");
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
   }
   return roots;
 }
@@ -343,7 +343,7 @@ ModalForm modal_form(const Device& device) {
 
 ModalForm modal_form(const Device& device, Path path, ActuatorLag lag) {
   if (!device.has_bodies()) {
-    throw Error(ErrorCode::needs_bodies, "a transfer-function device has no bodies to choose a path between");
+    throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_path_of_transfer_function});
   }
   return ModalForms(device, lag).along(path);
 }
@@ -357,9 +357,10 @@ internal::ModalForms::~ModalForms() = default;
 
 ModalForm internal::ModalForms::along(Path path) {
   if (std::max(path.force_at, path.position_of) >= device_.bodies().size()) {
-    throw Error(ErrorCode::no_such_body, "the path names body " +
-                                             std::to_string(std::max(path.force_at, path.position_of)) + " of " +
-                                             std::to_string(device_.bodies().size()));
+    throw Error(ErrorCode::no_such_body,
+                {.code = ProblemCode::no_body_of_path,
+                 .evidence = {internal::counted("body", std::max(path.force_at, path.position_of)),
+                              internal::counted("bodies", device_.bodies().size())}});
   }
   return expand_bodies(device_, path, lag_, *found_);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "counted.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
@@ -16,19 +17,20 @@ std::optional<DeviceProblem> find_problem(const Device& device, std::span<const 
   for (const ParameterValues& each : changes) {
     std::string key = full_parameter_key(device.parameters(), each.key);
     if (std::ranges::find(known, key) == known.end()) {
-      return DeviceProblem{each.key, "is no number of the device",
-                           fmt::format("the numbers of this device are {}", fmt::join(known, ", "))};
+      return device_problem(each.key, {.code = ProblemCode::no_number_of_device,
+                                       .subjects = {{"numbers", fmt::format("{}", fmt::join(known, ", "))}}});
     }
-    if (std::ranges::find(seen, key) != seen.end()) return DeviceProblem{each.key, "is given twice", "once"};
+    if (std::ranges::find(seen, key) != seen.end())
+      return device_problem(each.key, {.code = ProblemCode::key_given_twice});
     if (each.values.size() != changes.front().values.size()) {
-      return DeviceProblem{each.key,
-                           fmt::format("has {} values, {} has {}", each.values.size(), changes.front().key,
-                                       changes.front().values.size()),
-                           "equally many of every key"};
+      return device_problem(each.key, {.code = ProblemCode::values_of_two_lengths,
+                                       .evidence = {internal::counted("values", each.values.size()),
+                                                    internal::counted("others", changes.front().values.size())},
+                                       .subjects = {{"other", changes.front().key}}});
     }
     seen.push_back(std::move(key));
   }
-  if (changes.empty()) return DeviceProblem{"", "no number is changed", "one key at least, with its values"};
+  if (changes.empty()) return device_problem("", {.code = ProblemCode::nothing_changed});
   return std::nullopt;
 }
 

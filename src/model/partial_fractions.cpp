@@ -1,5 +1,7 @@
 #include "model/partial_fractions.hpp"
 
+#include "counted.hpp"
+
 namespace zwidth::internal::partial_fractions {
 namespace {
 
@@ -123,8 +125,8 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
   term.degree = denominator.size() - 1;
   term.mode = group.mode;
   if (term.degree > ModalTerm::max_degree) {
-    throw Error(ErrorCode::did_not_converge, "more than " + std::to_string(ModalTerm::max_degree) +
-                                                 " poles of the device coincide: lower the order of the model");
+    throw Error(ErrorCode::did_not_converge,
+                {.code = ProblemCode::too_many_poles_coincide, .evidence = {counted("most", ModalTerm::max_degree)}});
   }
   // Poles of a cluster are known to fewer digits.
   const double on_axis = group.cluster ? 1e-7 : 0.0;
@@ -150,9 +152,7 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
     if (i < numerator.size()) term.numerator_rest[i] = leading(numerator[i].re - Extended(term.numerator[i]));
     term.denominator_rest[i] = leading(denominator[i].re - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
-      throw Error(ErrorCode::did_not_converge,
-                  "the modes of the device could not be found: its numbers lie too many powers of ten apart; check "
-                  "their units");
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_not_found});
     }
   }
   return term;

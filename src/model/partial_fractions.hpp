@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/extended_precision.hpp"
@@ -149,7 +150,7 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double near
     return sum * (Extended(1.0) / Extended(static_cast<double>(contour_points)));
   };
   if (std::abs(leading(moment(log_derivative, 0).re) - static_cast<double>(k)) > 1e-6) {
-    throw Error(ErrorCode::did_not_converge, "poles that nearly coincide could not be told from their neighbours");
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_told_apart});
   }
   std::vector<ComplexX> sums;
   for (std::size_t j = 1; j <= k; ++j) sums.push_back(moment(log_derivative, j));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "zwidth/error.hpp"
 
@@ -126,9 +127,7 @@ std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zer
     }
   }
   if (lower != upper) {
-    throw Error(
-        ErrorCode::did_not_converge,
-        "the poles of the device could not be found: its numbers lie too many powers of ten apart; check their units");
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
   }
 
   PoleGroup rigid;

@@ -1,7 +1,6 @@
 #include "zwidth/model/transfer_function.hpp"
 
 #include <flint/fmpz_mat.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -135,15 +134,18 @@ void check(const ContinuousStateSpace& system) {
   const Eigen::Index n = system.A.rows();
   if (n < 1 || n > static_cast<Eigen::Index>(max_exact_states) || system.A.cols() != n || system.B.size() != n ||
       system.C.size() != n) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("a state space with A of {} x {}, B of {} and C of {}; must be one of 1 to {} states", n,
-                            system.A.cols(), system.B.size(), system.C.size(), max_exact_states));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::state_space_of_other_sizes,
+                                              .evidence = {{"rows", static_cast<double>(n)},
+                                                           {"columns", static_cast<double>(system.A.cols())},
+                                                           {"inputs", static_cast<double>(system.B.size())},
+                                                           {"outputs", static_cast<double>(system.C.size())},
+                                                           {"most", static_cast<double>(max_exact_states)}}});
   }
   const auto check_entries = [](const auto& entries) {
     for (const double value : entries.reshaped()) {
       if (value != 0.0 && !(std::abs(value) >= 1e-100 && std::abs(value) <= 1e100)) {
         throw Error(ErrorCode::invalid_argument,
-                    fmt::format("the state space has an entry {}; must be 0 or within 1e-100..1e100", value));
+                    {.code = ProblemCode::state_space_entry_not_possible, .evidence = {{"value", value}}});
       }
     }
   };

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "counted.hpp"
 #include "eigenvalues.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -21,8 +23,8 @@ constexpr double rounding = 1e-9;
 constexpr const char* parameters_key = "uncertainty.parameters";
 constexpr const char* assumed_key = "uncertainty.assumed";
 
-DeviceProblem covariance_problem(std::string what, std::string allowed) {
-  return {"uncertainty.covariance", std::move(what), std::move(allowed)};
+DeviceProblem covariance_problem(Problem problem) {
+  return device_problem("uncertainty.covariance", std::move(problem));
 }
 
 // Beside the parameters: without them, why the table is there at all.
@@ -39,15 +41,13 @@ std::optional<DeviceProblem> find_key_problem(const DeviceParameters& parameters
   for (const std::string& key : keys) {
     const std::string full = full_parameter_key(parameters, key);
     if (std::ranges::count(known, full) == 0) {
-      return DeviceProblem{place, fmt::format("\"{}\" is no parameter of the device", key),
-                           "must be keys such as body.NAME.mass, link.0.stiffness or loop.delay"};
+      return device_problem(place, {.code = ProblemCode::no_parameter_of_device, .subjects = {{"name", key}}});
     }
     if (!parameter(parameters, full)) {
-      return DeviceProblem{place, fmt::format("\"{}\" has no value in the device", key),
-                           "give it one, or leave it out here"};
+      return device_problem(place, {.code = ProblemCode::number_without_value, .subjects = {{"name", key}}});
     }
     if (!seen.insert(full).second) {
-      return DeviceProblem{place, fmt::format("\"{}\" stands twice", key), "must be different keys"};
+      return device_problem(place, {.code = ProblemCode::key_twice, .subjects = {{"name", key}}});
     }
   }
   return std::nullopt;
@@ -60,29 +60,33 @@ bool is_variance(double value) { return value == 0.0 || (value >= smallest_varia
 std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& parameters) {
   const std::vector<std::string>& keys = parameters.uncertainty->parameters;
   if (keys.empty() && !says_anything(*parameters.uncertainty)) {
-    return DeviceProblem{parameters_key, "is empty", "must be one or more keys; or leave out [uncertainty]"};
+    return device_problem(parameters_key, {.code = ProblemCode::uncertainty_says_nothing});
   }
   if (keys.size() > max_uncertain_parameters) {
-    return DeviceProblem{parameters_key, fmt::format("has {} keys", keys.size()),
-                         fmt::format("must be at most {} keys", max_uncertain_parameters)};
+    return device_problem(parameters_key,
+                          {.code = ProblemCode::too_many_uncertain,
+                           .evidence = {counted("keys", keys.size()), counted("most", max_uncertain_parameters)}});
   }
   if (auto problem = find_key_problem(parameters, parameters_key, keys)) return problem;
   if (auto problem = find_key_problem(parameters, assumed_key, parameters.uncertainty->assumed)) return problem;
   const std::vector<std::vector<double>>& covariance = parameters.uncertainty->covariance;
   const std::size_t n = keys.size();
   if (covariance.size() != n) {
-    return covariance_problem(fmt::format("has {} rows", covariance.size()),
-                              fmt::format("must have a row for each of the {} parameters", n));
+    return covariance_problem({.code = ProblemCode::covariance_rows_missing,
+                               .evidence = {counted("rows", covariance.size()), counted("parameters", n)}});
   }
   if (n == 0) return std::nullopt;
   for (std::size_t i = 0; i < n; ++i) {
     if (covariance[i].size() != n) {
-      return covariance_problem(fmt::format("row {} has {} numbers", i + 1, covariance[i].size()),
-                                fmt::format("must have a number for each of the {} parameters", n));
+      return covariance_problem(
+          {.code = ProblemCode::covariance_numbers_missing,
+           .evidence = {counted("row", i + 1), counted("numbers", covariance[i].size()), counted("parameters", n)}});
     }
     if (!is_variance(covariance[i][i])) {
-      return covariance_problem(fmt::format("the variance of \"{}\" is {}", keys[i], covariance[i][i]),
-                                fmt::format("must be 0 or from {} to {}", smallest_variance, largest_variance));
+      return covariance_problem(
+          {.code = ProblemCode::no_variance,
+           .evidence = {{"value", covariance[i][i]}, {"least", smallest_variance}, {"most", largest_variance}},
+           .subjects = {{"name", keys[i]}}});
     }
   }
   const auto deviation = [&](std::size_t i) { return std::sqrt(covariance[i][i]); };
@@ -91,14 +95,16 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
     for (std::size_t j = 0; j < i; ++j) {
       const double scale = deviation(i) * deviation(j);
       if (!(std::abs(covariance[i][j] - covariance[j][i]) <= rounding * scale)) {
-        return covariance_problem(fmt::format("rows {0} and {1} have {2} and {3} for one pair", j + 1, i + 1,
-                                              covariance[j][i], covariance[i][j]),
-                                  "must be a symmetric matrix of finite numbers");
+        return covariance_problem({.code = ProblemCode::covariance_not_symmetric,
+                                   .evidence = {counted("row", j + 1),
+                                                counted("other", i + 1),
+                                                {"value", covariance[j][i]},
+                                                {"mirrored", covariance[i][j]}}});
       }
       if (!(std::abs(covariance[i][j]) <= (1.0 + rounding) * scale)) {
-        return covariance_problem(
-            fmt::format("\"{}\" and \"{}\" have a covariance of {}", keys[j], keys[i], covariance[i][j]),
-            fmt::format("must be at most the product of their standard deviations, {}", scale));
+        return covariance_problem({.code = ProblemCode::covariance_too_large,
+                                   .evidence = {{"value", covariance[i][j]}, {"most", scale}},
+                                   .subjects = {{"name", keys[j]}, {"other", keys[i]}}});
       }
       const auto row = static_cast<int>(i);
       const auto column = static_cast<int>(j);
@@ -107,8 +113,7 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
   }
   const double least = symmetric_eigenvalues(correlation).minCoeff();
   if (least < -rounding * static_cast<double>(n)) {
-    return covariance_problem("is no covariance: some combination of the parameters would have a negative variance",
-                              "must be positive semidefinite");
+    return covariance_problem({.code = ProblemCode::no_covariance});
   }
   return std::nullopt;
 }

@@ -1,10 +1,9 @@
 #include "zwidth/rig/force_guard.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "counted.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 
@@ -23,19 +22,27 @@ const SafetyLimits& checked(const SafetyLimits& limits) {
 
 std::optional<OptionProblem> find_problem(const SafetyLimits& limits) {
   const auto bad = [](const std::optional<double>& value) { return value && !(std::isfinite(*value) && *value > 0.0); };
-  const auto problem = [](const char* member, double value, const char* allowed) {
-    return OptionProblem{member, fmt::format("is {}", value), allowed};
+  const auto problem = [](const char* member, double value, const char* measure) {
+    return option_problem(member, {.code = ProblemCode::not_above,
+                                   .evidence = {{"value", value}, {"bound", 0.0}},
+                                   .subjects = {{"measure", measure}}});
   };
-  if (bad(limits.force)) return problem("force", *limits.force, "a force in N or N m above 0");
-  if (bad(limits.position)) return problem("position", *limits.position, "a distance in m or rad above 0");
-  if (bad(limits.velocity)) return problem("velocity", *limits.velocity, "a speed in m/s or rad/s above 0");
+  if (bad(limits.force)) return problem("force", *limits.force, "force");
+  if (bad(limits.position)) return problem("position", *limits.position, "distance");
+  if (bad(limits.velocity)) return problem("velocity", *limits.velocity, "speed");
   if (bad(limits.saturation_duration)) {
-    return problem("saturation_duration", limits.saturation_duration, "a time in s above 0");
+    return problem("saturation_duration", limits.saturation_duration, "time");
   }
   if (limits.missed_cycles == 0 || limits.missed_cycles > 1000) {
-    return problem("missed_cycles", limits.missed_cycles, "a whole number from 1 to 1000");
+    return option_problem("missed_cycles",
+                          {.code = ProblemCode::no_whole_number,
+                           .evidence = {internal::counted("value", limits.missed_cycles), internal::counted("least", 1),
+                                        internal::counted("most", 1000)}});
   }
-  if (!(limits.ramp >= 0.0 && limits.ramp <= longest_ramp)) return problem("ramp", limits.ramp, "a time in s, 0 to 10");
+  if (!(limits.ramp >= 0.0 && limits.ramp <= longest_ramp)) {
+    return option_problem("ramp",
+                          {.code = ProblemCode::no_ramp, .evidence = {{"value", limits.ramp}, {"most", longest_ramp}}});
+  }
   return std::nullopt;
 }
 

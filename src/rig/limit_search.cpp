@@ -1,7 +1,5 @@
 #include "zwidth/rig/limit_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -136,21 +134,26 @@ std::optional<RingDown> least_damped_oscillation(std::span<const double> positio
 }
 
 std::optional<OptionProblem> find_problem(const LimitSearchOptions& options) {
-  const auto problem = [](const char* member, double value, const char* allowed) {
-    return OptionProblem{member, fmt::format("is {}", value), allowed};
+  using enum ProblemCode;
+  const auto problem = [](const char* member, ProblemCode code, double value, const char* measure) {
+    return option_problem(
+        member, {.code = code, .evidence = {{"value", value}, {"bound", 0.0}}, .subjects = {{"measure", measure}}});
+  };
+  const auto beyond = [](const char* member, ProblemCode code, double value, double most) {
+    return option_problem(member, {.code = code, .evidence = {{"value", value}, {"most", most}}});
   };
   if (!(std::isfinite(options.start) && options.start > 0.0)) {
-    return problem("start", options.start, "a stiffness in N/m or N m/rad above 0");
+    return problem("start", not_above, options.start, "stiffness");
   }
   if (!(std::isfinite(options.ceiling) && options.ceiling >= options.start)) {
-    return problem("ceiling", options.ceiling, "a stiffness in N/m or N m/rad, at least that of the start");
+    return problem("ceiling", ceiling_below_start, options.ceiling, "stiffness");
   }
-  if (!(options.step > 1.0 && options.step <= 2.0)) return problem("step", options.step, "a factor above 1, up to 2");
+  if (!(options.step > 1.0 && options.step <= 2.0)) return beyond("step", no_growth_factor, options.step, 2.0);
   if (!(options.bracket > 0.0 && options.bracket <= 0.5)) {
-    return problem("bracket", options.bracket, "a share above 0, up to 0.5");
+    return beyond("bracket", no_share_between, options.bracket, 0.5);
   }
   if (!(std::isfinite(options.floor) && options.floor >= 0.0)) {
-    return problem("floor", options.floor, "a distance in m or rad, 0 or more");
+    return problem("floor", below_bound, options.floor, "distance");
   }
   return std::nullopt;
 }

@@ -1,7 +1,5 @@
 #include "zwidth/rig/oscillation_watch.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,10 +23,12 @@ constexpr std::size_t shortest_window = 16;
 OscillationWatch::OscillationWatch(std::span<const double> frequencies, double sampling_period, double floor)
     : period_(sampling_period), floor_(floor) {
   if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("sampling period is {} s; must be > 0", sampling_period));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::sampling_period_not_positive,
+                                              .evidence = {{"value", sampling_period}},
+                                              .subjects = {{"unit", "s"}}});
   }
   if (!(std::isfinite(floor) && floor >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("floor is {}; must be a distance, 0 or more", floor));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::floor_below_zero, .evidence = {{"value", floor}}});
   }
   for (const double frequency : frequencies) {
     const double step = frequency * sampling_period;

@@ -1,9 +1,8 @@
 #include "zwidth/rig/serial_rate.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace zwidth {
 namespace {
@@ -19,18 +18,18 @@ std::optional<OptionProblem> find_problem(const SerialLoad& load) {
   const double carried = serial_share_of_cycle * serial_rate(load.bytes_per_cycle, load.baud);
   const double wanted = 1.0 / load.sampling_period;
   if (wanted <= carried) return std::nullopt;
-  OptionProblem problem;
-  problem.member = "sampling_period";
-  problem.what = fmt::format("{:.0f} bytes per cycle at {:.0f} Bd leave {:.0f} Hz at most, the loop runs at {:.0f} Hz",
-                             load.bytes_per_cycle, load.baud, std::floor(carried), wanted);
+  Problem problem{.code = ProblemCode::serial_line_too_slow,
+                  .evidence = {{"bytes", load.bytes_per_cycle},
+                               {"baud", load.baud},
+                               {"carried_hz", std::floor(carried)},
+                               {"wanted_hz", wanted},
+                               {"period", std::ceil(1e4 / carried) * 1e-4}}};
   for (const double baud : usual_bauds) {
     if (wanted > serial_share_of_cycle * serial_rate(load.bytes_per_cycle, baud)) continue;
-    problem.allowed = fmt::format("set the drive and driver.baud to {:.0f} or more, or ", baud);
+    problem.evidence.push_back({"sufficient_baud", baud});
     break;
   }
-  const double period = std::ceil(1e4 / carried) * 1e-4;
-  problem.allowed += fmt::format("loop.sampling_period to {:.4g} s or more", period);
-  return problem;
+  return option_problem("sampling_period", std::move(problem));
 }
 
 }  // namespace zwidth

@@ -100,9 +100,7 @@ ExtendedTerm sample_exactly(const ModalTerm& term, const SamplingInstants& insta
   for (slong precision = first_precision; precision <= last_precision; precision *= 2) {
     if (std::optional<ExtendedTerm> sampled = sample_in_balls(term, instants, precision)) return *sampled;
   }
-  throw Error(ErrorCode::did_not_converge,
-              "the response of the device within one sampling period could not be computed: too many of its poles lie "
-              "together; lower the order of the model, or merge bodies that move alike");
+  throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::response_not_computed});
 }
 
 }  // namespace zwidth::internal

@@ -1,7 +1,5 @@
 #include "zwidth/sampling/filter_section.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -88,7 +86,8 @@ FilterSection digital_section(const WallFilter& filter) {
 
 FilterSection filter_section(const WallFilter& filter, double period) {
   if (!(period > 0.0) || !std::isfinite(period)) {
-    throw Error(ErrorCode::invalid_argument, "the sampling period is " + fmt::format("{}", period) + "; must be > 0");
+    throw Error(ErrorCode::invalid_argument,
+                {.code = ProblemCode::sampling_period_not_positive, .evidence = {{"value", period}, {"the", 1.0}}});
   }
   if (const auto problem = find_problem(filter, period)) {
     throw Error(ErrorCode::invalid_argument,

@@ -109,9 +109,7 @@ void check_range(const SampledTerm& sampled) {
   const auto in_range = [](double c) { return std::abs(c) <= largest; };
   if (!std::all_of(sampled.numerator, sampled.numerator + sampled.degree + 1, in_range) ||
       !std::all_of(sampled.denominator, sampled.denominator + sampled.degree, in_range)) {
-    throw Error(ErrorCode::did_not_converge,
-                "the response of the device within one sampling period is out of range: a pole grows too fast for it; "
-                "shorten the sampling period, or check the signs of the transfer function");
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::response_out_of_range});
   }
 }
 

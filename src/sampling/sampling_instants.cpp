@@ -1,7 +1,5 @@
 #include "sampling/sampling_instants.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 #include <string>
@@ -13,11 +11,12 @@ namespace zwidth::internal {
 SamplingInstants sampling_instants(const Sampling& sampling) {
   const auto [period, delay] = sampling;
   if (!(period > 0.0) || !std::isfinite(period)) {
-    throw Error(ErrorCode::invalid_argument,
-                "sampling period is " + fmt::format("{}", period) + " s; must be finite and > 0");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::sampling_period_not_positive,
+                                              .evidence = {{"value", period}, {"finite", 1.0}},
+                                              .subjects = {{"unit", "s"}}});
   }
   if (!(delay >= 0.0) || !std::isfinite(delay)) {
-    throw Error(ErrorCode::invalid_argument, "delay is " + fmt::format("{}", delay) + " s; must be finite and >= 0");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::delay_below_zero, .evidence = {{"value", delay}}});
   }
   // A fraction within rounding of a whole number of samples is that number.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * delay;

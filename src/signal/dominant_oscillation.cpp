@@ -56,7 +56,7 @@ double amplitude_at(std::span<const double> signal, double step) {
 std::optional<DominantOscillation> dominant_oscillation(std::span<const double> signal, double period) {
   if (!(period > 0.0) || !std::isfinite(period) ||
       !std::ranges::all_of(signal, [](double value) { return std::isfinite(value); })) {
-    throw Error(ErrorCode::invalid_argument, "an oscillation needs a period > 0 and finite samples");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::period_or_samples_not_possible});
   }
   const std::size_t count = std::min(signal.size() / 2, most_samples);
   if (count < fewest_samples) return std::nullopt;

@@ -86,7 +86,7 @@ struct FourierTransform::Parts {
 };
 
 FourierTransform::FourierTransform(std::size_t size) : size_(size), parts_(std::make_unique<Parts>()) {
-  if (size == 0) throw Error(ErrorCode::invalid_argument, "a Fourier transform of no samples; at least 1");
+  if (size == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::transform_of_nothing});
   if (largest_prime_factor(size) <= largest_direct_factor) {
     parts_->direct = std::make_unique<kissfft<double>>(size, false);
   } else {
@@ -100,7 +100,7 @@ FourierTransform& FourierTransform::operator=(FourierTransform&&) noexcept = def
 
 void FourierTransform::forward(std::span<const Complex> input, std::span<Complex> output) {
   if (input.size() != size_ || output.size() != size_) {
-    throw Error(ErrorCode::invalid_argument, "a Fourier transform of another length than it was made for");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::transform_of_other_length});
   }
   if (parts_->direct) {
     parts_->direct->transform(input.data(), output.data());

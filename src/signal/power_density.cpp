@@ -14,7 +14,7 @@ using namespace internal;
 PowerDensity power_density(std::span<const double> signal, double rate) {
   const bool finite = std::all_of(signal.begin(), signal.end(), [](double value) { return std::isfinite(value); });
   if (signal.size() < 2 || !finite || !(std::isfinite(rate) && rate > 0.0)) {
-    throw Error(ErrorCode::invalid_argument, "power density: at least two finite samples and a rate > 0");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::power_density_not_possible});
   }
   constexpr std::size_t longest_block = std::size_t{1} << 20;
   const std::size_t block = std::min(signal.size(), longest_block);

@@ -75,8 +75,7 @@ std::vector<std::complex<double>> windowed_amplitudes(std::span<const double> si
 std::optional<RingDown> ring_down(std::span<const double> signal, double period, double frequency, double floor) {
   if (!(period > 0.0 && frequency > 0.0 && frequency * period < pi) ||
       !std::ranges::all_of(signal, [](double value) { return std::isfinite(value); })) {
-    throw Error(ErrorCode::invalid_argument,
-                "an oscillation needs finite samples, a period > 0 and a frequency below Nyquist's");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::ring_down_not_possible});
   }
   double w = frequency;
   for (int i = 0; i < most_refinements; ++i) {

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -270,11 +268,12 @@ void check_dropouts(const Signal& signal, const Extent& extent, std::span<const 
 std::vector<Remark> check_signal(const Channel& channel, double sampling_period, SignalRole role) {
   if (!std::isfinite(sampling_period) || sampling_period <= 0.0) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("sampling_period is {}; it must be positive", sampling_period));
+                {.code = ProblemCode::signal_period_not_positive, .evidence = {{"value", sampling_period}}});
   }
   const auto& samples = channel.samples;
   if (!std::all_of(samples.begin(), samples.end(), [](double value) { return std::isfinite(value); })) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("samples of {} are not finite", channel.name));
+    throw Error(ErrorCode::invalid_argument,
+                {.code = ProblemCode::samples_of_channel_not_finite, .subjects = {{"channel", channel.name}}});
   }
   const Signal signal{channel, sampling_period, role};
   std::vector<Remark> remarks;

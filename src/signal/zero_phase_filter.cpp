@@ -1,7 +1,5 @@
 #include "signal/zero_phase_filter.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,7 +59,7 @@ void run(std::array<Section, 2> sections, std::vector<double>& signal) {
 std::vector<double> zero_phase_low_pass(std::span<const double> signal, double cutoff) {
   if (!(cutoff > 0.0 && cutoff < 0.5)) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("cutoff is {} of the rate; above 0 and below half the rate", cutoff));
+                {.code = ProblemCode::cutoff_not_possible, .evidence = {{"value", cutoff}}});
   }
   if (signal.empty()) return {};
   constexpr double reflected_periods = 6.0;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 
@@ -14,11 +12,11 @@ namespace zwidth::internal {
 inline void check_relay(const Relay& relay) {
   if (!(std::isfinite(relay.amplitude) && relay.amplitude > 0.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "relay amplitude is " + fmt::format("{}", relay.amplitude) + "; must be > 0");
+                {.code = ProblemCode::relay_amplitude_not_positive, .evidence = {{"value", relay.amplitude}}});
   }
   if (!(std::isfinite(relay.hysteresis) && relay.hysteresis >= 0.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "relay hysteresis is " + fmt::format("{}", relay.hysteresis) + "; must be >= 0");
+                {.code = ProblemCode::relay_hysteresis_below_zero, .evidence = {{"value", relay.hysteresis}}});
   }
 }
 

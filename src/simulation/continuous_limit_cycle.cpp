@@ -20,8 +20,8 @@ constexpr int half_periods_scanned = 4000;
 constexpr int trajectory_points = 2000;
 constexpr int peak_bits = 26;  // half of the digits: all that a minimum has
 
-void require(bool holds, const char* what) {
-  if (!holds) throw Error(ErrorCode::invalid_argument, what);
+void require(bool holds, ProblemCode otherwise) {
+  if (!holds) throw Error(ErrorCode::invalid_argument, {.code = otherwise});
 }
 
 /// The state where the force changes from -d to +d, on the cycle x(h) = -x(0): -(I + F)^{-1} Gamma d.
@@ -120,9 +120,8 @@ class HalfPeriod {
 std::vector<LimitCycle> relay_limit_cycles(const ContinuousStateSpace& system, const Relay& relay, double shortest,
                                            double longest, double delay, const Progress& progress) {
   check_relay(relay);
-  require(std::isfinite(longest) && shortest > 0.0 && shortest < longest,
-          "half-periods must be 0 < shortest < longest");
-  require(std::isfinite(delay) && delay >= 0.0, "delay must be >= 0");
+  require(std::isfinite(longest) && shortest > 0.0 && shortest < longest, ProblemCode::half_periods_not_ordered);
+  require(std::isfinite(delay) && delay >= 0.0, ProblemCode::delay_not_possible);
   // To +d the relay switches where y falls to -hysteresis.
   const auto excess = [&](double length) {
     return HalfPeriod(system, relay, length, delay).output_at_switch() + relay.hysteresis;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "simulation/first_root.hpp"
 #include "simulation/motion_tangent.hpp"
 #include "zwidth/error.hpp"
@@ -43,9 +44,9 @@ ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside, s
     if (device.bodies()[i].coulomb > 0.0) friction_.push_back({i, device.bodies()[i].coulomb, size_++, {}, 1, false});
   }
   if (friction_.size() > max_friction_bodies) {
-    throw Error(ErrorCode::invalid_argument, "simulation takes Coulomb friction on at most " +
-                                                 std::to_string(max_friction_bodies) + " bodies, not on " +
-                                                 std::to_string(friction_.size()));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::too_many_bodies_with_friction,
+                                              .evidence = {internal::counted("most", max_friction_bodies),
+                                                           internal::counted("bodies", friction_.size())}});
   }
   const auto n = static_cast<Eigen::Index>(size_);
   state_ = Eigen::VectorXd::Zero(n);

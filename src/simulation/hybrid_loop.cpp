@@ -1,7 +1,5 @@
 #include "zwidth/simulation/hybrid_loop.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,10 +20,6 @@ namespace {
 /// Motion between irregular instants is a series over parts of 1/rate: more of them per period would take for ever.
 constexpr double most_parts_per_period = 1e4;
 constexpr double never = std::numeric_limits<double>::infinity();
-
-void require(bool holds, const std::string& what) {
-  if (!holds) throw Error(ErrorCode::invalid_argument, what);
-}
 
 OutsideForce outside_force(const UserForce& force) {
   switch (force.kind) {
@@ -111,10 +105,10 @@ struct HybridLoop::State {
     is_faulty =
         faults.lost_sample_probability > 0.0 || faults.sampling_jitter > 0.0 || faults.overrun_probability > 0.0;
     const bool takes_odd_steps = is_faulty || motion.has_friction() || options.user_force.kind != UserForce::Kind::none;
-    require(!takes_odd_steps || motion.rate() * period <= most_parts_per_period,
-            fmt::format("the device's fastest motion, about {:.4g} rad/s, is too fast to follow in time beside its "
-                        "sampling period; soften it or make it rigid",
-                        motion.rate()));
+    if (takes_odd_steps && !(motion.rate() * period <= most_parts_per_period)) {
+      throw Error(ErrorCode::invalid_argument,
+                  {.code = ProblemCode::motion_too_fast, .evidence = {{"rate", motion.rate()}}});
+    }
     reset();
   }
 

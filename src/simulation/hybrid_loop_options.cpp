@@ -1,10 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "counted.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
 namespace zwidth {
@@ -16,49 +15,63 @@ bool is_duration(double value) { return std::isfinite(value) && value >= 0.0; }
 
 bool is_finite(double value) { return std::isfinite(value); }
 
+// Of a number in this unit, which stands behind its value too where it is `shown`.
+Problem number_in(const char* unit, ProblemCode code, double value, bool shown) {
+  Problem problem{.code = code, .evidence = {{"value", value}}, .subjects = {{"in", unit}}};
+  if (shown) problem.subjects.push_back({"unit", unit});
+  return problem;
+}
+
 std::optional<OptionProblem> user_force_problem(const UserForce& force) {
   if (!is_finite(force.amplitude)) {
-    return OptionProblem{"user_force.amplitude", fmt::format("is {}", force.amplitude), "a finite force"};
+    return option_problem("user_force.amplitude",
+                          {.code = ProblemCode::no_finite_force, .evidence = {{"value", force.amplitude}}});
   }
   if (!is_duration(force.start)) {
-    return OptionProblem{"user_force.start", fmt::format("is {} s", force.start), "a number of s >= 0"};
+    return option_problem("user_force.start", number_in("s", ProblemCode::below_zero, force.start, true));
   }
   if (force.kind == UserForce::Kind::sine && !(is_finite(force.frequency) && force.frequency > 0.0)) {
-    return OptionProblem{"user_force.frequency", fmt::format("is {} rad/s", force.frequency), "a number of rad/s > 0"};
+    return option_problem("user_force.frequency",
+                          number_in("rad/s", ProblemCode::not_above_zero, force.frequency, true));
   }
   if (force.kind != UserForce::Kind::recorded) return std::nullopt;
   if (!(is_finite(force.period) && force.period > 0.0)) {
-    return OptionProblem{"user_force.period", fmt::format("is {} s", force.period), "a number of s > 0"};
+    return option_problem("user_force.period", number_in("s", ProblemCode::not_above_zero, force.period, true));
   }
-  if (force.samples.empty()) return OptionProblem{"user_force.samples", "are none", "at least one"};
+  if (force.samples.empty()) return option_problem("user_force.samples", {.code = ProblemCode::no_samples});
   if (!std::all_of(force.samples.begin(), force.samples.end(), is_finite)) {
-    return OptionProblem{"user_force.samples", "are not all finite", "finite forces"};
+    return option_problem("user_force.samples", {.code = ProblemCode::samples_not_finite});
   }
   return std::nullopt;
 }
 
 std::optional<OptionProblem> faults_problem(const Faults& faults, double period) {
-  constexpr const char* share = "a share from 0 to 1";
+  const auto no_share = [](const char* member, double value) {
+    return option_problem(member, {.code = ProblemCode::no_share, .evidence = {{"value", value}}});
+  };
   if (!is_probability(faults.lost_sample_probability)) {
-    return OptionProblem{"faults.lost_sample_probability", fmt::format("is {}", faults.lost_sample_probability), share};
+    return no_share("faults.lost_sample_probability", faults.lost_sample_probability);
   }
   if (!is_duration(faults.sampling_jitter)) {
-    return OptionProblem{"faults.sampling_jitter", fmt::format("is {}", faults.sampling_jitter), "a number of s >= 0"};
+    return option_problem("faults.sampling_jitter",
+                          number_in("s", ProblemCode::below_zero, faults.sampling_jitter, false));
   }
   if (faults.sampling_jitter >= period) {
-    return OptionProblem{"faults.sampling_jitter", fmt::format("is {} s", faults.sampling_jitter),
-                         fmt::format("below the sampling period, {} s", period)};
+    return option_problem(
+        "faults.sampling_jitter",
+        {.code = ProblemCode::not_below_period, .evidence = {{"value", faults.sampling_jitter}, {"period", period}}});
   }
   if (!is_probability(faults.overrun_probability)) {
-    return OptionProblem{"faults.overrun_probability", fmt::format("is {}", faults.overrun_probability), share};
+    return no_share("faults.overrun_probability", faults.overrun_probability);
   }
   if (!is_duration(faults.overrun_delay)) {
-    return OptionProblem{"faults.overrun_delay", fmt::format("is {}", faults.overrun_delay), "a number of s >= 0"};
+    return option_problem("faults.overrun_delay", number_in("s", ProblemCode::below_zero, faults.overrun_delay, false));
   }
   if (faults.overrun_delay > max_delay_samples * period) {
-    return OptionProblem{
-        "faults.overrun_delay", fmt::format("is {} s", faults.overrun_delay),
-        fmt::format("at most {} s, {} sampling periods", max_delay_samples * period, max_delay_samples)};
+    return option_problem("faults.overrun_delay", {.code = ProblemCode::too_long,
+                                                   .evidence = {{"value", faults.overrun_delay},
+                                                                {"most", max_delay_samples * period},
+                                                                {"periods", max_delay_samples}}});
   }
   return std::nullopt;
 }
@@ -67,11 +80,12 @@ std::optional<OptionProblem> motion_problem(const char* member, const std::vecto
                                             const Device& device) {
   if (values.empty()) return std::nullopt;
   if (values.size() != device.bodies().size()) {
-    return OptionProblem{member, fmt::format("has {} values", values.size()),
-                         fmt::format("one for each of {} bodies, or none", device.bodies().size())};
+    return option_problem(member, {.code = ProblemCode::values_not_one_a_body,
+                                   .evidence = {internal::counted("values", values.size()),
+                                                internal::counted("bodies", device.bodies().size())}});
   }
   if (std::all_of(values.begin(), values.end(), is_finite)) return std::nullopt;
-  return OptionProblem{member, "is not finite", "a finite number for every body"};
+  return option_problem(member, {.code = ProblemCode::value_not_finite});
 }
 
 }  // namespace
@@ -84,7 +98,7 @@ std::optional<OptionProblem> find_problem(const HybridLoopOptions& options, cons
   }
   if (auto problem = faults_problem(options.faults, period)) return problem;
   if (!device.has_bodies() && options.user_force.kind != UserForce::Kind::none) {
-    return OptionProblem{"user_force", "needs a body that a user could hold", "none on a transfer function"};
+    return option_problem("user_force", {.code = ProblemCode::user_force_without_body});
   }
   if (auto problem = user_force_problem(options.user_force)) return problem;
   if (auto problem = motion_problem("initial_position", options.initial_position, device)) return problem;

@@ -1,7 +1,5 @@
 #include "zwidth/simulation/relay.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "counted.hpp"
 #include "doubt_all.hpp"
 #include "require_valid.hpp"
 #include "simulation/relay_explanation.hpp"
@@ -92,9 +91,8 @@ void conclude(RelayResult& result, const Progress& progress) {
 
 void add_recorded_trial(RelayResult& result, Recording recording, const RelayAnalysisOptions& analysis) {
   if (recording.channels.size() != 2) {
-    throw Error(
-        ErrorCode::invalid_argument,
-        fmt::format("the recording has {} channels; must be two: force and position", recording.channels.size()));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::recording_without_two_channels,
+                                              .evidence = {internal::counted("channels", recording.channels.size())}});
   }
   RelayTrial trial;
   trial.force = std::move(recording.channels[0].samples);
@@ -119,7 +117,8 @@ void add_recorded_trial(RelayResult& result, Recording recording, const RelayAna
 
 tl::expected<Device, DeviceProblem> with_added_delay(const Device& device, double added) {
   if (!(std::isfinite(added) && added >= 0.0)) {
-    return tl::unexpected(DeviceProblem{"", fmt::format("is {}", added), "seconds, 0 or more"});
+    return tl::unexpected(
+        device_problem("", {.code = ProblemCode::seconds_below_zero, .evidence = {{"value", added}}}));
   }
   DeviceParameters parameters = device.parameters();
   parameters.loop.delay += added;
@@ -150,7 +149,9 @@ std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials) {
 
 std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, double sampling_period) {
   if (!(std::isfinite(options.hysteresis) && options.hysteresis >= 0.0)) {
-    return OptionProblem{"hysteresis", fmt::format("is {}", options.hysteresis), "a position in m or rad, 0 or more"};
+    return option_problem("hysteresis", {.code = ProblemCode::below_bound,
+                                         .evidence = {{"value", options.hysteresis}, {"bound", 0.0}},
+                                         .subjects = {{"measure", "position"}}});
   }
   if (auto problem = find_problem(options.analysis)) {
     problem->member.insert(0, "analysis.");
@@ -159,9 +160,8 @@ std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, dou
   if (!options.device) return std::nullopt;
   const double expected = options.device->loop().sampling_period;
   if (std::abs(sampling_period / expected - 1.0) <= same_period) return std::nullopt;
-  return OptionProblem{
-      "device", fmt::format("loop.sampling_period: is {} s, the recording's is {:.6g} s", expected, sampling_period),
-      "they must agree"};
+  return option_problem("device", {.code = ProblemCode::sampling_periods_disagree,
+                                   .evidence = {{"expected", expected}, {"period", sampling_period}}});
 }
 
 RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress) {
@@ -191,7 +191,7 @@ RelayResult relay(Recording recording, const RelayRecordOptions& options, const 
 }
 
 RelayResult relay(std::vector<Recording> recordings, const RelayRecordOptions& options, const Progress& progress) {
-  if (recordings.empty()) throw Error(ErrorCode::invalid_argument, "there is no recording; must be one or more");
+  if (recordings.empty()) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_recording});
   require_valid(find_problem(options, recordings.front().sampling_period));
   RelayResult result;
   result.source = RelayResult::Source::recording;
@@ -201,7 +201,7 @@ RelayResult relay(std::vector<Recording> recordings, const RelayRecordOptions& o
   result.relay.hysteresis = options.hysteresis;
   for (Recording& recording : recordings) {
     if (recording.sampling_period != result.sampling_period) {
-      throw Error(ErrorCode::invalid_argument, "the recordings differ in their sampling period; must be one");
+      throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::recordings_of_two_periods});
     }
     add_recorded_trial(result, std::move(recording), options.analysis);
   }

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <optional>
+#include <utility>
 
+#include "counted.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -23,13 +25,8 @@ bool is_same_branch(double frequency, double other) {
   return frequency <= same_branch * other && other <= same_branch * frequency;
 }
 
-std::string at(double frequency, double stiffness) {
-  return fmt::format("{} Hz, {:.2f} dB", number(hertz(frequency)), decibels(stiffness));
-}
-
-std::string mechanism(const Mechanism& limited_by) {
-  return limited_by.kind == Mechanism::Kind::rigid_body ? "the rigid body"
-                                                        : fmt::format("vibration mode {}", limited_by.mode);
+std::vector<Evidence> at(double frequency, double stiffness) {
+  return {{"frequency_hz", hertz(frequency)}, {"stiffness_db", decibels(stiffness)}};
 }
 
 /// The element whose frequency is nearest, by ratio; null where there is none.
@@ -44,65 +41,61 @@ const Cycle* nearest(const std::vector<Cycle>& cycles, double frequency) {
   return found;
 }
 
-std::string crossover_sentence(const RelayMean& mean, const CriticalStiffness& linear) {
+Finding beside_crossover(const RelayMean& mean, const CriticalStiffness& linear) {
   const Crossover* crossover = nearest(linear.crossovers, mean.frequency);
-  if (!crossover) return "Linear theory knows no phase crossover of this device.";
-  const std::string place =
-      fmt::format("{} ({})", at(crossover->frequency, crossover->stiffness), mechanism(crossover->limited_by));
+  if (!crossover) return {.code = FindingCode::no_linear_crossover};
+  Finding finding{.code = FindingCode::oscillates_off_crossovers,
+                  .evidence = at(crossover->frequency, crossover->stiffness)};
+  if (crossover->limited_by.kind != Mechanism::Kind::rigid_body) {
+    finding.evidence.push_back(counted("mode", crossover->limited_by.mode));
+  }
   if (is_near(mean.frequency, crossover->frequency)) {
     const double difference = decibels(mean.stiffness / crossover->stiffness);
-    return fmt::format("It oscillates near the phase crossover of linear theory at {}: the relay reads {:.2f} dB {}.",
-                       place, std::abs(difference), difference < 0.0 ? "less" : "more");
+    finding.code = difference < 0.0 ? FindingCode::reads_less_at_crossover : FindingCode::reads_more_at_crossover;
+    finding.evidence.push_back({"difference_db", std::abs(difference)});
   }
-  return fmt::format(
-      "It oscillates at no phase crossover of linear theory, the nearest being at {}: what the relay reads is the "
-      "device's response there, not a limit of stability.",
-      place);
+  return finding;
 }
 
-std::string limit_sentence(const RelayResult& result) {
+Finding beside_limit(const RelayResult& result) {
   const CriticalStiffness& linear = result.prediction->linear;
-  const std::string limit = linear.limit ? fmt::format("The stiffest stable wall by linear theory is at {}.",
-                                                       at(linear.limit->frequency, linear.stiffness))
-                                         : "";
-  const double difference = std::abs(decibels(result.mean->stiffness / linear.stiffness));
+  if (result.limit_reading == LimitReading::none) return {.code = FindingCode::no_linear_limit};
+  Finding finding{.evidence = at(linear.limit->frequency, linear.stiffness)};
+  finding.evidence.push_back({"difference_db", std::abs(decibels(result.mean->stiffness / linear.stiffness))});
   switch (result.limit_reading) {
     case LimitReading::none:
+      finding.code = FindingCode::no_linear_limit;
       break;
     case LimitReading::confirms:
-      return limit + " The relay confirms it.";
+      finding.code = FindingCode::reading_confirms_limit;
+      break;
     case LimitReading::coincides:
-      return limit + " The relay reads the same stiffness, but at another frequency: a coincidence.";
+      finding.code = FindingCode::reading_coincides_with_limit;
+      break;
     case LimitReading::unsafe:
-      return limit + fmt::format(" The relay reads {:.2f} dB more: taken for that limit it is UNSAFE.", difference);
+      finding.code = FindingCode::reading_above_limit;
+      break;
     case LimitReading::too_cautious:
-      return limit +
-             fmt::format(" The relay reads {:.2f} dB less: taken for that limit it is too cautious.", difference);
+      finding.code = FindingCode::reading_below_limit;
+      break;
   }
-  return "Linear theory gives this device no finite limit to compare with.";
+  return finding;
 }
 
-std::string friction_sentence(const RelayResult& result, const RelayMean& mean) {
+std::optional<Finding> by_friction(const RelayResult& result, const RelayMean& mean) {
   const double level = result.friction_level.value_or(0.0);
-  if (level == 0.0) return "";
-  const std::string start = fmt::format(
-      "Coulomb friction of up to {:.1f} % of the relay's force acts as a damping that "
-      "grows as the motion slows.",
-      100.0 * level);
+  if (level == 0.0) return std::nullopt;
+  Finding finding{.code = FindingCode::friction_leaves_no_cycle};
   const LimitCycle* cycle = nearest(result.prediction->describing_function, mean.frequency);
-  if (!cycle || !is_same_branch(mean.frequency, cycle->frequency)) {
-    return start +
-           " By first harmonics alone no oscillation would be left near this one: the harmonics of the square "
-           "wave, near a resonance, keep it up.";
+  if (cycle && is_same_branch(mean.frequency, cycle->frequency)) {
+    const Crossover* crossover = nearest(result.prediction->linear.crossovers, mean.frequency);
+    const bool is_moved = crossover && !is_near(cycle->frequency, crossover->frequency);
+    finding.code = is_moved ? FindingCode::friction_moves_cycle : FindingCode::friction_leaves_cycle;
+    finding.evidence = at(cycle->frequency, cycle->stiffness);
+    if (!is_near(mean.frequency, cycle->frequency)) finding.evidence.push_back({"harmonics", 1.0});
   }
-  const Crossover* crossover = nearest(result.prediction->linear.crossovers, mean.frequency);
-  const bool is_moved = crossover && !is_near(cycle->frequency, crossover->frequency);
-  return start +
-         fmt::format(
-             " By first harmonics it {} {}.{}",
-             is_moved ? "moves the oscillation away from the crossover, to" : "leaves the oscillation at",
-             at(cycle->frequency, cycle->stiffness),
-             is_near(mean.frequency, cycle->frequency) ? "" : " The rest of the way is that of the higher harmonics.");
+  finding.evidence.push_back({"level", level});
+  return finding;
 }
 
 std::string bands_text(const std::vector<CycleBand>& bands) {
@@ -127,26 +120,20 @@ double resolution_of(const RelayResult& result) {
   return spacing;
 }
 
-std::string sampled_sentence(const RelayResult& result, const RelayMean& mean) {
+Finding beside_sampled_relay(const RelayResult& result, const RelayMean& mean) {
   const std::vector<LimitCycle>& cycles = result.prediction->sampled_relay;
   if (cycles.empty()) {
-    return fmt::format(
-        "Without friction and encoder the sampled relay has no simple oscillation (one switch each way per period) "
-        "above {} Hz; below it was not searched.",
-        number(hertz(result.prediction->lowest_frequency)));
+    return {.code = FindingCode::sampled_relay_without_oscillation,
+            .evidence = {{"lowest_hz", hertz(result.prediction->lowest_frequency)}}};
   }
   const LimitCycle* cycle = nearest(cycles, mean.frequency);
-  return fmt::format(
-      "Without friction and encoder the sampled relay has {} exact oscillation{} ({} Hz), {}; the start decides "
-      "between "
-      "them.",
-      cycles.size(), cycles.size() == 1 ? "" : "s", bands_text(cycle_bands(cycles)),
-      std::abs(mean.frequency - cycle->frequency) <= resolution_of(result)
-          ? std::string("this one among them")
-          : std::string(result.friction_level.value_or(0.0) > 0.0
-                            ? "none of them this one: friction makes the difference"
-                            : "none of them this one: it switches more often than once each way per "
-                              "period, or the encoder matters"));
+  const bool is_one = std::abs(mean.frequency - cycle->frequency) <= resolution_of(result);
+  const bool rubs = result.friction_level.value_or(0.0) > 0.0;
+  return {.code = is_one ? FindingCode::sampled_relay_has_this_one
+                  : rubs ? FindingCode::sampled_relay_apart_by_friction
+                         : FindingCode::sampled_relay_apart_by_switches,
+          .evidence = {counted("cycles", cycles.size())},
+          .subjects = {{"bands", bands_text(cycle_bands(cycles))}}};
 }
 
 }  // namespace
@@ -189,18 +176,16 @@ LimitReading limit_reading(const RelayMean& mean, const CriticalStiffness& linea
   return difference > 0.0 ? LimitReading::unsafe : LimitReading::too_cautious;
 }
 
-std::vector<std::string> relay_explanation(const RelayResult& result) {
+std::vector<Finding> relay_explanation(const RelayResult& result) {
   if (!result.mean) {
-    return {fmt::format(
-        "The trials settle at different oscillations, {}: several exist side by side, and the start decides. "
-        "Compare each with the predictions above.",
-        oscillations_text(result))};
+    return {{.code = FindingCode::trials_at_different_oscillations,
+             .subjects = {{"oscillations", oscillations_text(result)}}}};
   }
   const RelayMean& mean = *result.mean;
-  std::vector<std::string> sentences{crossover_sentence(mean, result.prediction->linear), limit_sentence(result)};
-  if (std::string friction = friction_sentence(result, mean); !friction.empty()) sentences.push_back(friction);
-  sentences.push_back(sampled_sentence(result, mean));
-  return sentences;
+  std::vector<Finding> findings{beside_crossover(mean, result.prediction->linear), beside_limit(result)};
+  if (std::optional<Finding> friction = by_friction(result, mean)) findings.push_back(*std::move(friction));
+  findings.push_back(beside_sampled_relay(result, mean));
+  return findings;
 }
 
 }  // namespace zwidth::internal

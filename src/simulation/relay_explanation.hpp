@@ -19,6 +19,6 @@ namespace zwidth::internal {
 
 /// See RelayResult::explanation; requires a trial that oscillates, prediction, limit_reading, and the mean
 /// where the trials agree.
-[[nodiscard]] std::vector<std::string> relay_explanation(const RelayResult& result);
+[[nodiscard]] std::vector<Finding> relay_explanation(const RelayResult& result);
 
 }  // namespace zwidth::internal

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
+#include "counted.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
 #include "simulation/oscillation_cycles.hpp"
@@ -29,21 +31,23 @@ constexpr double noticeable_drift = 0.2;          // of the amplitude, over the 
 constexpr std::size_t least_encoder_steps = 10;
 constexpr double scatters_allowed = 3.0;  // of the swing about its mean, in a steady part
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
+[[noreturn]] void refuse(const Problem& problem) { throw Error(ErrorCode::invalid_argument, problem); }
 
 void check(std::span<const double> force, std::span<const double> position, double sampling_period,
            const RelayAnalysisOptions& options) {
   if (force.size() != position.size()) {
-    refuse(fmt::format("{} samples of force, {} of position; equally many", force.size(), position.size()));
+    refuse({.code = ProblemCode::force_and_position_of_two_lengths,
+            .evidence = {counted("force", force.size()), counted("position", position.size())}});
   }
   const auto is_finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(force.begin(), force.end(), is_finite)) refuse("the force is not finite");
-  if (!std::all_of(position.begin(), position.end(), is_finite)) refuse("the position is not finite");
+  if (!std::all_of(force.begin(), force.end(), is_finite)) refuse({.code = ProblemCode::force_not_finite});
+  if (!std::all_of(position.begin(), position.end(), is_finite)) refuse({.code = ProblemCode::position_not_finite});
   if (!(is_finite(sampling_period) && sampling_period > 0.0)) {
-    refuse(fmt::format("sampling period of {} s; above 0", sampling_period));
+    refuse({.code = ProblemCode::no_sampling_period, .evidence = {{"value", sampling_period}}});
   }
   if (const auto problem = find_problem(options)) {
-    refuse(fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
 }
 
@@ -89,18 +93,25 @@ Peak strongest_line(std::span<const double> force, std::span<const double> posit
   return peak;
 }
 
-/// What makes a record hopeless before any spectrum; empty when nothing does.
-std::string nothing_moves(std::span<const double> force, std::span<const double> position, double sampling_period) {
+/// What makes a record hopeless before any spectrum; nothing where it is not.
+std::optional<Finding> nothing_moves(std::span<const double> force, std::span<const double> position,
+                                     double sampling_period) {
   if (force.size() < least_samples) {
-    return fmt::format("the record has {} samples; at least {}", force.size(), least_samples);
+    return Finding{.code = FindingCode::record_too_short,
+                   .evidence = {counted("samples", force.size()), counted("threshold", least_samples)}};
   }
-  if (is_constant(force)) return "the force never changes";
-  if (is_constant(position)) return "the position never changes";
+  if (is_constant(force)) return Finding{.code = FindingCode::force_never_changes};
+  if (is_constant(position)) return Finding{.code = FindingCode::position_never_changes};
   const std::size_t half = force.size() / 2;
   const double since = static_cast<double>(half) * sampling_period;
-  if (is_constant(force.subspan(half))) return fmt::format("the force no longer changes after {:.4g} s", since);
-  if (is_constant(position.subspan(half))) return fmt::format("the position no longer changes after {:.4g} s", since);
-  return "";
+  const std::vector<Evidence> evidence{{"since", since}};
+  if (is_constant(force.subspan(half))) {
+    return Finding{.code = FindingCode::force_stops_changing, .evidence = evidence};
+  }
+  if (is_constant(position.subspan(half))) {
+    return Finding{.code = FindingCode::position_stops_changing, .evidence = evidence};
+  }
+  return std::nullopt;
 }
 
 /// The end of a record in which an oscillation no longer changes its swing.
@@ -181,12 +192,14 @@ void remark_signals(RelayReading& result, std::span<const double> position, cons
 
 std::optional<OptionProblem> find_problem(const RelayAnalysisOptions& options) {
   if (options.segment_length < least_samples) {
-    return OptionProblem{"segment_length", fmt::format("is {} samples", options.segment_length),
-                         fmt::format("at least {}", least_samples)};
+    return option_problem("segment_length",
+                          {.code = ProblemCode::too_few,
+                           .evidence = {counted("value", options.segment_length), counted("least", least_samples)},
+                           .subjects = {{"unit", "samples"}}});
   }
   if (!(options.steady_tolerance > 0.0 && options.steady_tolerance < 1.0)) {
-    return OptionProblem{"steady_tolerance", fmt::format("is {}", options.steady_tolerance),
-                         "a relative difference above 0, below 1"};
+    return option_problem("steady_tolerance", {.code = ProblemCode::no_relative_difference,
+                                               .evidence = {{"value", options.steady_tolerance}}});
   }
   return std::nullopt;
 }
@@ -195,8 +208,8 @@ tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const d
                                                                std::span<const double> position, double sampling_period,
                                                                const RelayAnalysisOptions& options) {
   check(force, position, sampling_period, options);
-  if (std::string reason = nothing_moves(force, position, sampling_period); !reason.empty()) {
-    return tl::unexpected(NoOscillation{std::move(reason)});
+  if (auto why = nothing_moves(force, position, sampling_period)) {
+    return tl::unexpected(NoOscillation{*std::move(why)});
   }
   const std::size_t half = force.size() / 2;
   // As one segment: a period may be longer than one of the segments asked for.
@@ -204,14 +217,15 @@ tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const d
   const double cycles_recorded = rough.per_sample() * static_cast<double>(force.size());
   if (!(cycles_recorded >= least_cycles)) {
     return tl::unexpected(NoOscillation{
-        fmt::format("the record holds no oscillation of at least {:.0f} cycles; record for longer", least_cycles)});
+        {.code = FindingCode::too_few_cycles, .evidence = {{"cycles", cycles_recorded}, {"threshold", least_cycles}}}});
   }
   const double cycles_per_segment = rough.per_sample() * static_cast<double>(options.segment_length);
   if (!(cycles_per_segment >= least_cycles_per_segment)) {
-    return tl::unexpected(NoOscillation{fmt::format(
-        "a segment of {} samples holds {:.2g} cycles of the oscillation near {:.3g} Hz; at least {:.0f}: make the "
-        "segments longer",
-        options.segment_length, cycles_per_segment, rough.per_sample() / sampling_period, least_cycles_per_segment)});
+    return tl::unexpected(NoOscillation{{.code = FindingCode::too_few_cycles_in_segment,
+                                         .evidence = {counted("segment", options.segment_length),
+                                                      {"cycles", cycles_per_segment},
+                                                      {"frequency_hz", rough.per_sample() / sampling_period},
+                                                      {"threshold", least_cycles_per_segment}}}});
   }
   // Four stretches at least in the last half.
   const auto stretch = std::min(
@@ -221,9 +235,8 @@ tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const d
   const auto steady_position = position.subspan(part.from);
   const Peak peak = strongest_line(steady_force, steady_position, options.segment_length);
   if (peak.line == 0 || peak.share < least_share) {
-    return tl::unexpected(NoOscillation{
-        fmt::format("no frequency stands out: the strongest holds {:.0f} % of the motion's power; at least {:.0f} %",
-                    100.0 * peak.share, 100.0 * least_share)});
+    return tl::unexpected(NoOscillation{{.code = FindingCode::no_frequency_stands_out,
+                                         .evidence = {{"share", peak.share}, {"threshold", least_share}}}});
   }
 
   RelayReading result;

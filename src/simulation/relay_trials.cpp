@@ -1,6 +1,5 @@
 #include "zwidth/simulation/relay_trials.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
@@ -22,7 +22,7 @@ constexpr std::size_t samples_per_report = 1 << 10;
 
 std::size_t samples_per_trial(const Device& device, const RelayOptions& options) {
   if (!device.has_bodies() && options.start_offset != 0.0) {
-    throw Error(ErrorCode::needs_bodies, "a start offset needs bodies; a transfer function starts at rest at 0");
+    throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::start_offset_without_bodies});
   }
   require_valid(find_problem(options, device));
   return static_cast<std::size_t>(std::round(options.duration / device.loop().sampling_period));
@@ -71,12 +71,14 @@ void run(RelayTrial& trial, HybridLoop loop, std::size_t samples, SharedProgress
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RelayOptions& options, const Device& device) {
-  const auto problem = [](const char* member, auto value, std::string allowed) {
-    return OptionProblem{member, fmt::format("is {}", value), std::move(allowed)};
+  using enum ProblemCode;
+  const auto problem = [](const char* member, ProblemCode code, double value, std::vector<Subject> subjects = {}) {
+    return option_problem(
+        member, {.code = code, .evidence = {{"value", value}, {"bound", 0.0}}, .subjects = std::move(subjects)});
   };
   const double amplitude = options.relay.amplitude;
   if (!(std::isfinite(options.relay.hysteresis) && options.relay.hysteresis >= 0.0)) {
-    return problem("relay.hysteresis", options.relay.hysteresis, "a position in m or rad, 0 or more");
+    return problem("relay.hysteresis", below_bound, options.relay.hysteresis, {{"measure", "position"}});
   }
   if (auto wrong = find_problem(options.analysis)) {
     wrong->member.insert(0, "analysis.");
@@ -84,36 +86,40 @@ std::optional<OptionProblem> find_problem(const RelayOptions& options, const Dev
   }
   constexpr double largest = 1e30;  // as of a device's numbers: squares of it are still numbers
   if (!(amplitude > 0.0 && amplitude <= largest)) {
-    return problem("relay.amplitude", amplitude, "a force in N or N m above 0, at most 1e30");
+    return problem("relay.amplitude", relay_force_out_of_range, amplitude);
   }
   const auto limit = device.parameters().actuator.force_limit;
   if (limit && amplitude > *limit) {
-    return problem("relay.amplitude", amplitude, fmt::format("at most the device's actuator.force_limit, {}", *limit));
+    return option_problem("relay.amplitude",
+                          {.code = relay_force_above_limit, .evidence = {{"value", amplitude}, {"most", *limit}}});
   }
   if (!std::isfinite(options.start_offset)) {
-    return problem("start_offset", options.start_offset, "a position in m or rad");
+    return problem("start_offset", no_quantity, options.start_offset, {{"measure", "position"}});
   }
   if (!device.has_bodies() && options.start_offset != 0.0) {
-    return problem("start_offset", options.start_offset, "a transfer function starts at rest at 0");
+    return problem("start_offset", transfer_function_starts_at_rest, options.start_offset);
   }
   if (!(options.variation >= 0.0 && options.variation < 1.0)) {
-    return problem("variation", options.variation, "a relative variation, 0 up to, but not including, 1");
+    return problem("variation", no_relative_variation, options.variation);
   }
-  if (options.trials == 0) return problem("trials", options.trials, "at least 1");
+  if (options.trials == 0) {
+    return option_problem("trials", {.code = too_few, .evidence = {{"value", 0.0}, {"least", 1.0}}});
+  }
   if (!(std::isfinite(options.duration) && options.duration > 0.0)) {
-    return problem("duration", options.duration, "seconds above 0");
+    return problem("duration", no_duration, options.duration);
   }
   const double samples = std::round(options.duration / device.loop().sampling_period);
   if (samples < least_relay_samples || samples * static_cast<double>(options.trials) > most_relay_samples) {
-    return OptionProblem{
-        "duration", fmt::format("{} trials of {} s are {:.6g} samples each", options.trials, options.duration, samples),
-        fmt::format("at least {}, at most {} in all", least_relay_samples, most_relay_samples)};
+    return option_problem("duration", {.code = samples_of_trials,
+                                       .evidence = {counted("trials", options.trials),
+                                                    {"duration", options.duration},
+                                                    {"samples", samples},
+                                                    counted("least", least_relay_samples),
+                                                    counted("most", most_relay_samples)}});
   }
   if (device.loop().delay >= options.duration) {
-    return OptionProblem{
-        "duration",
-        fmt::format("{} s is no longer than the loop's delay of {} s", options.duration, device.loop().delay),
-        "a longer run"};
+    return option_problem("duration", {.code = no_longer_than_delay,
+                                       .evidence = {{"duration", options.duration}, {"delay", device.loop().delay}}});
   }
   return std::nullopt;
 }

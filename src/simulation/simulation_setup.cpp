@@ -1,13 +1,12 @@
 #include "simulation/simulation_setup.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "counted.hpp"
 #include "zwidth/model/device_operator.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/held_wall.hpp"
@@ -108,16 +107,18 @@ void start_inside_the_wall(SimulationSetup& setup, const Device& device) {
 std::optional<OptionProblem> kept_points_problem(const SimulationOptions& options, const Device& device) {
   if (options.keep_at_most) {
     if (*options.keep_at_most > 0) return std::nullopt;
-    return OptionProblem{"keep_at_most", "is 0", "1 point or more; keep_every = 0 keeps none"};
+    return option_problem("keep_at_most", {.code = ProblemCode::no_points_kept});
   }
   if (options.keep_every == 0) return std::nullopt;
   const double period = device.loop().sampling_period;
   const double samples = options.duration.value_or(default_samples * period + options.user_force.start) / period;
   const double points = samples / static_cast<double>(options.keep_every);
   if (points <= max_kept_points) return std::nullopt;
-  return OptionProblem{
-      "keep_every", fmt::format("is {}: {:.0f} points", options.keep_every, points),
-      fmt::format("{:.0f} or more: {:.0f} points at most", std::ceil(samples / max_kept_points), max_kept_points)};
+  return option_problem("keep_every", {.code = ProblemCode::too_many_points_kept,
+                                       .evidence = {counted("value", options.keep_every),
+                                                    {"points", points},
+                                                    {"least", std::ceil(samples / max_kept_points)},
+                                                    {"most", max_kept_points}}});
 }
 
 std::optional<OptionProblem> duration_problem(const SimulationOptions& options, const Device& device) {
@@ -126,23 +127,24 @@ std::optional<OptionProblem> duration_problem(const SimulationOptions& options, 
   if (!options.duration) {
     const double latest = (max_simulated_samples - default_samples) * period;
     if (options.user_force.start <= latest) return std::nullopt;
-    return OptionProblem{"user_force.start", fmt::format("is {} s", options.user_force.start),
-                         fmt::format("at most {} s", latest)};
+    return option_problem("user_force.start", {.code = ProblemCode::too_long,
+                                               .evidence = {{"value", options.user_force.start}, {"most", latest}}});
   }
   const double duration = *options.duration;
-  const auto problem = [duration](std::string allowed) {
-    return OptionProblem{"duration", fmt::format("is {} s", duration), std::move(allowed)};
+  const auto problem = [duration](ProblemCode code, std::vector<Evidence> evidence) {
+    evidence.push_back({"value", duration});
+    return option_problem("duration", {.code = code, .evidence = std::move(evidence)});
   };
   const double samples = std::round(duration / period);
   if (!(samples >= 1.0 && samples <= max_simulated_samples)) {
-    return problem(fmt::format("{} s to {} s, 1 to {} sampling periods", period, max_simulated_samples * period,
-                               max_simulated_samples));
+    return problem(ProblemCode::duration_out_of_range,
+                   {{"least", period}, {"most", max_simulated_samples * period}, {"samples", max_simulated_samples}});
   }
   if (loop.delay >= duration) {
-    return problem(fmt::format("longer than the loop's delay of {} s: no force would arrive", loop.delay));
+    return problem(ProblemCode::no_force_would_arrive, {{"delay", loop.delay}});
   }
   if (options.user_force.kind != UserForce::Kind::none && options.user_force.start >= duration) {
-    return problem(fmt::format("longer: the user's force begins at {} s only", options.user_force.start));
+    return problem(ProblemCode::over_before_user_force, {{"start", options.user_force.start}});
   }
   return std::nullopt;
 }
@@ -154,12 +156,10 @@ std::optional<OptionProblem> start_problem(const SimulationOptions& options, con
   const bool only_pushes = wall.contact == ControllerOptions::Contact::unilateral;
   if (asks_for_a_start(options)) {
     if (wall.kind == ControllerOptions::Kind::none || wall.stiffness == 0.0) {
-      return OptionProblem{"", "nothing moves the device",
-                           "add a wall (wall.stiffness), a start, a velocity or a user's force"};
+      return option_problem("", {.code = ProblemCode::nothing_moves});
     }
     if (only_pushes) {
-      return OptionProblem{"contact", "is unilateral, and nothing presses the device against the wall",
-                           "add a user's force, a start or a velocity"};
+      return option_problem("contact", {.code = ProblemCode::nothing_presses});
     }
     if (device.has_bodies() || !options.wall_position) return std::nullopt;
   }
@@ -170,9 +170,9 @@ std::optional<OptionProblem> start_problem(const SimulationOptions& options, con
     return std::nullopt;
   }
   if (!device.has_bodies()) {
-    return OptionProblem{"wall_position", "is 0, where nothing moves the device", "a number but 0"};
+    return option_problem("wall_position", {.code = ProblemCode::wall_where_nothing_moves});
   }
-  return OptionProblem{"initial_position", "every body starts at rest at 0, where nothing moves it", "a number but 0"};
+  return option_problem("initial_position", {.code = ProblemCode::starts_where_nothing_moves});
 }
 
 /// The device with the controller's wall.
@@ -254,7 +254,9 @@ std::optional<OptionProblem> find_problem(const SimulationOptions& options, cons
   if (auto problem = duration_problem(options, device)) return problem;
   if (auto problem = kept_points_problem(options, device)) return problem;
   if (!(std::isfinite(options.divergence) && options.divergence > 0.0)) {
-    return OptionProblem{"divergence", fmt::format("is {}", options.divergence), "a number of m or rad above 0"};
+    return option_problem("divergence", {.code = ProblemCode::not_above_zero_or_infinite,
+                                         .evidence = {{"value", options.divergence}},
+                                         .subjects = {{"in", "m or rad"}}});
   }
   return start_problem(options, device);
 }

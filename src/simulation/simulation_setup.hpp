@@ -29,7 +29,7 @@ void check_bodies(const Device& device, const Options& options) {
   const bool moves_a_body = options.user_force.kind != UserForce::Kind::none || !options.initial_position.empty() ||
                             !options.initial_velocity.empty();
   if (device.has_bodies() || !moves_a_body) return;
-  throw Error(ErrorCode::needs_bodies, "a transfer function has no body to hold or to start from");
+  throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_to_start_from});
 }
 
 /// Sum of the Coulomb friction of all bodies, N or N m.

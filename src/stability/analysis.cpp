@@ -1,12 +1,11 @@
 #include "zwidth/stability/analysis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
+#include "counted.hpp"
 #include "model/implausible_numbers.hpp"
 #include "require_valid.hpp"
 #include "stability/any_user_search.hpp"
@@ -261,15 +260,15 @@ std::optional<OptionProblem> find_problem(const std::optional<ValueRange>& range
   if (!range || (range->least >= 0.0 && range->greatest >= range->least && std::isfinite(range->greatest))) {
     return std::nullopt;
   }
-  return OptionProblem{member, fmt::format("is from {} to {}", range->least, range->greatest),
-                       "must be finite, >= 0 and not reversed"};
+  return option_problem(member, {.code = ProblemCode::range_not_possible,
+                                 .evidence = {{"least", range->least}, {"greatest", range->greatest}}});
 }
 
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const AnalysisOptions& options) {
   if (options.worst_user && !options.any_user) {
-    return OptionProblem{"worst_user", "is asked for without any_user", "needs the limit that it proves"};
+    return option_problem("worst_user", {.code = ProblemCode::needs_any_user});
   }
   if (options.family) {
     if (auto problem = find_problem(options.family->mass, "family.mass")) return problem;
@@ -284,11 +283,12 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
   const char* asked = options.worst_user ? "worst_user" : options.family ? "family" : nullptr;
   if (asked == nullptr) return std::nullopt;
   if (!device.has_bodies()) {
-    return OptionProblem{asked, "is a transfer function", "it has no body to hold"};
+    return option_problem(asked, {.code = ProblemCode::no_body_to_hold});
   }
   if (options.worst_user && device.bodies().size() > most_bodies_for_any_user) {
-    return OptionProblem{"worst_user", fmt::format("has {} bodies", device.bodies().size()),
-                         fmt::format("at most {}", most_bodies_for_any_user)};
+    return option_problem("worst_user", {.code = ProblemCode::too_many_bodies,
+                                         .evidence = {counted("bodies", device.bodies().size()),
+                                                      counted("most", most_bodies_for_any_user)}});
   }
   return std::nullopt;
 }

@@ -15,8 +15,8 @@ StiffnessInterval any_user_interval(const Device& device, VirtualDamper damper, 
                                     const Progress& progress) {
   const auto& uncertainty = device.parameters().uncertainty;
   if (!uncertainty || uncertainty->parameters.empty())
-    throw Error(ErrorCode::invalid_argument, "the device has no uncertainty");
-  if (draws == 0) throw Error(ErrorCode::invalid_argument, "draws is 0; must be at least 1");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_uncertainty});
+  if (draws == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_draws});
   const double own = any_user_limit(device, damper).stiffness;
   internal::DeviceDraws drawn(device, seed);
   std::vector<Device> devices;

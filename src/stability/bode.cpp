@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "counted.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
@@ -36,7 +37,7 @@ std::function<Complex(double)> telling(std::function<Complex(double)> value, con
 
 std::optional<OptionProblem> find_problem(const char* member, const std::optional<double>& frequency) {
   if (!frequency || (std::isfinite(*frequency) && *frequency > 0.0)) return std::nullopt;
-  return OptionProblem{member, fmt::format("is {}", *frequency), "a frequency in rad/s > 0"};
+  return option_problem(member, {.code = ProblemCode::no_frequency, .evidence = {{"value", *frequency}}});
 }
 
 }  // namespace
@@ -45,12 +46,13 @@ std::optional<OptionProblem> find_problem(const BodeOptions& options) {
   if (auto problem = find_problem("from", options.from)) return problem;
   if (auto problem = find_problem("to", options.to)) return problem;
   if (options.from && options.to && *options.from >= *options.to) {
-    return OptionProblem{"to", fmt::format("is {:.6g} rad/s", *options.to),
-                         fmt::format("above the lowest frequency, {:.6g} rad/s", *options.from)};
+    return option_problem("to", {.code = ProblemCode::not_above_lowest_frequency,
+                                 .evidence = {{"value", *options.to}, {"lowest", *options.from}}});
   }
   if (options.points < least_points || options.points > most_points) {
-    return OptionProblem{"points", fmt::format("is {}", options.points),
-                         fmt::format("{} to {}", least_points, most_points)};
+    return option_problem("points", {.code = ProblemCode::points_out_of_range,
+                                     .evidence = {counted("value", options.points), counted("least", least_points),
+                                                  counted("most", most_points)}});
   }
   return std::nullopt;
 }
@@ -58,8 +60,8 @@ std::optional<OptionProblem> find_problem(const BodeOptions& options) {
 std::optional<OptionProblem> find_problem(const BodeOptions& options, const Device& device) {
   if (auto problem = find_problem(options)) return problem;
   if (options.from && *options.from >= nyquist_of(device)) {
-    return OptionProblem{"from", fmt::format("is {} rad/s", *options.from),
-                         fmt::format("below the Nyquist frequency, {:.6g} rad/s", nyquist_of(device))};
+    return option_problem("from", {.code = ProblemCode::not_below_nyquist,
+                                   .evidence = {{"value", *options.from}, {"nyquist", nyquist_of(device)}}});
   }
   return std::nullopt;
 }

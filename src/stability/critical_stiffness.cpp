@@ -1,7 +1,5 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +26,7 @@ CriticalStiffness critical_stiffness(const FilteredPlant& plant, VirtualDamper d
   for (const double value : {damper.damping, damper.velocity_filter_hz}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw Error(ErrorCode::invalid_argument,
-                  "the virtual damper has " + fmt::format("{}", value) + "; must be finite and >= 0");
+                  {.code = ProblemCode::virtual_damper_below_zero, .evidence = {{"value", value}, {"finite", 1.0}}});
     }
   }
   return critical_stiffness_of(plant, stiffness_crossings(plant, damper));

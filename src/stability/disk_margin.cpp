@@ -149,7 +149,7 @@ Peak greatest_ratio(const LoopFraction& loop, const Wall& wall) {
     }
     if (peak.ratio <= before * (1.0 + tolerance)) return peak;
   }
-  throw Error(ErrorCode::did_not_converge, "the disk margin's peak could not be found");
+  throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::disk_peak_not_found});
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ double largest_after_step(const Wall& wall, double period, double spring, double
 
 ForcePerCount force_per_count(const Wall& wall, double period, double resolution) {
   if (!(period > 0.0) || !(resolution >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, "a force per count needs a period > 0 and a resolution >= 0");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::force_per_count_undefined});
   }
   ForcePerCount force;
   force.stiffness = wall.stiffness.value_or(0.0) * resolution;

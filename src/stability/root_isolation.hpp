@@ -216,11 +216,7 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
     zero_begin = -1.0;
   };
   while (!stack.empty()) {
-    if (intervals_left-- == 0)
-      throw Error(ErrorCode::did_not_converge,
-                  "not every wall at which the loop begins to oscillate was found, so no limit is given: what reaches "
-                  "the sensed body of the device's modes cancels to its 30th digit; sense nearer to the actuator, or "
-                  "merge bodies that hardly move against each other");
+    if (intervals_left-- == 0) throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossovers_not_found});
     const Interval interval = stack.back();
     const auto [begin, end, extended] = interval;
     stack.pop_back();

@@ -118,8 +118,8 @@ StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, st
                                      const Progress& progress) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (!uncertainty || uncertainty->parameters.empty())
-    throw Error(ErrorCode::invalid_argument, "the device has no uncertainty");
-  if (draws == 0) throw Error(ErrorCode::invalid_argument, "draws is 0; must be at least 1");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_uncertainty});
+  if (draws == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_draws});
   const Limit own = limit_of(device);
   internal::StagedProgress stages(progress);
   constexpr double main_stage = 0.8;

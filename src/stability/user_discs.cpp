@@ -64,7 +64,7 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
       period_(device.loop().sampling_period),
       delay_(device.loop().delay),
       plant_(filtered_plant(without_operator(device))) {
-  if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
+  if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_for_user});
   const Device free = without_operator(device);
   ModalForms forms(free, ActuatorLag::left_out);
   std::vector<ModalForm> motions;

@@ -1,7 +1,5 @@
 #include "zwidth/stability/user_family.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,9 +34,9 @@ struct Found {
 
 void check(const ValueRange& range, const char* name) {
   if (range.least >= 0.0 && range.greatest >= range.least && std::isfinite(range.greatest)) return;
-  throw Error(ErrorCode::invalid_argument,
-              "the users' " + std::string(name) + " is from " + fmt::format("{}", range.least) + " to " +
-                  fmt::format("{}", range.greatest) + "; must be finite, >= 0 and not reversed");
+  throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::users_range_not_possible,
+                                            .evidence = {{"least", range.least}, {"greatest", range.greatest}},
+                                            .subjects = {{"name", name}}});
 }
 
 class FamilySearch {
@@ -163,7 +161,7 @@ UserFamily user_family(const UserRanges& ranges, const Operator& own) {
 
 WorstOfFamily worst_of_family(const Device& device, const UserFamily& family, VirtualDamper damper,
                               const Progress& progress) {
-  if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
+  if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_for_user});
   check(family.mass, "mass");
   check(family.damping, "damping");
   check(family.stiffness, "stiffness");

@@ -1,7 +1,5 @@
 #include "zwidth/stability/wall_margins.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,8 +22,8 @@ using std::numbers::pi;
 void check(const Wall& wall) {
   for (const double value : {wall.stiffness.value_or(-1.0), wall.damping, wall.velocity_filter_hz}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
-      throw Error(ErrorCode::invalid_argument, "the wall has " + fmt::format("{}", value) +
-                                                   "; stiffness, damping and filter must be finite and >= 0");
+      throw Error(ErrorCode::invalid_argument,
+                  {.code = ProblemCode::wall_not_possible, .evidence = {{"value", value}}});
     }
   }
 }

@@ -251,7 +251,7 @@ std::optional<WorstUser> tuned_user(const Device& device, const UserDiscs& discs
 }  // namespace
 
 Device held_by(const Device& device, const UserNetwork& user) {
-  if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
+  if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_for_user});
   DeviceParameters parameters = device.parameters();
   parameters.uncertainty.reset();  // it may be of the operator that is replaced
   parameters.user = {user.mass, 0.0, user.stiffness};

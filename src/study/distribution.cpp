@@ -1,13 +1,12 @@
 #include "zwidth/study/distribution.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "counted.hpp"
 #include "require_valid.hpp"
 
 namespace zwidth {
@@ -21,21 +20,26 @@ bool has_deviation(Kind kind) { return kind == Kind::normal || kind == Kind::log
 std::optional<OptionProblem> find_discrete_problem(const Distribution& distribution) {
   const std::vector<double>& values = distribution.values;
   const std::vector<double>& weights = distribution.weights;
-  if (values.empty()) return OptionProblem{"values", "is empty", "one value at least"};
+  if (values.empty()) return option_problem("values", {.code = ProblemCode::no_values});
   if (weights.size() != values.size()) {
-    return OptionProblem{"weights", fmt::format("has length {}", weights.size()),
-                         fmt::format("must have one of each value: {}", values.size())};
+    return option_problem("weights", {.code = ProblemCode::weights_not_one_a_value,
+                                      .evidence = {internal::counted("weights", weights.size()),
+                                                   internal::counted("values", values.size())}});
   }
+  const auto entry_problem = [](const char* member, ProblemCode code, double value) {
+    return option_problem(member, {.code = code, .evidence = {{"value", value}, {"entry", 1.0}}});
+  };
   double sum = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) return OptionProblem{"values", fmt::format("has {}", values[i]), "must be finite"};
+    if (!std::isfinite(values[i])) return entry_problem("values", ProblemCode::not_finite, values[i]);
     if (i > 0 && !(values[i] > values[i - 1])) {
-      return OptionProblem{"values", fmt::format("has {} after {}", values[i], values[i - 1]), "each once, rising"};
+      return option_problem("values", {.code = ProblemCode::values_not_rising,
+                                       .evidence = {{"value", values[i]}, {"before", values[i - 1]}}});
     }
-    if (!(weights[i] > 0.0)) return OptionProblem{"weights", fmt::format("has {}", weights[i]), "must be > 0"};
+    if (!(weights[i] > 0.0)) return entry_problem("weights", ProblemCode::not_positive, weights[i]);
     sum += weights[i];
   }
-  if (!std::isfinite(sum)) return OptionProblem{"weights", "has no finite sum", "must be finite"};
+  if (!std::isfinite(sum)) return option_problem("weights", {.code = ProblemCode::no_finite_sum});
   return std::nullopt;
 }
 
@@ -50,35 +54,39 @@ double standard_score_of(const Distribution& distribution, double x) {
 std::optional<OptionProblem> find_problem(const Distribution& distribution) {
   const Kind kind = distribution.kind;
   if (kind == Kind::discrete) return find_discrete_problem(distribution);
-  const auto is = [](double value) { return fmt::format("is {}", value); };
+  using enum ProblemCode;
+  const auto problem = [](const char* member, ProblemCode code, double value) {
+    return option_problem(member, {.code = code, .evidence = {{"value", value}}});
+  };
   if (has_centre(kind) &&
       (!std::isfinite(distribution.centre) || (kind == Kind::lognormal && distribution.centre <= 0))) {
-    return OptionProblem{"centre", is(distribution.centre),
-                         kind == Kind::lognormal ? "must be finite and > 0" : "must be finite"};
+    return problem("centre", kind == Kind::lognormal ? not_finite_and_positive : not_finite, distribution.centre);
   }
   if (has_deviation(kind) && !(distribution.deviation > 0.0 && std::isfinite(distribution.deviation))) {
-    return OptionProblem{"deviation", is(distribution.deviation), "must be finite and > 0"};
+    return problem("deviation", not_finite_and_positive, distribution.deviation);
   }
   if (!has_deviation(kind) && !(std::isfinite(distribution.lower) && std::isfinite(distribution.upper))) {
-    return OptionProblem{std::isfinite(distribution.lower) ? "upper" : "lower", "is not finite", "must be finite"};
+    return option_problem(std::isfinite(distribution.lower) ? "upper" : "lower", {.code = not_finite});
   }
-  if (std::isnan(distribution.lower)) return OptionProblem{"lower", "is nan", "must be a number"};
-  if (std::isnan(distribution.upper)) return OptionProblem{"upper", "is nan", "must be a number"};
+  if (std::isnan(distribution.lower)) return problem("lower", not_a_number, std::abs(distribution.lower));
+  if (std::isnan(distribution.upper)) return problem("upper", not_a_number, std::abs(distribution.upper));
   if (!(distribution.lower < distribution.upper)) {
-    return OptionProblem{"upper", is(distribution.upper),
-                         fmt::format("must be above the lower end, {}", distribution.lower)};
+    return option_problem("upper", {.code = not_above_lower_end,
+                                    .evidence = {{"value", distribution.upper}, {"least", distribution.lower}}});
   }
   if (kind == Kind::triangular &&
       !(distribution.lower <= distribution.centre && distribution.centre <= distribution.upper)) {
-    return OptionProblem{"centre", is(distribution.centre),
-                         fmt::format("must be from {} to {}", distribution.lower, distribution.upper)};
+    return option_problem(
+        "centre",
+        {.code = not_between,
+         .evidence = {{"value", distribution.centre}, {"least", distribution.lower}, {"most", distribution.upper}}});
   }
   if (has_deviation(kind)) {
     const double from = standard_score_of(distribution, distribution.lower);
     const double to = standard_score_of(distribution, distribution.upper);
     constexpr double farthest = 8.0;  // standard deviations: what is left of the normal would be rounding
-    if (from > farthest) return OptionProblem{"lower", is(distribution.lower), "must leave a part of the distribution"};
-    if (to < -farthest) return OptionProblem{"upper", is(distribution.upper), "must leave a part of the distribution"};
+    if (from > farthest) return problem("lower", no_part_left, distribution.lower);
+    if (to < -farthest) return problem("upper", no_part_left, distribution.upper);
   }
   return std::nullopt;
 }

@@ -1,13 +1,12 @@
 #include "zwidth/study/rare_failures.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "counted.hpp"
 #include "study/philox.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
@@ -261,11 +260,13 @@ Points failing_centres(RareSearch& search, const Drawn& pilot) {
 void require(const StudyRun& run, const RareFailureOptions& options) {
   const Specification& wanted = run.options().specification;
   if (!wanted.critical_stiffness && !wanted.any_user) {
-    throw Error(ErrorCode::invalid_argument, "specification: is missing; rare failures need one");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::specification_missing});
   }
   if (options.samples < least_samples || options.samples > most_samples) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("samples is {}; must be {} to {}", options.samples, least_samples, most_samples));
+                {.code = ProblemCode::samples_out_of_range,
+                 .evidence = {internal::counted("value", options.samples), internal::counted("least", least_samples),
+                              internal::counted("most", most_samples)}});
   }
 }
 

@@ -1,12 +1,11 @@
 #include "zwidth/study/region_contours.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
@@ -118,14 +117,14 @@ std::optional<OptionProblem> internal::find_region_problem(std::uint64_t units, 
                                                            const Device& device,
                                                            const StudyDistributions& distributions) {
   if (units < least_region_units || units > most_region_units || units > samples) {
-    return OptionProblem{"region_units", fmt::format("is {}", units),
-                         fmt::format("must be 0, or {} to {}, and no more than the {} samples", least_region_units,
-                                     most_region_units, samples)};
+    return option_problem("region_units",
+                          {.code = ProblemCode::count_out_of_range_or_zero,
+                           .evidence = {counted("value", units), counted("least", least_region_units),
+                                        counted("most", most_region_units), counted("samples", samples)}});
   }
   for (const StudyParameter& each : distributions.parameters) {
     if (full_parameter_key(device.parameters(), each.key) == "wall.damping") {
-      return OptionProblem{"region_units", "is given, and wall.damping varies",
-                           "the regions are over every damping: leave that parameter out"};
+      return option_problem("region_units", {.code = ProblemCode::damping_varies});
     }
   }
   return std::nullopt;

@@ -1,7 +1,5 @@
 #include "zwidth/study/sample_statistics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <boost/math/special_functions/beta.hpp>
@@ -10,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "counted.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -38,7 +37,9 @@ std::uint64_t binomial_quantile(double share, std::uint64_t n, double p) {
 
 void require_share(double value, const char* name) {
   if (!(value > 0.0 && value < 1.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("{} is {}; must be above 0 and below 1", name, value));
+    throw Error(
+        ErrorCode::invalid_argument,
+        {.code = ProblemCode::share_not_possible, .evidence = {{"value", value}}, .subjects = {{"name", name}}});
   }
 }
 
@@ -64,7 +65,9 @@ double value_of(std::uint64_t key) {
 Proportion proportion(std::uint64_t count, std::uint64_t total, double confidence) {
   require_share(confidence, "confidence");
   if (total == 0 || count > total) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("{} of {} is no share", count, total));
+    throw Error(ErrorCode::invalid_argument,
+                {.code = ProblemCode::count_no_share,
+                 .evidence = {internal::counted("count", count), internal::counted("total", total)}});
   }
   const double tail = 0.5 * (1.0 - confidence);
   const auto k = static_cast<double>(count);
@@ -78,8 +81,8 @@ Proportion proportion(std::uint64_t count, std::uint64_t total, double confidenc
 StatisticInterval weighted_sum_interval(double sum, double squares, double largest, double confidence) {
   require_share(confidence, "confidence");
   if (!(largest > 0.0 && largest <= sum && squares > 0.0 && std::isfinite(sum) && std::isfinite(squares))) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("weights of sum {}, squares {}, largest {} are none", sum, squares, largest));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::weights_not_possible,
+                                              .evidence = {{"sum", sum}, {"squares", squares}, {"largest", largest}}});
   }
   const auto quantile = [](double mean, double variance, double share) {
     return variance / mean * boost::math::gamma_p_inv(mean / variance * mean, share);

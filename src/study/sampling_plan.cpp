@@ -1,11 +1,10 @@
 #include "zwidth/study/sampling_plan.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <boost/random/detail/sobol_table.hpp>
 
+#include "counted.hpp"
 #include "require_valid.hpp"
 #include "study/philox.hpp"
 
@@ -70,11 +69,16 @@ std::optional<OptionProblem> SamplingPlan::find_problem(SamplingScheme sampling,
                                                         std::size_t dimensions) {
   const std::uint64_t most = sampling == SamplingScheme::sobol ? most_sobol_samples : most_study_samples;
   if (samples < 1 || samples > most) {
-    return OptionProblem{"samples", fmt::format("is {}", samples), fmt::format("must be 1 to {}", most)};
+    return option_problem("samples", {.code = ProblemCode::count_out_of_range,
+                                      .evidence = {internal::counted("value", samples), internal::counted("least", 1),
+                                                   internal::counted("most", most)}});
   }
   if (dimensions < 1 || dimensions > most_study_parameters) {
-    return OptionProblem{"parameters", fmt::format("are {}", dimensions),
-                         fmt::format("must be 1 to {}", most_study_parameters)};
+    return option_problem("parameters", {.code = ProblemCode::count_out_of_range,
+                                         .evidence = {internal::counted("value", dimensions),
+                                                      internal::counted("least", 1),
+                                                      internal::counted("most", most_study_parameters),
+                                                      {"several", 1.0}}});
   }
   return std::nullopt;
 }

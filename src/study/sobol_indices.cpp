@@ -1,10 +1,9 @@
 #include "zwidth/study/sobol_indices.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/study/sampling_plan.hpp"
 
@@ -30,9 +29,11 @@ MeanAndError mean_of(std::size_t count, const Term& term) {
 }
 
 std::vector<double> checked(std::vector<double> values, std::size_t count) {
-  if (values.size() != count) throw Error(ErrorCode::invalid_argument, "answers: not as many as points");
+  if (values.size() != count) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::answers_not_one_a_point});
   for (const double value : values) {
-    if (!std::isfinite(value)) throw Error(ErrorCode::invalid_argument, fmt::format("an answer is {}", value));
+    if (!std::isfinite(value))
+      throw Error(ErrorCode::invalid_argument,
+                  {.code = ProblemCode::answer_not_finite, .evidence = {{"value", value}}});
   }
   return values;
 }
@@ -42,8 +43,10 @@ std::vector<double> checked(std::vector<double> values, std::size_t count) {
 std::vector<SobolIndex> sobol_indices(std::size_t dimensions, std::uint64_t samples, std::uint64_t seed,
                                       const ManyAnswers& answers) {
   if (dimensions < 1 || dimensions > most_index_dimensions || samples < 2) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("{} dimensions and {} samples; must be 1 to {}, and 2 or more",
-                                                         dimensions, samples, most_index_dimensions));
+    throw Error(ErrorCode::invalid_argument,
+                {.code = ProblemCode::indices_not_possible,
+                 .evidence = {internal::counted("dimensions", dimensions), internal::counted("samples", samples),
+                              internal::counted("most", most_index_dimensions)}});
   }
   const SamplingPlan plan(SamplingScheme::sobol, samples, 2 * dimensions, seed);
   const auto count = static_cast<std::size_t>(samples);

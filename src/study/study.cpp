@@ -1,11 +1,10 @@
 #include "zwidth/study/study.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
@@ -194,8 +193,9 @@ Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& pr
 Study study(const Device& device, const StudyDistributions& distributions, const StudyOptions& options,
             const Progress& progress) {
   if (options.samples > most_samples_in_memory) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("samples is {}; at most {} are kept in memory", options.samples, most_samples_in_memory));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::too_many_samples_in_memory,
+                                              .evidence = {internal::counted("value", options.samples),
+                                                           internal::counted("most", most_samples_in_memory)}});
   }
   const StudyRun run(device, distributions, options);
   StagedProgress stages(progress);

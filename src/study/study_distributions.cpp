@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "eigenvalues.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -21,34 +22,37 @@ using Matrix = std::vector<std::vector<double>>;
 
 std::optional<DeviceProblem> find_correlation_problem(const Matrix& correlation, std::size_t count) {
   if (correlation.empty()) return std::nullopt;
-  const auto problem = [](std::string what, std::string allowed) {
-    return DeviceProblem{"correlation.matrix", std::move(what), std::move(allowed)};
-  };
+  const auto problem = [](Problem found) { return device_problem("correlation.matrix", std::move(found)); };
   if (correlation.size() != count) {
-    return problem(fmt::format("has {} rows", correlation.size()),
-                   fmt::format("must have one per parameter: {}", count));
+    return problem(
+        {.code = ProblemCode::rows_not_one_a_parameter,
+         .evidence = {internal::counted("rows", correlation.size()), internal::counted("parameters", count)}});
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (correlation[i].size() != count) {
-      return problem(fmt::format("has a row of length {}", correlation[i].size()), fmt::format("must be of {}", count));
+      return problem(
+          {.code = ProblemCode::row_of_other_length,
+           .evidence = {internal::counted("length", correlation[i].size()), internal::counted("parameters", count)}});
     }
   }
   Eigen::MatrixXd matrix(count, count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (correlation[i][i] != 1.0) return problem(fmt::format("has {} on its diagonal", correlation[i][i]), "must be 1");
+    if (correlation[i][i] != 1.0)
+      return problem({.code = ProblemCode::diagonal_not_one, .evidence = {{"value", correlation[i][i]}}});
     for (std::size_t j = 0; j < count; ++j) {
       const double value = correlation[i][j];
-      if (!(std::abs(value) <= 1.0)) return problem(fmt::format("has {}", value), "must be from -1 to 1");
+      if (!(std::abs(value) <= 1.0))
+        return problem({.code = ProblemCode::no_correlation, .evidence = {{"value", value}}});
       if (value != correlation[j][i]) {
-        return problem(fmt::format("is not symmetric: {} and {}", value, correlation[j][i]), "must be symmetric");
+        return problem(
+            {.code = ProblemCode::not_symmetric, .evidence = {{"value", value}, {"other", correlation[j][i]}}});
       }
       matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value;
     }
   }
   const double least = internal::symmetric_eigenvalues(matrix).minCoeff();
   if (least < least_eigenvalue) {
-    return problem(fmt::format("is not positive definite: its least eigenvalue is {:.3g}", least),
-                   "no numbers vary together like that; bring the correlations nearer to 0");
+    return problem({.code = ProblemCode::not_positive_definite, .evidence = {{"eigenvalue", least}}});
   }
   return std::nullopt;
 }
@@ -63,14 +67,15 @@ std::optional<DeviceProblem> find_reach_problem(const Device& device, const Stud
     set_parameter(parameters, one.key, value);
     const auto problem = find_problem(parameters);
     if (!problem) continue;
-    const bool is_discrete = one.distribution.kind == Distribution::Kind::discrete;
-    const char* end = value == quantile.least() ? "lower" : "upper";
-    return DeviceProblem{
-        place,
-        fmt::format("{}: reaches {:.6g}, which is no device: {} {}", one.key, value, problem->key, problem->what),
-        fmt::format(
-            "{} {}; {}", problem->key, problem->allowed,
-            is_discrete ? "leave that value out" : fmt::format("cut it off with `{}`, or lessen its width", end))};
+    Problem reaches{.code = ProblemCode::reaches_no_device,
+                    .evidence = {{"value", value}},
+                    .subjects = {{"name", one.key},
+                                 {"key", problem->key},
+                                 {"what", problem->what},
+                                 {"allowed", problem->allowed},
+                                 {"end", value == quantile.least() ? "lower" : "upper"}}};
+    if (one.distribution.kind == Distribution::Kind::discrete) reaches.evidence.push_back({"discrete", 1.0});
+    return device_problem(place, std::move(reaches));
   }
   return std::nullopt;
 }
@@ -102,10 +107,11 @@ Matrix root_of(const Matrix& correlation) {
 
 std::optional<DeviceProblem> find_problem(const Device& device, const StudyDistributions& distributions) {
   const auto& parameters = distributions.parameters;
-  if (parameters.empty()) return DeviceProblem{"parameter", "none is given", "must be [[parameter]], one at least"};
+  if (parameters.empty()) return device_problem("parameter", {.code = ProblemCode::no_parameters});
   if (parameters.size() > most_study_parameters) {
-    return DeviceProblem{"parameter", fmt::format("{} are given", parameters.size()),
-                         fmt::format("must be at most {}", most_study_parameters)};
+    return device_problem("parameter", {.code = ProblemCode::too_many_parameters,
+                                        .evidence = {internal::counted("parameters", parameters.size()),
+                                                     internal::counted("most", most_study_parameters)}});
   }
   const std::vector<std::string> known = parameter_keys(device.parameters());
   std::vector<std::string> seen;
@@ -113,12 +119,14 @@ std::optional<DeviceProblem> find_problem(const Device& device, const StudyDistr
     const std::string place = fmt::format("parameter.{}", i);
     std::string key = full_parameter_key(device.parameters(), parameters[i].key);
     if (std::ranges::find(known, key) == known.end()) {
-      return DeviceProblem{place + ".key", fmt::format("\"{}\" is no number of the device", parameters[i].key),
-                           fmt::format("must be one of {}", fmt::join(known, ", "))};
+      return device_problem(place + ".key", {.code = ProblemCode::no_number_of_device,
+                                             .evidence = {{"quoted", 1.0}},
+                                             .subjects = {{"name", parameters[i].key},
+                                                          {"numbers", fmt::format("{}", fmt::join(known, ", "))}}});
     }
     if (std::ranges::find(seen, key) != seen.end()) {
-      return DeviceProblem{place + ".key", fmt::format("\"{}\" is given twice", parameters[i].key),
-                           "must be given once"};
+      return device_problem(place + ".key",
+                            {.code = ProblemCode::parameter_given_twice, .subjects = {{"name", parameters[i].key}}});
     }
     seen.push_back(std::move(key));
     if (const auto problem = find_problem(parameters[i].distribution)) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "require_valid.hpp"
 #include "study/study_parts.hpp"
 #include "thread_arena.hpp"
@@ -22,7 +23,8 @@ constexpr std::uint64_t least_index_samples = 16;  // fewer tell no error of an 
 
 std::optional<OptionProblem> find_specification_problem(const char* member, std::optional<double> value) {
   if (!value || (std::isfinite(*value) && *value > 0.0)) return std::nullopt;
-  return OptionProblem{fmt::format("specification.{}", member), fmt::format("is {}", *value), "must be finite and > 0"};
+  return option_problem(std::string("specification.") + member,
+                        {.code = ProblemCode::not_finite_and_positive, .evidence = {{"value", *value}}});
 }
 
 StudyOptions completed(StudyOptions options) {
@@ -49,21 +51,25 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
   for (const auto& [member, value] : {std::pair{"index_samples", options.index_samples},
                                       std::pair{"tightening_samples", options.tightening_samples}}) {
     if (value > most_side_samples) {
-      return OptionProblem{member, fmt::format("is {}", value), fmt::format("must be at most {}", most_side_samples)};
+      return option_problem(member, {.code = ProblemCode::count_too_large,
+                                     .evidence = {counted("value", value), counted("most", most_side_samples)}});
     }
   }
   if (options.index_samples != 0 && options.index_samples < least_index_samples) {
-    return OptionProblem{"index_samples", fmt::format("is {}", options.index_samples),
-                         fmt::format("must be 0, or {} to {}", least_index_samples, most_side_samples)};
+    return option_problem("index_samples",
+                          {.code = ProblemCode::count_out_of_range_or_zero,
+                           .evidence = {counted("value", options.index_samples), counted("least", least_index_samples),
+                                        counted("most", most_side_samples)}});
   }
   const Specification& wanted = options.specification;
   if (options.rare_samples != 0) {
     if (options.rare_samples < 100 || options.rare_samples > most_side_samples) {
-      return OptionProblem{"rare_samples", fmt::format("is {}", options.rare_samples),
-                           fmt::format("must be 0, or 100 to {}", most_side_samples)};
+      return option_problem("rare_samples", {.code = ProblemCode::count_out_of_range_or_zero,
+                                             .evidence = {counted("value", options.rare_samples), counted("least", 100),
+                                                          counted("most", most_side_samples)}});
     }
     if (!wanted.critical_stiffness && !wanted.any_user) {
-      return OptionProblem{"rare_samples", "is given without a specification", "failures need [specification]"};
+      return option_problem("rare_samples", {.code = ProblemCode::no_specification});
     }
   }
   if (options.region_units != 0) {
@@ -73,8 +79,8 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
   if (auto problem = find_specification_problem("critical_stiffness", wanted.critical_stiffness)) return problem;
   if (auto problem = find_specification_problem("any_user", wanted.any_user)) return problem;
   if ((options.any_user || wanted.any_user) && !device.has_bodies()) {
-    return OptionProblem{options.any_user ? "any_user" : "specification.any_user", "is asked of a transfer function",
-                         "it has no body for a user to hold"};
+    return option_problem(options.any_user ? "any_user" : "specification.any_user",
+                          {.code = ProblemCode::asked_of_transfer_function});
   }
   return find_problem(BatchOptions{.threads = options.threads}, device);
 }

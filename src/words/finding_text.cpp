@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "percent.hpp"
+#include "words/percent.hpp"
 #include "words/phrase.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
@@ -20,8 +20,9 @@ const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
     for (const std::span<const Phrase> room :
-         {model_phrases(), stability_phrases(), design_phrases(), study_phrases(), simulation_phrases(), rig_phrases(),
-          signal_phrases(), io_phrases(), response_phrases(), identification_phrases()}) {
+         {model_phrases(), stability_phrases(), design_phrases(), reason_phrases(), study_phrases(),
+          simulation_phrases(), relay_phrases(), rig_phrases(), signal_phrases(), io_phrases(), response_phrases(),
+          identification_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);
     }
     return result;
@@ -45,15 +46,35 @@ std::string time_text(double time) {
   return fmt::format("{:.6g} s", time);
 }
 
+// A quantity with the units of both motions.
+std::string measure_text(std::string_view measure) {
+  static constexpr std::array measures{std::pair{"force", "a force in N or N m"},
+                                       std::pair{"position", "a position in m or rad"},
+                                       std::pair{"distance", "a distance in m or rad"},
+                                       std::pair{"speed", "a speed in m/s or rad/s"},
+                                       std::pair{"time", "a time in s"},
+                                       std::pair{"stiffness", "a stiffness in N/m or N m/rad"}};
+  for (const auto& [name, text] : measures) {
+    if (measure == name) return text;
+  }
+  throw Error(ErrorCode::invalid_argument, fmt::format("\"{}\" is no measure", measure));
+}
+
 std::string value_text(const Evidence& evidence, std::string_view format) {
   if (format.empty()) {
     return evidence.unit.empty() ? number(evidence.value) : quantity(evidence.value, evidence.unit);
   }
+  if (format == "exact") return fmt::format("{}", evidence.value);
   if (format == "n") return fmt::format("{:.0f}", evidence.value);
   if (format == "s") return evidence.value == 1.0 ? "" : "s";
   if (format == "time") return time_text(evidence.value);
   if (format == "percent") return percent(evidence.value);
   if (format == "limit") return !std::isfinite(evidence.value) ? "every stiffness" : value_text(evidence, {});
+  // "N s/m": the damping of a wall
+  if (format == "gain" && evidence.unit.find(" s") != std::string_view::npos) {
+    return fmt::format("{} {}", number(evidence.value), evidence.unit);
+  }
+  if (format == "gain") return value_text(evidence, {});
   if (format == "%") return fmt::format("{:.0f}", 100.0 * evidence.value);
   const bool is_share = format.front() == '%';
   const std::string spec = fmt::format("{{:{}}}", is_share ? format.substr(1) : format);
@@ -74,8 +95,6 @@ bool holds(const Finding& finding, std::string_view condition) {
   return value == condition.substr(equals + 1);
 }
 
-std::string filled_in(const Finding& finding, std::string_view phrase);
-
 // What stands in a pair of braces.
 std::string filled(const Finding& finding, std::string_view field) {
   if (field.front() == '?' || field.front() == '!') {
@@ -89,7 +108,7 @@ std::string filled(const Finding& finding, std::string_view field) {
   const auto evidence = std::ranges::find(finding.evidence, name, &Evidence::name);
   if (evidence != finding.evidence.end()) return value_text(*evidence, format);
   const auto subject = std::ranges::find(finding.subjects, name, &Subject::name);
-  if (subject != finding.subjects.end()) return subject->text;
+  if (subject != finding.subjects.end()) return format == "of" ? measure_text(subject->text) : subject->text;
   if (name == "key") return finding.key;
   throw Error(ErrorCode::invalid_argument,
               fmt::format("the finding \"{}\" lacks \"{}\", which its sentence names", name_of(finding.code), name));
@@ -105,7 +124,9 @@ std::size_t closing_brace(std::string_view phrase, std::size_t open) {
   return phrase.size() - 1;
 }
 
-std::string filled_in(const Finding& finding, std::string_view phrase) {
+}  // namespace
+
+std::string internal::filled_in(const Finding& finding, std::string_view phrase) {
   std::string result;
   while (!phrase.empty()) {
     const std::size_t open = phrase.find('{');
@@ -118,25 +139,31 @@ std::string filled_in(const Finding& finding, std::string_view phrase) {
   return result;
 }
 
-}  // namespace
-
 std::string_view name_of(FindingCode code) { return phrase_of(code).name; }
+
+Finding::Severity worst_severity(FindingCode code) { return phrase_of(code).worst; }
 
 FindingWords words_of(const Finding& finding) {
   const Phrase& phrase = phrase_of(finding.code);
-  const auto recording = std::ranges::find(finding.subjects, of_recording, &Subject::name);
-  const std::string whose = recording == finding.subjects.end() ? std::string() : recording->text + ": ";
+  std::string whose;
+  for (const Subject& each : finding.subjects) {
+    if (each.name == of_recording) whose = each.text + ": ";
+    if (each.name == of_holder) whose = "with " + each.text + ": ";
+  }
   return {whose + filled_in(finding, phrase.what), filled_in(finding, phrase.consequence),
           filled_in(finding, phrase.remedy)};
 }
 
-std::string text(const Finding& finding) {
-  const FindingWords words = words_of(finding);
+std::string text(const FindingWords& words) {
   std::string line = words.what;
   for (const std::string& part : {words.consequence, words.remedy}) {
     if (!part.empty()) line += "; " + part;
   }
   return line;
 }
+
+std::string text(const Finding& finding) { return text(words_of(finding)); }
+
+std::string text(const std::optional<Finding>& finding) { return finding ? text(*finding) : std::string(); }
 
 }  // namespace zwidth

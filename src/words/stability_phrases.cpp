@@ -6,69 +6,71 @@ namespace zwidth::internal {
 
 std::span<const Phrase> stability_phrases() {
   using enum FindingCode;
+  using enum Finding::Severity;
   static constexpr std::array phrases{
       Phrase{
-          wall_not_surely_stable, "wall_not_surely_stable",
+          wall_not_surely_stable, "wall_not_surely_stable", doubt,
           "the wall of {stiffness} is not surely stable: the 95 % interval of the critical stiffness begins at {lower}",
           "", "stay below that, or identify the device more closely"},
       Phrase{
-          interval_open, "interval_open",
+          interval_open, "interval_open", doubt,
           "the uncertainty of the parameters in the file leaves the critical stiffness open within more than a factor "
           "of 2: measure them more closely"},
-      Phrase{second_route_contradicts, "second_route_contradicts",
+      Phrase{second_route_contradicts, "second_route_contradicts", refusal,
              "whether the loop is stable at {stiffness:.6g} is open, so no limit is given: two computations contradict "
              "each other where poles of the device lie close together",
              "", "drop a lag that hardly matters, or merge bodies that move alike"},
-      Phrase{second_route_undecided, "second_route_undecided",
+      Phrase{second_route_undecided, "second_route_undecided", doubt,
              "nothing confirms the answer at {stiffness:.6g}, so it may be wrong: the loop has too many states for a "
              "second computation, or a pole too near the unit circle",
              "", "shorten the delay or merge bodies that hardly move against each other"},
-      Phrase{touch_without_pole, "touch_without_pole",
+      Phrase{touch_without_pole, "touch_without_pole", doubt,
              "the limit of {limit:.6g} may be too low: a pole is to touch the unit circle there, and none does by a "
              "second computation",
              "walls up to it are stable, stiffer ones may be", "merge bodies that move alike"},
-      Phrase{slow_instability, "slow_instability",
+      Phrase{slow_instability, "slow_instability", doubt,
              "the device by itself is unstable, but so slowly that a wall of {holding:.3g} holds it, and walls up to "
              "{limit:.6g} are stable: if its numbers were computed, rounding moved a pole that belongs at s = 0",
              "", "write the coefficient that makes it as 0"},
-      Phrase{delay_margin_contradicts, "delay_margin_contradicts",
+      Phrase{delay_margin_contradicts, "delay_margin_contradicts", doubt,
              "the delay margin is left out: two computations contradict each other on it", "",
              "raise the delay of the loop in steps and analyze each"},
-      Phrase{margins_contradict, "margins_contradict",
+      Phrase{margins_contradict, "margins_contradict", doubt,
              "the margins of phase, delay and disk are left out: two computations contradict each other on them",
              "poles lie too close together to tell them apart"},
-      Phrase{disk_margin_contradicts, "disk_margin_contradicts",
+      Phrase{disk_margin_contradicts, "disk_margin_contradicts", doubt,
              "the disk margin is left out: it contradicts the margins of gain and phase"},
-      Phrase{disk_margin_left_out, "disk_margin_left_out",
+      Phrase{disk_margin_left_out, "disk_margin_left_out", note,
              "the disk margin is left out: the wall is too far below every limit for its search to end",
              "the gain, phase and delay margins of the wall stand",
              "judge this wall by those, or give a stiffness nearer to the limits"},
-      Phrase{critical_damping_left_out, "critical_damping_left_out", "the largest damper without a spring is left out",
-             "{reason}", "simulate such a damper before it is rendered"},
-      Phrase{unstable_with_nobody, "unstable_with_nobody", "the wall is unstable with nobody holding",
+      Phrase{critical_damping_left_out, "critical_damping_left_out", note,
+             "the largest damper without a spring is left out", "{reason}",
+             "simulate such a damper before it is rendered"},
+      Phrase{unstable_with_nobody, "unstable_with_nobody", warning, "the wall is unstable with nobody holding",
              "the file's user alone keeps it stable: it shakes once the hand lets go",
              "stay below the limit with nobody holding"},
-      Phrase{stiffer_than_any_user_limit, "stiffer_than_any_user_limit",
+      Phrase{stiffer_than_any_user_limit, "stiffer_than_any_user_limit", warning,
              "the wall is stiffer than the limit with any passive user",
              "stable alone only: some user's grasp makes it oscillate",
              "stay below that limit, or give the users whom you expect as a family"},
-      Phrase{damper_above_any_user_limit, "damper_above_any_user_limit",
+      Phrase{damper_above_any_user_limit, "damper_above_any_user_limit", warning,
              "the wall has more damping than the limit with any passive user",
              "stable alone only: some user's grasp makes it oscillate", "stay below that limit"},
-      Phrase{too_many_bodies_for_any_user, "too_many_bodies_for_any_user",
+      Phrase{too_many_bodies_for_any_user, "too_many_bodies_for_any_user", note,
              "the limit over all passive users is not computed for {bodies:n} bodies; at most {most:n}",
              "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"},
-      Phrase{any_user_limit_may_miss_frequency, "any_user_limit_may_miss_frequency",
+      Phrase{any_user_limit_may_miss_frequency, "any_user_limit_may_miss_frequency", doubt,
              "the limit for any passive user may be missed at a frequency at which the damped bodies hardly move: give "
              "the other bodies some damping, or join bodies that move as one"},
-      Phrase{any_user_limit_lowered, "any_user_limit_lowered",
+      Phrase{any_user_limit_lowered, "any_user_limit_lowered", doubt,
              "a spring or mass at the held body that resonates where the damped bodies hardly move destabilises softer "
              "walls than the limit found for any passive user, which is lowered to that"},
-      Phrase{any_user_limit_loose, "any_user_limit_loose",
+      Phrase{any_user_limit_loose, "any_user_limit_loose", doubt,
              "the limit for any passive user is shown to hold only to {unproven:.1g} of it, which is taken off: the "
              "limit given is safe and may be that much too low",
              "", "check the device's numbers for values that lie many powers of ten apart"},
-      Phrase{any_user_limit_truncated, "any_user_limit_truncated",
+      Phrase{any_user_limit_truncated, "any_user_limit_truncated", doubt,
              "the sum over aliases leaves {truncation:.1g} of the limit for any passive user, which is taken off: the "
              "device has modes or corners far above the sampling rate"}};
   return phrases;

@@ -13,6 +13,7 @@
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_damping.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {
 namespace {
@@ -28,7 +29,7 @@ TEST(DesignTarget, NeededDampingOfARigidDeviceIsTheClosedForm) {
   const DesignTargets targets = design_targets(Device(test::rigid_parameters()), {.stiffness = 20e3});
   for (const DesignTarget& each : targets.targets) {
     if (each.key != "body.body.damping") continue;
-    ASSERT_TRUE(each.value_needed) << each.why;
+    ASSERT_TRUE(each.value_needed) << text(each.why);
     const double b = *each.value_needed;
     const double a = std::exp(-b * 1e-3 / 5.4);
     EXPECT_NEAR(b * b * (1.0 - a) / (5.4 * (1.0 - a) - a * b * 1e-3) / 20e3, 1.0, 1e-6);
@@ -60,10 +61,10 @@ TEST(DesignTarget, EveryNeededValueIsConfirmed) {
           }
           last_cost = cost;
           lowers_users = lowers;
-          EXPECT_FALSE(each.why.empty());
+          EXPECT_NE(each.why.code, FindingCode::stated);
           if (!each.value_needed) continue;
           const double there = critical_stiffness(with(device, each.key, *each.value_needed)).stiffness;
-          const bool jumps = each.why.find("jumps") != std::string::npos;
+          const bool jumps = each.why.code == FindingCode::limit_jumps_across_target;
           if (jumps) {
             const auto reached = [&](double share) {
               return critical_stiffness(with(device, each.key, *each.value_needed * share)).stiffness >= target;
@@ -207,7 +208,7 @@ TEST(DesignTarget, OfTheLargestDamper) {
     for (const DesignTarget& each : targets.targets) {
       SCOPED_TRACE(each.key);
       EXPECT_NE(each.key, "wall.damping");
-      if (!each.value_needed || each.why.find("jumps") != std::string::npos) continue;
+      if (!each.value_needed || each.why.code == FindingCode::limit_jumps_across_target) continue;
       const Device changed = with(device, each.key, *each.value_needed);
       const double users_then = any_user_damping(changed).damping;
       EXPECT_NEAR((of_users ? users_then : critical_damping(changed).damping) / *targets.target, 1.0, 1e-6);
@@ -222,10 +223,11 @@ TEST(DesignTarget, OfTheLargestDamper) {
 TEST(DesignTarget, SaysInItsUnitWhyNoValueIsEnough) {
   for (const DesignTarget& each : design_targets(Device(test::lhifam_parameters()), {.stiffness = 20e3}).targets) {
     if (each.key == "body.motor.mass") {
-      EXPECT_EQ(each.why, "within a factor of 1000 of its value the limit gets no higher than 10.14 kN/m");
+      EXPECT_EQ(text(each.why), "within a factor of 1000 of its value the limit gets no higher than 10.14 kN/m");
     }
     if (each.key == "loop.delay") {
-      EXPECT_EQ(each.why, "at any value from 0 up to what is likely the limit gets no higher than 8.849 kN/m");
+      EXPECT_EQ(each.why.code, FindingCode::limit_stays_below_target);
+      EXPECT_EQ(text(each.why), "at any value from 0 up to what is likely the limit gets no higher than 8.849 kN/m");
     }
   }
 }

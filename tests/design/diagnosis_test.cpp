@@ -65,7 +65,7 @@ TEST(Diagnosis, WhereNothingFitsTheNearestIsNamedAndWhatWouldHaveToBeOtherwise) 
   EXPECT_EQ(diagnosis.trust.verdict, Trust::Verdict::doubtful);
   for (const OscillationCandidate& each : diagnosis.candidates) {
     EXPECT_FALSE(each.fits);
-    EXPECT_FALSE(each.why.empty());
+    EXPECT_NE(each.why.code, FindingCode::stated);
   }
   const OscillationCandidate& user = diagnosis.candidates.front();
   EXPECT_NEAR(user.otherwise.value().limit, 5000.0 / 5776.09, 1e-4);
@@ -286,7 +286,9 @@ TEST(Diagnosis, WithoutAStiffnessACrossoverIsNamedAndWhatComesFirst) {
   ASSERT_TRUE(diagnosis.cause);
   EXPECT_EQ(diagnosis.cause, OscillationCause::device);
   EXPECT_EQ(diagnosis.candidates.front().limited_by->mode, 1);
-  EXPECT_NE(diagnosis.candidates.front().why.find("already oscillate"), std::string::npos);
+  const Finding& why = diagnosis.candidates.front().why;
+  EXPECT_EQ(why.code, FindingCode::crossover_at_frequency);
+  EXPECT_NE(std::ranges::find(why.evidence, "softest", &Evidence::name), why.evidence.end());
   EXPECT_FALSE(diagnosis.remarks.empty());
 }
 

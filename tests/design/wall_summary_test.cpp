@@ -24,7 +24,7 @@ TEST(WallSummary, TheStiffestWallIsTheRegions) {
     const Device device(each);
     const WallSummary summary = summary_of(device);
     ASSERT_TRUE(summary.with_damper);
-    EXPECT_TRUE(summary.why_no_damper.empty());
+    EXPECT_FALSE(summary.why_no_damper);
     EXPECT_EQ(summary.with_damper->holder, Holder::any_user);
     EXPECT_EQ(any_user_limit(device, {summary.with_damper->damping, 0.0}).stiffness, summary.with_damper->stiffness);
     const AnyUserRegion region =
@@ -73,8 +73,9 @@ TEST(WallSummary, ManyBodiesAreLeftOutWithAWord) {
   const WallSummary summary = summary_of(Device(chain));
   EXPECT_FALSE(summary.with_damper);
   EXPECT_FALSE(summary.with_margins);
-  EXPECT_FALSE(summary.why_no_damper.empty());
-  EXPECT_FALSE(summary.why_no_margins.empty());
+  ASSERT_TRUE(summary.why_no_damper);
+  EXPECT_EQ(summary.why_no_damper->code, FindingCode::too_many_bodies_for_wall_summary);
+  EXPECT_EQ(summary.why_no_margins, summary.why_no_damper);
 }
 
 }  // namespace

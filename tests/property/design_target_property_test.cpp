@@ -12,6 +12,7 @@
 #include "zwidth/design/design_target.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/analysis.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::test {
 namespace {
@@ -48,15 +49,15 @@ struct Count {
 void confirm(const Device& device, const DesignTargetOptions& options, Count& count) {
   for (const DesignTarget& each : design_targets(device, options).targets) {
     if (!each.value_needed) continue;
-    SCOPED_TRACE(each.key + " " + std::to_string(*each.value_needed) + ": " + each.why);
+    SCOPED_TRACE(each.key + " " + std::to_string(*each.value_needed) + ": " + text(each.why));
     const auto limit_at = [&](double share) {
       return analyzed_limit(with(device, each.key, share * *each.value_needed), options.goal);
     };
     const double there = limit_at(1.0);
-    if (each.why.find("is refused") != std::string::npos) {
+    if (each.why.code == FindingCode::limit_refused_at_value) {
       EXPECT_TRUE(std::isnan(there));
       ++count.refused;
-    } else if (each.why.find("jumps") != std::string::npos) {
+    } else if (each.why.code == FindingCode::limit_jumps_across_target) {
       EXPECT_GE(there, options.stiffness);
       EXPECT_NE(limit_at(1.0 - 1e-7) >= options.stiffness, limit_at(1.0 + 1e-7) >= options.stiffness);
       ++count.jumps;

@@ -15,6 +15,7 @@
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/simulation/simulate.hpp"
 #include "zwidth/stability/any_user.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::test {
 namespace {
@@ -163,7 +164,7 @@ TEST(DiagnosisProperty, NamesTheMechanismOfSimulatedOscillations) {
         std::string text;
         for (const OscillationCandidate& candidate : diagnosis.candidates) {
           text += std::to_string(static_cast<int>(candidate.cause)) + (candidate.fits ? " fits " : " no ") +
-                  std::to_string(candidate.frequency) + " " + candidate.why + "; ";
+                  std::to_string(candidate.frequency) + " " + zwidth::text(candidate.why) + "; ";
         }
         std::printf("%s, seed %zu (%s): w %.5g amplitude %.3g K %.4g q %.2g: %s\n", campaign.name,
                     static_cast<std::size_t>(seed + attempt), each->known.name.c_str(), run.oscillation->frequency,

@@ -66,11 +66,13 @@ TEST(AnalysisText, TheFirstLinesSayWhoHolds) {
   EXPECT_EQ(rows[3].hint, "zwidth design FILE --recommend");
   analysed.walls->with_damper = StiffestDampedWall{7000.0, 0.0};
   EXPECT_EQ(limit_rows(analysed)[2].answer, "up to 7 kN/m: no damper raises it");
-  analysed.walls =
-      WallSummary{.with_damper = {}, .why_no_damper = "takes long", .with_margins = {}, .why_no_margins = "x"};
+  analysed.walls = WallSummary{.with_damper = {},
+                               .why_no_damper = Finding{.code = FindingCode::largest_damper_unknown},
+                               .with_margins = {},
+                               .why_no_margins = Finding{.code = FindingCode::device_refused}};
   const std::vector<LimitRow> without = limit_rows(analysed);
   EXPECT_EQ(without[2].hint, "zwidth region FILE");
-  EXPECT_EQ(without[3].answer, "left out: x");
+  EXPECT_EQ(without[3].answer, "left out: the device is refused");
 }
 
 TEST(AnalysisText, TheFilesUserHasARowOfItsOwn) {
@@ -240,7 +242,7 @@ TEST(AnalysisText, ExplainsUnbounded) {
 
 TEST(AnalysisText, ARefusedAnswerCountsNoCrossovers) {
   AnalysedDevice analysed = unlimited_transfer_function();
-  analysed.analysis.critical.trust.refuse("its poles crowd");
+  analysed.analysis.critical.trust.refuse({.code = FindingCode::stated, .subjects = {{"reason", "its poles crowd"}}});
   analysed.analysis.critical.status = StiffnessStatus::refused;
   EXPECT_THAT(unwrapped(text_of(analysed)), Not(HasSubstr("Phase crossovers")));
 }

@@ -101,9 +101,9 @@ TEST(RelayReport, FigureIsDrawnWithAndWithoutAnOscillation) {
   const std::string svg =
       draw_relay_record("A title", report.trials[0], report.sampling_period, Motion::linear, FigureFormat::svg);
   EXPECT_THAT(svg, AllOf(HasSubstr("A title"), HasSubstr("Force (N)"), HasSubstr("Position (mm)")));
-  report.trials[0].result = tl::unexpected(NoOscillation{"the reason"});
+  report.trials[0].result = tl::unexpected(NoOscillation{{.code = FindingCode::force_never_changes}});
   EXPECT_THAT(draw_relay_record("A title", report.trials[0], 1e-3, Motion::rotary, FigureFormat::svg),
-              AllOf(HasSubstr("No oscillation: the reason"), HasSubstr("Force (N m)")));
+              AllOf(HasSubstr("No oscillation: the force never changes"), HasSubstr("Force (N m)")));
 }
 
 }  // namespace

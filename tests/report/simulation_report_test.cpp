@@ -118,7 +118,7 @@ TEST(SimulationText, NamesTheRippleOfTheEncoder) {
 
 TEST(SimulationText, RepeatsThatTheDeviceIsNotToBeTrusted) {
   Example run = example(LoopVerdict::settles);
-  run.result.trust.doubt("the mass is not determined");
+  run.result.trust.doubt({.code = FindingCode::stated, .subjects = {{"reason", "the mass is not determined"}}});
   EXPECT_THAT(simulation_text(run.device, run.result), HasSubstr("the mass is not determined"));
   EXPECT_EQ(simulation_json(run.device, run.result)["trust"]["verdict"], "doubtful");
 }

@@ -47,7 +47,7 @@ TEST(Json, ARemarkJoinsConsequenceAndRemedy) {
 TEST(Json, TrustAndEnumsHaveTheirNames) {
   Trust trust;
   EXPECT_EQ(Json(trust).dump(), R"({"verdict":"sound","reasons":[]})");
-  trust.refuse("no data");
+  trust.refuse({.code = FindingCode::stated, .subjects = {{"reason", "no data"}}});
   EXPECT_EQ(Json(trust)["verdict"], "refused");
   EXPECT_EQ(name_of(StiffnessStatus::none_stable), "none_stable");
   EXPECT_EQ(name_of(StiffnessStatus::unbounded), "unbounded");
@@ -61,7 +61,7 @@ TEST(Json, FindingsAreListedOnceWithTheirNumbers) {
                .evidence = {{"at_most", 800.0, "N/m"}, {"promised", infinity, "N/m"}},
                .key = "wall.stiffness",
                .effect = {{"critical_stiffness", 800.0}}});
-  trust.refuse("no data");
+  trust.refuse({.code = FindingCode::stated, .subjects = {{"reason", "no data"}}});
   const Remark coarse = warning({.code = FindingCode::encoder_stands_still, .evidence = {{"resolution", 1e-4, "m"}}});
   const Json findings = findings_json(trust, {coarse, {Remark::Severity::note, "a", "b", "c"}, coarse});
   ASSERT_EQ(findings.size(), 4U);

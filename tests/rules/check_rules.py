@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Holds the sources to the rules of CONTRIBUTING.md.
 
-usage: check_rules.py ROOT RULE      RULE: flow, words, sizes, names, disk or headers
+usage: check_rules.py ROOT RULE      RULE: flow, words, sentences, sizes, names, disk, headers or apart
 Prints every line that breaks the rule, and exits with 1 where there is one.
 """
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 # Room: the rooms that its files may include, besides itself and the public headers that stand in no room.
 LIBRARY = {
-    "words": [],
+    "words": ["model", "stability"],  # the problems of a device, the names of who holds it
     "model": [],
     "signal": [],
     "sampling": ["model"],
@@ -43,7 +43,14 @@ APPS = {
 }
 MOST_LINES = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+# Literals that read as a sentence for a person, outside of words/: the most that a room may have of them. None is the aim, as it
+# stands in every room that is not listed.
+SENTENCES = {"design": 26, "identification": 113, "io": 487, "model": 65, "stability": 5}
+KEY_TABLE = "device_keys.cpp"  # the device file's keys, each with its help
+UNITS = {"m", "rad", "s", "kg", "ms", "us", "per", "degrees", "samples"}
+PROSE = re.compile(r"[(\[]?[a-z][a-z'-]*[a-z][,;:.)\]]*")
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
+STRING_OR_COMMENT = re.compile(STRING.pattern + "|//.*")
 
 
 def files(root, *folders):
@@ -122,6 +129,29 @@ def words(root):
                     yield path, number, f"names an option of the command line: {text}"
 
 
+def is_sentence(text):
+    """Three words at least beside numbers and units: a name has two."""
+    words = re.sub(r"\{[^{}]*\}", " ", text).split(" ")
+    return len([each for each in words if PROSE.fullmatch(each) and each.strip("([.,;:)]") not in UNITS]) >= 3
+
+
+def sentences(root):
+    """Sentences for a person are made in words/ alone."""
+    found = {}
+    for base in ("include/zwidth", "src"):
+        for path in files(root, base):
+            room = path.relative_to(root / base).parts[0] if path.parent != root / base else "no room"
+            for number, line in lines(path) if room != "words" and path.name != KEY_TABLE else ():
+                if line.lstrip().startswith(("#", "static_assert")):
+                    continue
+                for text in STRING_OR_COMMENT.findall(line):
+                    if text.startswith('"') and is_sentence(text.strip('"')):
+                        found.setdefault(room, []).append((path, number, f"a sentence outside of words/: {text}"))
+    for room, lines_of_room in found.items():
+        if len(lines_of_room) > SENTENCES.get(room, 0):
+            yield from lines_of_room
+
+
 def sizes(root):
     """One concept per file."""
     for path in files(root, "include", "src", "apps", "bindings", "tests", "benchmarks", "fuzz"):
@@ -173,9 +203,25 @@ def headers(root):
             yield path, 1, "zwidth.hpp lacks it"
 
 
+def apart(root):
+    """What is known of a finding or a problem stands in its fields: nothing looks for it in the sentence."""
+    part = r"(?:what|allowed|remedy|consequence|meaning|message|reason|sentence)"
+    asks = r"(?:r?find\w*|split|substr\w*|slice|starts_with|ends_with|startsWith|endsWith|includes|indexOf|match|search)\("
+    taken = re.compile(rf"\b{part}(?:\(\))?!?(?:\.|->|\?\.)(?:{asks}|replace(?:All)?\([\"'/])|\.test\([^)]*\b{part}\b")
+    # CLI11 and nlohmann-json tell by their messages alone.
+    others = ("usage_error.cpp", "request_problem.cpp", "request_document.cpp")
+    paths = [*files(root, "include", "src", "apps", "bindings"), *(root / "bindings").rglob("*.py")]
+    paths += [path for path in sorted((root / "web/src").rglob("*")) if path.suffix in (".ts", ".svelte")]
+    for path in paths:
+        for number, line in lines(path):
+            if taken.search(line) and "'\\n'" not in line and path.name not in others:
+                yield path, number, f"takes a sentence apart: {line.strip()}"
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
-    rules = {"flow": flow, "words": words, "sizes": sizes, "names": names, "disk": disk, "headers": headers}
+    rules = {"flow": flow, "words": words, "sentences": sentences, "sizes": sizes, "names": names, "disk": disk, "headers": headers}
+    rules["apart"] = apart
     rule = rules[sys.argv[2]]
     broken = list(rule(root))
     for path, number, what in broken:

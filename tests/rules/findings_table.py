@@ -3,14 +3,14 @@
 
 usage: findings_table.py ROOT [--write]
 Compares the file with what the sources say, or writes it. The meaning is the code's line in finding_code.hpp, the
-sentence its phrase in src/words, the severity what the sources make of it.
+severity and the sentence its phrase in src/words.
 """
 
 import re
 import sys
 from pathlib import Path
 
-SEVERITIES = {"note": "note", "warning": "note", "doubt": "doubt", "refuse": "refusal"}
+SEVERITIES = ("note", "warning", "doubt", "refusal")
 TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[{},;]|\w+')
 HEAD = """# Findings
 
@@ -26,8 +26,10 @@ What zwidth may find, as it stands in `findings` of every document that has `tru
 | `remedy` | what to do about it; may be empty |
 | `text` | the sentence, as in `trust.reasons` or `remarks` |
 
-Each is listed once, what speaks against the numbers first. A sentence is its code's below; in braces stand its numbers, most of them in
-`evidence`, and names. `tests/rules/findings_table.py . --write` writes this file from the sources.
+Each is listed once, what speaks against the numbers first. The severity below is the worst that is made of a code: a doubt may be a remark
+where less hangs on it, and the refusal of a part a doubt about the whole; a warning is a `note` in documents. A sentence is its code's
+below; in braces stand its numbers, most of them in `evidence`, and names. `tests/rules/findings_table.py . --write` writes this file from
+the sources. A code that stands in a `reason`, `why` or `explanation` alone, in words, is a note.
 
 A new finding is a line in `include/zwidth/finding_code.hpp`, a phrase in `src/words/ROOM_phrases.cpp`, and where it is found
 `trust.doubt({.code = ..., .evidence = ...})`, `trust.refuse()`, or a remark by `note()` or `warning()`.
@@ -62,90 +64,30 @@ def tokens_until(source, begin, end):
 
 
 def phrases(root):
-    """Sentence by code."""
+    """The worst severity and the sentence, by code."""
     found = {}
     for path in sorted((root / "src/words").glob("*_phrases.cpp")):
         source = path.read_text(encoding="utf-8")
         names = {each[1]: tokens_until(source, each.end(), ";")[0] for each in re.finditer(r"const char\* (\w+) =", source)}
         for each in re.finditer(r"Phrase{", source):
-            code, name, *parts = tokens_until(source, each.end(), "}")
-            if code != name:
-                raise SystemExit(f"{path.name}: {code} is named {name}")
-            found[code] = "; ".join(names.get(part, part) for part in parts if part)
+            code, name, severity, *parts = tokens_until(source, each.end(), "}")
+            if code != name or severity not in SEVERITIES:
+                raise SystemExit(f"{path.name}: {code} is named {name}, of severity {severity}")
+            found[code] = severity, "; ".join(names.get(part, part) for part in parts if part)
     return found
-
-
-def severities(root, codes):
-    """What the calls around a code make of it: note(), warning(), doubt() or refuse(), by way of a helper or a variable."""
-    found = {}
-    paths = [path for base in ("src", "apps") for path in sorted((root / base).rglob("*.cpp")) if "words" not in path.parts]
-    sources = [path.read_text(encoding="utf-8") for path in paths]
-    sources = [source for source in sources if "Finding" in source or "finding" in source]
-    named = re.compile(rf'(?:FindingCode::|(?<![:.\w"]))({"|".join(codes)})\b(?!\()')
-    for source in sources:
-        if "FindingCode" in source:
-            for mention in named.finditer(source):
-                found.setdefault(mention[1], set()).update(made_of(source, mention.start(), sources))
-    return found
-
-
-def calls_around(source, place):
-    """Names of the calls whose parentheses are open there, innermost first."""
-    depth = 0
-    for i in range(place - 1, -1, -1):
-        if source[i] in ")}":
-            depth += 1
-        elif source[i] in "({" and depth > 0:
-            depth -= 1
-        elif source[i] == "(":
-            if name := re.search(r"(\w+)$", source[:i]):
-                yield name[1]
-        elif source[i] == ";" and depth == 0:
-            return
-
-
-def made_of(source, place, sources):
-    for name in calls_around(source, place):
-        if name in SEVERITIES:
-            return {SEVERITIES[name]}
-        if within := body_of(source, name):
-            if made := {SEVERITIES[each] for each in re.findall(r"\b(note|warning|doubt|refuse)\(", within)}:
-                return made
-    end = source.find("\n}", place)
-    before = source[max(source.rfind("\n}", 0, place), 0) : place]
-    variables = re.findall(r"Finding (\w+)[{ =]|(\w+)\.code = [^;]*$", before)
-    for name in [first or then for first, then in variables][-1:]:
-        if made := {SEVERITIES[each] for each in re.findall(rf"\b(note|warning|doubt|refuse)\([^;]*?\b{name}\b", source[place:end])}:
-            return made
-    if header := re.findall(r"\n(?:std::optional<Finding>|Finding) (\w+)\(", before):
-        return {SEVERITIES[each] for text in sources if header[-1] in text for each in by_way_of(text, header[-1])}
-    return set()
-
-
-def body_of(source, name):
-    """Of the function or lambda of this name in the file."""
-    begun = re.search(rf"(?:\b{name} = \[|\n[^\n;]*\b{name}\([^;{{}}]*\) {{)", source)
-    return source[begun.start() : source.find("\n}" if "= [" not in begun[0] else ";\n", begun.end())] if begun else ""
-
-
-def by_way_of(text, function):
-    yield from re.findall(rf"\b(note|warning|doubt|refuse)\([^;]*\b{function}\(", text)
-    for name in re.findall(rf"auto (\w+) = {function}\(", text):
-        yield from re.findall(rf"\b(note|warning|doubt|refuse)\([^;]*\b{name}\b", text)
 
 
 def table(root):
-    codes = list(declared(root))
-    sentences, severity = phrases(root), severities(root, [code for _, code, _ in codes])
+    known = phrases(root)
     text, last = HEAD, None
-    for room, code, meaning in codes:
+    for room, code, meaning in declared(root):
         if room != last:
             text += f"\n## {room[0].upper()}{room[1:]}\n\n| code | severity | meaning | sentence |\n|---|---|---|---|\n"
             last = room
-        if code not in sentences:
+        if code not in known:
             raise SystemExit(f"{code} has no phrase in src/words")
-        kinds = ", ".join(sorted(severity.get(code, ()), key=["note", "doubt", "refusal"].index))
-        text += f"| `{code}` | {kinds} | {meaning} | {sentences[code]} |\n"
+        severity, sentence = known[code]
+        text += f"| `{code}` | {severity} | {meaning} | {sentence} |\n"
     return text
 
 

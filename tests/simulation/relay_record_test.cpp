@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "zwidth/error.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {
 namespace {
@@ -47,15 +48,16 @@ Record relay_record(
 RelayReading analysed(const Record& record, const RelayAnalysisOptions& options = {}) {
   const auto result = analyse_relay_record(record.force, record.position, period, options);
   if (!result) {
-    ADD_FAILURE() << result.error().reason;
+    ADD_FAILURE() << text(result.error().why);
     return {};
   }
   return *result;
 }
 
-std::string failure(const Record& record) {
+/// `stated` where it oscillates.
+Finding failure(const Record& record) {
   const auto result = analyse_relay_record(record.force, record.position, period);
-  return result ? "it oscillates" : result.error().reason;
+  return result ? Finding{} : result.error().why;
 }
 
 /// Relative error of the cycles' frequency: the straight line through N cycles of a sine falls by 6 X / (pi N), which
@@ -215,16 +217,18 @@ TEST(RelayRecord, AnotherOscillationRidingOnItLeavesNoCycleFrequency) {
 TEST(RelayRecord, SaysWhyThereIsNoOscillation) {
   const std::vector<double> zeros(20000, 0.0);
   const Record good = relay_record(20000, 5.0, 5.0, 1e-3);
-  EXPECT_THAT(failure({zeros, good.position}), HasSubstr("the force never changes"));
-  EXPECT_THAT(failure({good.force, zeros}), HasSubstr("the position never changes"));
-  EXPECT_THAT(failure(relay_record(20, 5.0, 5.0, 1e-3)), HasSubstr("the record has 20 samples; at least 64"));
-  EXPECT_THAT(failure(relay_record(20000, 0.5, 5.0, 1e-3)), HasSubstr("no oscillation of at least 16 cycles"));
+  EXPECT_EQ(failure({zeros, good.position}).code, FindingCode::force_never_changes);
+  EXPECT_EQ(failure({good.force, zeros}).code, FindingCode::position_never_changes);
+  EXPECT_EQ(text(failure(relay_record(20, 5.0, 5.0, 1e-3))), "the record has 20 samples; at least 64");
+  EXPECT_EQ(text(failure(relay_record(20000, 0.5, 5.0, 1e-3))),
+            "the record holds no oscillation of at least 16 cycles; record for longer");
   Record stuck = good;
   std::fill(stuck.force.begin() + 9000, stuck.force.end(), 5.0);
-  EXPECT_THAT(failure(stuck), HasSubstr("the force no longer changes after 10 s"));
+  EXPECT_EQ(failure(stuck).code, FindingCode::force_stops_changing);
+  EXPECT_DOUBLE_EQ(failure(stuck).evidence.front().value, 10.0);
   stuck = good;
   std::fill(stuck.position.begin() + 9000, stuck.position.end(), 1e-4);
-  EXPECT_THAT(failure(stuck), HasSubstr("the position no longer changes after 10 s"));
+  EXPECT_EQ(failure(stuck).code, FindingCode::position_stops_changing);
 }
 
 TEST(RelayRecord, NoiseIsNoOscillation) {
@@ -237,7 +241,7 @@ TEST(RelayRecord, NoiseIsNoOscillation) {
       record.force.push_back(noise(random));
       record.position.push_back(noise(random));
     }
-    EXPECT_THAT(failure(record), HasSubstr("no frequency stands out"));
+    EXPECT_EQ(failure(record).code, FindingCode::no_frequency_stands_out);
   }
 }
 
@@ -259,7 +263,7 @@ TEST(RelayRecord, AnyFiniteRecordGetsAnAnswerOrAReason) {
     options.segment_length = 64;
     const auto result = analyse_relay_record(record.force, record.position, period, options);
     if (!result) {
-      EXPECT_FALSE(result.error().reason.empty());
+      EXPECT_NE(result.error().why.code, FindingCode::stated);
       continue;
     }
     EXPECT_GT(result->frequency, 0.0);

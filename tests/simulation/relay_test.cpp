@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,11 +15,13 @@
 
 #include "simulation/simulated_devices.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -36,7 +39,11 @@ RelayResult simulated(DeviceParameters parameters, double start, double duration
   return relay(Device(std::move(parameters)), options_of(start, duration));
 }
 
-std::vector<std::string> explained(const RelayResult& result) { return result.explanation; }
+std::vector<FindingCode> explained(const RelayResult& result) {
+  std::vector<FindingCode> codes;
+  for (const Finding& each : result.explanation) codes.push_back(each.code);
+  return codes;
+}
 
 DeviceParameters with_friction(DeviceParameters device, double friction) {
   device.bodies.back().coulomb = friction;
@@ -54,7 +61,7 @@ RelayTrial trial_of(double frequency, double stiffness) {
 
 TEST(Relay, MeanIsThatOfTheDecibels) {
   std::vector<RelayTrial> trials{trial_of(10.0, 100.0), trial_of(14.0, 10000.0), {}};
-  trials.back().result = tl::unexpected(NoOscillation{"why"});
+  trials.back().result = tl::unexpected(NoOscillation{{.code = FindingCode::force_never_changes}});
   const auto mean = relay_mean(trials);
   ASSERT_TRUE(mean);
   EXPECT_EQ(mean->trials, 2U);
@@ -124,24 +131,30 @@ TEST(Relay, NeighbouringCyclesAreOneBand) {
 }
 
 TEST(Relay, ARelayOnTheResonanceIsToldFromTheLimit) {
-  const auto sentences = explained(
-      simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3));
-  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("near the phase crossover"), HasSubstr("vibration mode 1"))));
+  const RelayResult result =
+      simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3);
+  std::vector<std::string> sentences;
+  for (const Finding& each : result.explanation) sentences.push_back(text(each));
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("near the phase crossover"), HasSubstr("(vibration mode 1)"))));
   EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("stiffest stable wall"), HasSubstr("UNSAFE"))));
   EXPECT_THAT(sentences, Contains(HasSubstr("Coulomb friction of up to 8.0 %")));
+  EXPECT_THAT(explained(result), Contains(FindingCode::reading_above_limit));
 }
 
 TEST(Relay, AFrictionlessRigidDeviceNearlyConfirmsTheLimit) {
-  const auto sentences = explained(simulated(test::with_delay(test::rigid_parameters(), 8e-3), 0.01, 60.0));
-  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("near the phase crossover"), HasSubstr("the rigid body"))));
-  EXPECT_THAT(sentences, Not(Contains(HasSubstr("Coulomb"))));
+  using enum FindingCode;
+  const auto codes = explained(simulated(test::with_delay(test::rigid_parameters(), 8e-3), 0.01, 60.0));
+  EXPECT_THAT(codes, Contains(AnyOf(reads_more_at_crossover, reads_less_at_crossover)));
+  EXPECT_THAT(codes, Not(Contains(AnyOf(friction_leaves_no_cycle, friction_moves_cycle, friction_leaves_cycle))));
 }
 
 TEST(Relay, FrictionMovesARigidDeviceAwayFromItsCrossover) {
-  const auto sentences =
-      explained(simulated(with_friction(test::with_delay(test::rigid_parameters(), 8.25e-3), 0.4), 0.03));
-  EXPECT_THAT(sentences, Contains(HasSubstr("at no phase crossover of linear theory")));
-  EXPECT_THAT(sentences, Contains(HasSubstr("moves the oscillation away from the crossover, to 2.")));
+  const RelayResult result = simulated(with_friction(test::with_delay(test::rigid_parameters(), 8.25e-3), 0.4), 0.03);
+  EXPECT_THAT(explained(result), Contains(FindingCode::oscillates_off_crossovers));
+  const auto moved = std::ranges::find(result.explanation, FindingCode::friction_moves_cycle, &Finding::code);
+  ASSERT_NE(moved, result.explanation.end());
+  EXPECT_EQ(moved->evidence.front().name, "frequency_hz");
+  EXPECT_NEAR(moved->evidence.front().value, 2.5, 0.5);
 }
 
 TEST(Relay, ReadingsThatAreNotTheLimitAreDoubtful) {

@@ -12,6 +12,7 @@
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/simulation/relay_prediction.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {
 namespace {
@@ -54,7 +55,7 @@ TEST(RelayExperiment, AFrictionlessRigidDeviceSettlesAmongTheExactOscillations) 
     options.duration = 60.0;
     const RelayPrediction prediction = relay_prediction(device, options.relay);
     for (const RelayTrial& trial : relay_trials(device, options)) {
-      ASSERT_TRUE(trial.result) << trial.result.error().reason;
+      ASSERT_TRUE(trial.result) << text(trial.result.error().why);
       ASSERT_TRUE(trial.result->cycle_frequency);
       const double half_period = pi / *trial.result->cycle_frequency;
       EXPECT_TRUE(std::any_of(prediction.sampled_relay.begin(), prediction.sampled_relay.end(),
@@ -146,7 +147,7 @@ TEST(RelayExperiment, FrictionStrongerThanTheRelayEndsTheMotion) {
   parameters.bodies[0].coulomb = 6.0;
   for (const RelayTrial& trial : relay_trials(Device(parameters), options_of(5.0, 0.03))) {
     ASSERT_FALSE(trial.result);
-    EXPECT_EQ(trial.result.error().reason, "the force never changes");
+    EXPECT_EQ(trial.result.error().why.code, FindingCode::force_never_changes);
   }
 }
 

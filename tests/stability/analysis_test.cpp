@@ -89,7 +89,7 @@ TEST(Analysis, AWallIsReliedOnOnlyWhereTheAnswerIsSound) {
   device.wall.stiffness = 8000.0;
   Analysis analysis = analyze(Device(device));
   EXPECT_EQ(verdict_on_wall(analysis), WallVerdict::stable);
-  analysis.trust.doubt("so");
+  analysis.trust.doubt({.code = FindingCode::stated, .subjects = {{"reason", "so"}}});
   EXPECT_EQ(verdict_on_wall(analysis), WallVerdict::unsure);
   device.wall.stiffness = 9000.0;
   EXPECT_EQ(verdict_on_wall(analyze(Device(device))), WallVerdict::unstable);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +40,32 @@ TEST(Phrase, HasPartsOfItsOwnForADoubtAndForARemark) {
   EXPECT_EQ(remark.remedy,
             "fit the friction too, in time; or excite more strongly: its share falls with the amplitude");
 }
+
+TEST(Phrase, WithAPartForDoubtsIsOfAFindingThatMayBeOne) {
+  std::size_t with_part = 0;
+  for (const std::span<const Phrase> room :
+       {model_phrases(), stability_phrases(), design_phrases(), study_phrases(), simulation_phrases(), rig_phrases(),
+        signal_phrases(), io_phrases(), response_phrases(), identification_phrases()}) {
+    for (const Phrase& phrase : room) {
+      EXPECT_EQ(phrase.worst, worst_severity(phrase.code)) << phrase.name;
+      const std::string whole = std::string(phrase.what) + phrase.consequence + phrase.remedy;
+      if (whole.find("{?doubt|") == std::string::npos && whole.find("{!doubt|") == std::string::npos) continue;
+      ++with_part;
+      EXPECT_GE(phrase.worst, Finding::Severity::doubt) << phrase.name;
+    }
+  }
+  EXPECT_GT(with_part, 0U);
+}
+
+#ifndef NDEBUG
+TEST(PhraseDeathTest, NothingWorseIsMadeOfAFindingThanItsCodeAllows) {
+  const Finding harmless{.code = FindingCode::no_wall};
+  EXPECT_EQ(note(harmless).finding->severity, Finding::Severity::note);
+  EXPECT_DEATH(static_cast<void>(warning(harmless)), "worst_severity");
+  Trust trust;
+  EXPECT_DEATH(trust.doubt(harmless), "worst_severity");
+}
+#endif
 
 TEST(Phrase, SaysWhichOfSeveralRecordingsShowsIt) {
   EXPECT_EQ(

@@ -9,6 +9,7 @@
 #include "report/figure/record_figure.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -33,7 +34,7 @@ std::string draw_relay_record(const std::string& title, const RelayTrial& trial,
       trial.result ? fmt::format("oscillates at {:.4f} Hz, which reads as K = {} ({:.2f} dB); the last {:.0f} cycles",
                                  hertz(trial.result->frequency), quantity(trial.result->stiffness, units.stiffness),
                                  decibels(trial.result->stiffness), cycles_shown)
-                   : fmt::format("No oscillation: {}", trial.result.error().reason);
+                   : fmt::format("No oscillation: {}", text(trial.result.error().why));
   return draw_record(title, subtitle,
                      {.force = std::span(trial.force).subspan(from),
                       .position = std::span(trial.position).subspan(from),

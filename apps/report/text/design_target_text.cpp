@@ -8,6 +8,7 @@
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -67,7 +68,7 @@ class TargetTable {
       row.push_back(words_.any_user(each.any_user_then));
     }
     table_.rows.push_back(std::move(row));
-    notes_ += wrap(fmt::format("{}: {}", key, each.why), line_width, 4).replace(0, 4, "  - ");
+    notes_ += wrap(fmt::format("{}: {}", key, text(each.why)), line_width, 4).replace(0, 4, "  - ");
   }
 
   [[nodiscard]] std::string under(const std::string& heading) const {
@@ -103,8 +104,8 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
     if (each.value_needed) {
       (each.safe.value_or(true) ? reaching : lowering).add(each);
     } else {
-      without +=
-          wrap(fmt::format("{}: {}", shortened(each.key, target_width), each.why), line_width, 4).replace(0, 4, "  - ");
+      without += wrap(fmt::format("{}: {}", shortened(each.key, target_width), zwidth::text(each.why)), line_width, 4)
+                     .replace(0, 4, "  - ");
     }
   }
   text += reaching.under("What reaches it, the smallest change first; numbers that are 0 now at the end");

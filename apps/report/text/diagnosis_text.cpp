@@ -11,6 +11,7 @@
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -78,7 +79,8 @@ std::string otherwise_text(const OscillationCandidate& candidate, const Units& u
 }
 
 std::string why_text(const OscillationCandidate& candidate, const Units& units) {
-  return candidate.otherwise ? fmt::format("{}; {}", candidate.why, otherwise_text(candidate, units)) : candidate.why;
+  const std::string why = text(candidate.why);
+  return candidate.otherwise ? fmt::format("{}; {}", why, otherwise_text(candidate, units)) : why;
 }
 
 /// Limits of a table of changes as numbers without their unit, which stands above it.

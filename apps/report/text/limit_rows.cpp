@@ -13,6 +13,7 @@
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "zwidth/model/device_operator.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -116,7 +117,7 @@ class LimitTable {
   }
 
   [[nodiscard]] std::string damped_text(const WallSummary& walls) const {
-    if (!walls.with_damper) return "left out: " + walls.why_no_damper;
+    if (!walls.with_damper) return "left out: " + text(walls.why_no_damper);
     const StiffestDampedWall& wall = *walls.with_damper;
     if (wall.stiffness == 0.0) return "none: no wall is stable, with any damper tried";
     if (std::isinf(wall.stiffness)) return "unbounded with B = " + damping(wall.damping);
@@ -131,7 +132,7 @@ class LimitTable {
   }
 
   [[nodiscard]] std::string margins_text(const WallSummary& walls) const {
-    if (!walls.with_margins) return "left out: " + walls.why_no_margins;
+    if (!walls.with_margins) return "left out: " + text(walls.why_no_margins);
     const RecommendedWall& found = *walls.with_margins;
     std::string text = stiffness(*found.wall.stiffness);
     text += found.wall.damping > 0.0 ? ", B = " + damping(found.wall.damping) : std::string(", no damper");

@@ -12,6 +12,7 @@
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -51,7 +52,7 @@ std::string trial_table(const RelayResult& result) {
     const std::string name = std::to_string(i + 1);
     if (!trial.result) {
       table.rows.push_back({name, "-", "-", "-", "-", "-", "-"});
-      failures += bulleted(fmt::format("trial {}: no oscillation: {}", name, trial.result.error().reason));
+      failures += bulleted(fmt::format("trial {}: no oscillation: {}", name, text(trial.result.error().why)));
       continue;
     }
     const RelayReading& reading = *trial.result;
@@ -182,7 +183,7 @@ std::string relay_text(const RelayResult& result) {
   std::string text = heading(result) + trial_table(result) + spectra_note(result);
   if (result.prediction) text += "\n" + prediction_table(result);
   if (!result.explanation.empty()) text += "\nWhat it means\n";
-  for (const std::string& sentence : result.explanation) text += bulleted(sentence);
+  for (const Finding& each : result.explanation) text += bulleted(zwidth::text(each));
   return text + remarks(result);
 }
 

@@ -9,6 +9,7 @@
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -76,7 +77,7 @@ class RecommendationWriter {
     if (answer_.trust.refused()) return text;
     text += line("asked for", asked());
     if (!answer_.wall) {
-      text += line("no wall", answer_.reason);
+      text += line("no wall", zwidth::text(answer_.reason));
     } else {
       text += wall_lines(*answer_.wall);
     }

@@ -6,6 +6,7 @@
 
 #include "zwidth/design/notch_design.hpp"
 #include "zwidth/design/wall_number.hpp"
+#include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -33,7 +34,7 @@ struct DesignTarget {
   std::string key;                     ///< as in model/parameter.hpp
   double value_now = 0.0;              ///< p, in the unit of its key
   std::optional<double> value_needed;  ///< the nearest p at which the limit is the target; absent: there is none
-  std::string why;                     ///< what limits there, or why no value is enough
+  Finding why;                         ///< what limits there, or why no value is enough
   /// any_user_limit() at the value needed; infinite where nobody can destabilise a wall, absent where there is no value,
   /// no body to hold, or the limit is not found.
   std::optional<double> any_user_then;

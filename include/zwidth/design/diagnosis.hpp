@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zwidth/design/wall_number.hpp"
+#include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -56,7 +57,7 @@ struct OscillationCandidate {
   std::optional<double> stiffness;                    ///< K from which on it may; absent of a damper alone
   std::optional<double> amplitude;                    ///< of the sensed position; of quantisation and friction
   std::optional<Mechanism> limited_by;                ///< of a linear crossover
-  std::string why;                                    ///< why it fits or not
+  Finding why;                                        ///< why it fits or not
   std::optional<OtherwiseNeeded> otherwise = {};      ///< absent where it fits, and where no factor makes it fit
   std::optional<double> damping = {};                 ///< of a damper alone: B from which on it may
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -95,7 +96,7 @@ struct WallRecommendation {
   };
   Status status = Status::none;               ///< found, or why not
   std::optional<RecommendedWall> wall;        ///< only where found
-  std::string reason;                         ///< why there is none; empty where found
+  std::optional<Finding> reason;              ///< why there is none; absent where found and where refused
   std::vector<RecommendedWall> alternatives;  ///< the trade-off: other goals, dampers, filters
   /// At how many drifts of the modes, evenly over the range asked, each wall was held against its margins; 1: at none
   /// but their own frequencies.

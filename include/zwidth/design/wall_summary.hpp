@@ -5,6 +5,7 @@
 #include <string>
 
 #include "zwidth/design/wall_recommendation.hpp"
+#include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -27,9 +28,9 @@ inline constexpr std::size_t most_bodies_for_wall_summary = 6;
 /// The walls that stand beside the limits of an analysis: how stiff with a damper, and which to run.
 struct WallSummary {
   std::optional<StiffestDampedWall> with_damper = {};  ///< the stiffest over all dampers
-  std::string why_no_damper;                           ///< why with_damper is absent
+  std::optional<Finding> why_no_damper = {};           ///< why with_damper is absent
   std::optional<RecommendedWall> with_margins = {};    ///< recommend_wall() without alternatives
-  std::string why_no_margins;                          ///< why with_margins is absent
+  std::optional<Finding> why_no_margins = {};          ///< why with_margins is absent
 };
 
 /// What the summary computes, and who is told how far it is.

@@ -12,16 +12,14 @@ namespace zwidth {
 /// File of a place in an override, which is in no device file.
 inline constexpr const char* override_source = "an override";
 
-/// Why an input was refused: the first problem, members of options in `backquotes` in its remedy, and the others of the
-/// same device file.
+/// Why an input was refused: the first problem, and the others of the same device file.
 struct InputError : InputProblem {
   /// A file's only problem.
   InputError(std::string file, std::size_t line, std::size_t column, std::string key, std::string what_is_wrong,
-             std::string what_is_allowed)
-      : InputProblem{{std::move(file), line, column, std::move(key), ""},
-                     std::move(what_is_wrong),
-                     std::move(what_is_allowed),
-                     std::nullopt} {}
+             OptionText what_is_allowed)
+      : InputProblem{{std::move(file), line, column, std::move(key), ""}, std::move(what_is_wrong), {}, std::nullopt} {
+    allow(std::move(what_is_allowed));
+  }
   /// The same, as it is.
   explicit InputError(InputProblem problem) : InputProblem(std::move(problem)) {}
   /// All problems of one file, in the order in which it is read.

@@ -8,6 +8,7 @@
 #include "zwidth/model/motor_drive.hpp"
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth {
 
@@ -97,7 +98,11 @@ struct DeviceProblem {
   std::string key;      ///< key of the device file, as in `--set`: "body.motor.mass", "link.0.stiffness", "loop.delay"
   std::string what;     ///< "is -0.3"
   std::string allowed;  ///< "must be a number > 0"
+  std::optional<Problem> problem = {};  ///< what these are the words of, where it is data
 };
+
+/// A key's problem, in the words of words/problem_text.hpp.
+[[nodiscard]] DeviceProblem device_problem(std::string key, Problem problem);
 
 inline constexpr std::size_t max_bodies = 100;                ///< of a device
 inline constexpr std::size_t max_links = 1000;                ///< of a device

@@ -6,6 +6,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -73,7 +74,7 @@ struct RelayResult {
   LimitReading limit_reading = LimitReading::none;  ///< how it compares with the device's own limit
   /// What the experiment says about the wall's limit, a sentence or two each: whether it agrees with linear theory, what
   /// friction does to it, which other oscillations exist. Empty where no trial oscillates or without a device.
-  std::vector<std::string> explanation;
+  std::vector<Finding> explanation;
   /// How far the mean is to be trusted as a limit for walls: as far as the device; doubtful where it differs from the
   /// limit of linear theory (unsafe, too_cautious) and where no device says what to expect; refused where there is no
   /// mean.

@@ -7,6 +7,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "zwidth/finding.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/remark.hpp"
 
@@ -42,9 +43,9 @@ struct RelayReading {
   std::vector<Remark> remarks;  ///< fewer samples than a segment, drift, an oscillation that never becomes steady
 };
 
-/// Why a record holds no oscillation: one line.
+/// Why a record holds no oscillation.
 struct NoOscillation {
-  std::string reason;  ///< in words, for people
+  Finding why;  ///< one line in words
 };
 
 /// Reads frequency and critical stiffness off a record of force and position, simulated or real.

@@ -19,14 +19,6 @@ namespace zwidth {
 
 /// With whom an unstable wall is: "with nobody holding", "with the file's user", "with nobody holding and with the file's
 /// user"; empty where it is stable with both.
-[[nodiscard]] inline std::string unstable_with(const StableFor& wall) {
-  std::string with;
-  const auto add = [&with](Holder holder) {
-    with.append(with.empty() ? "with " : " and with ").append(words_of(holder));
-  };
-  if (!wall.nobody) add(Holder::nobody);
-  if (!wall.user.value_or(true)) add(Holder::user);
-  return with;
-}
+[[nodiscard]] std::string unstable_with(const StableFor& wall);
 
 }  // namespace zwidth

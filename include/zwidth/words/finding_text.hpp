@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,9 @@ namespace zwidth {
 
 /// The code's name, as documents give it: "wall_not_surely_stable".
 [[nodiscard]] std::string_view name_of(FindingCode code);
+
+/// The worst that is made of a finding of this code; where less hangs on it, it is less.
+[[nodiscard]] Finding::Severity worst_severity(FindingCode code);
 
 /// A finding in words.
 struct FindingWords {
@@ -22,6 +26,8 @@ struct FindingWords {
 [[nodiscard]] FindingWords words_of(const Finding& finding);
 
 /// "what; consequence; remedy", without those that are empty.
-[[nodiscard]] std::string text(const Finding& finding);
+[[nodiscard]] std::string text(const FindingWords& words);
+[[nodiscard]] std::string text(const Finding& finding);                 ///< of words_of(finding)
+[[nodiscard]] std::string text(const std::optional<Finding>& finding);  ///< the same; empty where there is none
 
 }  // namespace zwidth

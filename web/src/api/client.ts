@@ -59,6 +59,8 @@ export class Problem extends Error {
   readonly line: number | null
 }
 
+export const messageIn = (error: unknown): string => (error instanceof Problem ? error.message : String(error))
+
 let token = ''
 export const useToken = (given: string): void => {
   token = given

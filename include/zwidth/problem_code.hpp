@@ -1,0 +1,242 @@
+#pragma once
+
+#include <cstdint>
+
+namespace zwidth {
+
+/// What may be wrong with an option or an argument, and what a computation fails of, in one list. words_of() of
+/// words/problem_text.hpp makes the sentence.
+enum class ProblemCode : std::uint16_t {
+  // bounds
+  not_above,                   ///< a quantity is not above its bound
+  below_bound,                 ///< a quantity is below its bound
+  not_above_zero,              ///< a number is not above 0
+  not_above_zero_or_infinite,  ///< a number is not above 0, or infinite
+  below_zero,                  ///< a number is below 0
+  no_quantity,                 ///< a quantity is not finite
+  no_number,                   ///< a number is not finite
+  no_frequency,                ///< a frequency is not above 0
+  no_duration,                 ///< a duration is not above 0
+  no_finite_force,             ///< a force is not finite
+  no_share,                    ///< a share is not from 0 to 1
+  no_share_between,            ///< a share is not above 0, or above its bound
+  no_relative_difference,      ///< a relative difference is not between 0 and 1
+  no_relative_variation,       ///< a relative variation is not from 0 to below 1
+  not_positive,                ///< a number is not above 0
+  negative,                    ///< a number is below 0
+  not_finite_and_positive,     ///< a number is not finite and above 0
+  not_finite_and_above,        ///< a number is not finite and above its bound
+  not_finite,                  ///< a number is not finite
+  no_finite_sum,               ///< a sum is not finite
+  not_a_number,                ///< a number is NaN
+  no_fraction,                 ///< a fraction is not between 0 and 1
+  no_positive_quantity,        ///< a quantity is not above 0
+  no_factor,                   ///< a factor is not from above 1 to 1e6
+  no_growth_factor,            ///< a factor is not above 1, or above its bound
+  no_ramp,                     ///< a time is not from 0 to its bound
+  no_whole_number,             ///< a count is out of its range
+  none_asked,                  ///< a count is 0
+  count_out_of_range,          ///< a count is out of its range
+  count_out_of_range_or_zero,  ///< a count is neither 0 nor in its range
+  count_too_large,             ///< a count is above its bound
+  too_many_threads,            ///< more threads than can be started
+  points_out_of_range,         ///< a number of points is out of its range
+  too_few,                     ///< a count is below its bound
+  too_many,                    ///< more than there may be
+  too_long,                    ///< a time is above its bound
+  not_below_period,            ///< a time is not below the sampling period
+  not_between,                 ///< a number is out of its range
+  not_above_lower_end,         ///< the upper end of a range is not above the lower
+  no_part_left,                ///< a truncation leaves nothing of a distribution
+  range_not_possible,          ///< a range is reversed, infinite or below 0
+
+  // sequences
+  no_samples,               ///< there is no sample
+  samples_not_finite,       ///< a sample is not finite
+  values_not_one_a_body,    ///< as many values as bodies are needed
+  value_not_finite,         ///< a value is not finite
+  no_values,                ///< there is no value
+  no_designs,               ///< there is no design
+  weights_not_one_a_value,  ///< as many weights as values are needed
+  values_not_rising,        ///< values do not rise
+
+  // who holds
+  needs_any_user,                      ///< a worst user without the limit over all users
+  no_body_to_hold,                     ///< a transfer function has no body
+  asked_of_transfer_function,          ///< a transfer function has no body
+  user_of_transfer_function,           ///< a transfer function has no body
+  any_user_goal_of_transfer_function,  ///< a transfer function has no body
+  any_user_goal_needs_bodies,          ///< the device cannot be held, or has too many bodies
+  any_user_goal_of_many_bodies,        ///< too many bodies
+  too_many_bodies,                     ///< too many bodies
+  user_force_without_body,             ///< a transfer function has no body
+  critical_damping_without_mass,       ///< a transfer function has no mass
+
+  // frequencies
+  not_above_lowest_frequency,  ///< the highest frequency is not above the lowest
+  not_below_nyquist,           ///< a frequency is not below Nyquist
+  oscillation_beyond_nyquist,  ///< no loop sees an oscillation of this frequency
+  no_mode_to_tune_to,          ///< the device has no resonance
+  drift_out_of_range,          ///< a drift is not from 0 to 90 %
+  no_modes_to_drift,           ///< the device has no link
+  gain_margin_out_of_range,    ///< a gain margin is not from 0 to 100 dB
+  phase_margin_out_of_range,   ///< a phase margin is not from 0 to 90 degrees
+
+  // runs
+  sampling_periods_disagree,         ///< the device's sampling period is not the recording's
+  relay_force_out_of_range,          ///< a relay's force is not from above 0 to 1e30
+  relay_force_above_limit,           ///< a relay's force is above the actuator's limit
+  transfer_function_starts_at_rest,  ///< a transfer function is given a start
+  samples_of_trials,                 ///< trials have too few or too many samples
+  no_longer_than_delay,              ///< a trial is over before a force arrives
+  duration_out_of_range,             ///< a run has no sample or too many
+  no_force_would_arrive,             ///< a run is over before a force arrives
+  over_before_user_force,            ///< a run is over before the user pushes
+  no_points_kept,                    ///< no point would be kept
+  too_many_points_kept,              ///< too many points would be kept
+  nothing_moves,                     ///< a run without a cause of motion
+  nothing_presses,                   ///< a wall that only pushes, and nothing that presses
+  wall_where_nothing_moves,          ///< the wall's surface is where the device rests
+  starts_where_nothing_moves,        ///< the device starts where it rests
+  ceiling_below_start,               ///< a search ends before it begins
+  serial_line_too_slow,              ///< a serial line carries fewer cycles than the loop runs
+
+  // walls
+  stiffness_given_twice,             ///< two options set one number
+  no_wall_to_write,                  ///< the device has no wall
+  neither_stiffness_nor_damping,     ///< stiffness and damping are 0
+  of_the_device,                     ///< the device that the option makes is refused, for `what`
+  no_stiffness_for_drive,            ///< a drive's wall without a stiffness
+  filter_unknown_to_drive,           ///< a filter that the firmware lacks
+  travel_missing,                    ///< a linear device without its travel per turn
+  damping_needed_by_drive,           ///< a cascade without damping
+  torque_per_volt_missing,           ///< a motor constant is missing
+  force_limit_missing,               ///< the largest force is missing
+  end_stop_without_damping,          ///< an end stop has no damping
+  end_stop_gain_out_of_range,        ///< an end stop's gain is out of its range
+  delay_out_of_range,                ///< a delay is out of its range
+  no_estimator,                      ///< a firmware without an estimator
+  estimator_bandwidth_out_of_range,  ///< an estimator's bandwidth is out of its range
+
+  // studies
+  damping_varies,    ///< regions are over every damping
+  no_specification,  ///< failures need a specification
+
+  // numbers of the device
+  no_number_of_device,       ///< no number of the device is called that
+  not_of_the_limit,          ///< a number of simulation alone
+  range_not_finite,          ///< a range has an end that is not finite
+  range_without_width,       ///< the ends of a range are one
+  range_without_factor,      ///< equal factors need ends above 0
+  values_out_of_range,       ///< too few or too many values of a number
+  too_many_numbers_swept,    ///< a sweep is of one or two numbers
+  swept_twice,               ///< a sweep of one number over itself
+  too_many_points,           ///< a sweep has too many points
+  seconds_below_zero,        ///< a time is below 0
+  no_parameters,             ///< a study without a parameter
+  too_many_parameters,       ///< too many parameters vary
+  parameter_given_twice,     ///< one number varies twice
+  reaches_no_device,         ///< a distribution reaches what is no device
+  rows_not_one_a_parameter,  ///< a correlation needs as many rows as parameters
+  row_of_other_length,       ///< a correlation needs rows as long as parameters
+  diagonal_not_one,          ///< a correlation's diagonal is 1
+  no_correlation,            ///< a correlation is not from -1 to 1
+  not_symmetric,             ///< a correlation is not symmetric
+  not_positive_definite,     ///< a correlation is not positive definite
+
+  // uncertainty of the device
+  no_parameter_of_device,      ///< no number of the device is called that
+  number_without_value,        ///< the device does not have this number
+  key_twice,                   ///< a key stands twice
+  uncertainty_says_nothing,    ///< nothing is uncertain
+  too_many_uncertain,          ///< too many numbers are uncertain
+  covariance_rows_missing,     ///< a covariance needs as many rows as parameters
+  covariance_numbers_missing,  ///< a covariance needs rows as long as parameters
+  no_variance,                 ///< a variance is out of its range
+  covariance_not_symmetric,    ///< a covariance is not symmetric
+  covariance_too_large,        ///< a covariance is larger than two variances allow
+  no_covariance,               ///< a covariance is not positive semidefinite
+  key_given_twice,             ///< a key is given twice
+  values_of_two_lengths,       ///< numbers change by lists of two lengths
+  nothing_changed,             ///< no number changes
+
+  // calls
+  no_body_for_user,                   ///< a transfer function has no body
+  no_body_to_start_from,              ///< a transfer function has no body
+  start_offset_without_bodies,        ///< a transfer function has no body
+  largest_damping_not_positive,       ///< a damping is not finite and above 0
+  region_deviation_no_fraction,       ///< a deviation is not between 0 and 1
+  outline_deviation_no_fraction,      ///< a deviation is not between 0 and 1
+  branch_factor_too_small,            ///< a factor is not above 1
+  recording_without_channel,          ///< a recording has no channel
+  recording_without_two_channels,     ///< a relay is recorded as force and position
+  no_recording,                       ///< there is no recording
+  recordings_of_two_periods,          ///< recordings of two sampling periods
+  drift_not_possible,                 ///< a drift is not from above -1 to 10
+  drift_without_links,                ///< the device has no link
+  raster_without_walls,               ///< a raster has no wall
+  velocity_filter_below_zero,         ///< a velocity filter is not finite and at least 0
+  virtual_damper_below_zero,          ///< a damper is not at least 0
+  grid_not_rising,                    ///< the stiffnesses of a grid do not rise
+  other_devices_limit,                ///< a limit is of another device
+  no_uncertainty,                     ///< the device has no uncertainty
+  no_draws,                           ///< no device is drawn
+  force_per_count_undefined,          ///< a period or a resolution is not possible
+  users_range_not_possible,           ///< a range of users is not possible
+  wall_not_possible,                  ///< a wall's number is not possible
+  sampling_period_not_positive,       ///< a sampling period is not above 0
+  delay_below_zero,                   ///< a delay is below 0
+  filter_below_zero,                  ///< a velocity filter is below 0
+  floor_below_zero,                   ///< a floor is below 0
+  relay_amplitude_not_positive,       ///< a relay without force
+  relay_hysteresis_below_zero,        ///< a hysteresis is below 0
+  half_periods_not_ordered,           ///< half-periods are not in order
+  delay_not_possible,                 ///< a delay is below 0
+  too_many_bodies_with_friction,      ///< too many bodies rub
+  motion_too_fast,                    ///< a motion is too fast to follow in time
+  force_and_position_of_two_lengths,  ///< force and position have different lengths
+  force_not_finite,                   ///< a force is not finite
+  position_not_finite,                ///< a position is not finite
+  no_sampling_period,                 ///< a sampling period is not above 0
+  period_or_samples_not_possible,     ///< a period or a sample is not possible
+  ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
+  transform_of_nothing,               ///< a transform of no samples
+  transform_of_other_length,          ///< a transform of another length
+  power_density_not_possible,         ///< a rate or a sample is not possible
+  signal_period_not_positive,         ///< a sampling period is not above 0
+  samples_of_channel_not_finite,      ///< a sample is not finite
+  cutoff_not_possible,                ///< a cutoff is not below half the rate
+  share_not_possible,                 ///< a share is not between 0 and 1
+  count_no_share,                     ///< more than all
+  weights_not_possible,               ///< weights are not possible
+  answers_not_one_a_point,            ///< as many answers as points are needed
+  answer_not_finite,                  ///< an answer is not finite
+  indices_not_possible,               ///< too few samples, or too many dimensions
+  too_many_samples_in_memory,         ///< too many samples to keep
+  specification_missing,              ///< failures need a specification
+  samples_out_of_range,               ///< a number of samples is out of its range
+
+  // computations that do not come to their end
+  outline_not_closed,              ///< the boundary of the region does not close
+  boundary_not_followed,           ///< the boundary of the region turns too often
+  boundary_pieces_coincide,        ///< a mode is not damped
+  crossover_off_boundary,          ///< a crossover is not on the boundary
+  region_changes_too_often,        ///< the region changes too often
+  crossovers_not_found,            ///< modes cancel at the sensed body
+  disk_peak_not_found,             ///< the disk margin's peak is not found
+  response_out_of_range,           ///< a pole grows too fast for the sampling period
+  response_not_computed,           ///< too many poles lie together
+  no_path_of_transfer_function,    ///< a transfer function has no body
+  no_body_of_path,                 ///< a path ends at no body
+  state_space_of_other_sizes,      ///< the matrices of a state space do not fit
+  state_space_entry_not_possible,  ///< an entry of a state space is out of its range
+  modes_too_close_for_digits,      ///< modes too close for 31 digits, and too many bodies for exact arithmetic
+  modes_not_found,                 ///< numbers lie too many powers of ten apart
+  poles_not_found,                 ///< numbers lie too many powers of ten apart
+  too_many_poles_coincide,         ///< too many poles coincide
+  too_many_poles_cancel,           ///< too many poles nearly coincide
+  modes_not_told_apart,            ///< modes lie too close together
+  poles_not_told_apart,            ///< poles that nearly coincide lie close to others
+};
+
+}  // namespace zwidth

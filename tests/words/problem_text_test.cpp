@@ -1,0 +1,106 @@
+// The words of options that cannot be used, from codes and numbers.
+
+#include "zwidth/words/problem_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "counted.hpp"
+#include "words/problem_phrase.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+using internal::counted;
+
+/// "what; allowed"
+std::string line(Problem problem) {
+  const OptionProblem told = option_problem("member", std::move(problem));
+  EXPECT_EQ(told.member, "member");
+  return told.what + "; " + told.allowed;
+}
+
+TEST(ProblemText, EveryCodeHasWordsOfItsOwnName) {
+  std::set<std::string_view> names;
+  for (const internal::ProblemPhrase& each : internal::problem_phrases()) {
+    EXPECT_EQ(name_of(each.code), each.name);
+    names.insert(each.name);
+  }
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(ProblemCode::poles_not_told_apart) + 1) << "the last code";
+}
+
+TEST(ProblemText, GivesANumberWithAllItsDigitsAndItsUnit) {
+  EXPECT_EQ(line({.code = ProblemCode::no_frequency, .evidence = {{"value", -0.1}}}),
+            "is -0.1; a frequency in rad/s > 0");
+  EXPECT_EQ(line({.code = ProblemCode::not_finite_and_positive,
+                  .evidence = {{"value", std::numeric_limits<double>::infinity()}, {"times", 1.0}}}),
+            "is inf times; must be finite and > 0");
+  EXPECT_EQ(
+      line({.code = ProblemCode::below_zero, .evidence = {{"value", -1e-5}}, .subjects = {{"in", "s"}, {"unit", "s"}}}),
+      "is -1e-05 s; a number of s >= 0");
+  EXPECT_EQ(line({.code = ProblemCode::below_zero, .evidence = {{"value", -2.0}}}), "is -2; a number >= 0");
+  EXPECT_EQ(line({.code = ProblemCode::duration_out_of_range,
+                  .evidence = {{"value", 0.0}, {"least", 1e-3}, {"most", 2e4}, {"samples", 2e7}}}),
+            "is 0 s; 0.001 s to 20000 s, 1 to 20000000 sampling periods");
+}
+
+TEST(ProblemText, NamesAMeasureInTheUnitsOfBothMotions) {
+  const auto above_zero = [](const char* measure) {
+    return line({.code = ProblemCode::not_above,
+                 .evidence = {{"value", 0.0}, {"bound", 0.0}},
+                 .subjects = {{"measure", measure}}});
+  };
+  EXPECT_EQ(above_zero("force"), "is 0; a force in N or N m above 0");
+  EXPECT_EQ(above_zero("distance"), "is 0; a distance in m or rad above 0");
+  EXPECT_EQ(above_zero("speed"), "is 0; a speed in m/s or rad/s above 0");
+  EXPECT_EQ(above_zero("time"), "is 0; a time in s above 0");
+  EXPECT_EQ(above_zero("stiffness"), "is 0; a stiffness in N/m or N m/rad above 0");
+  EXPECT_THROW(above_zero("mood"), Error);
+}
+
+TEST(ProblemText, HasVariantsOfCounts) {
+  EXPECT_EQ(line({.code = ProblemCode::count_out_of_range_or_zero,
+                  .evidence = {counted("value", 5), counted("least", 368), counted("most", 1U << 20U),
+                               counted("samples", 1000)}}),
+            "is 5; must be 0, or 368 to 1048576, and no more than the 1000 samples");
+  EXPECT_EQ(line({.code = ProblemCode::count_out_of_range,
+                  .evidence = {counted("value", 0), counted("least", 1), counted("most", 200), {"several", 1.0}}}),
+            "are 0; must be 1 to 200");
+  EXPECT_EQ(line({.code = ProblemCode::too_few,
+                  .evidence = {counted("value", 5), counted("least", 64)},
+                  .subjects = {{"unit", "samples"}}}),
+            "is 5 samples; at least 64");
+}
+
+TEST(ProblemText, HasVariantsOfWholeSentences) {
+  EXPECT_EQ(line({.code = ProblemCode::not_finite}), "is not finite; must be finite");
+  EXPECT_EQ(line({.code = ProblemCode::not_finite,
+                  .evidence = {{"value", std::numeric_limits<double>::infinity()}, {"entry", 1.0}}}),
+            "has inf; must be finite");
+  EXPECT_EQ(line({.code = ProblemCode::of_the_device,
+                  .subjects = {{"key", "operator.mass"}, {"what", "is -1"}, {"allowed", "must be > 0"}}}),
+            "operator.mass is -1; must be > 0");
+  EXPECT_EQ(line({.code = ProblemCode::of_the_device,
+                  .evidence = {{"colon", 1.0}},
+                  .subjects = {{"key", "operator.mass"}, {"what", "is -1"}, {"allowed", "must be > 0"}}}),
+            "operator.mass: is -1; must be > 0");
+  Problem slow{
+      .code = ProblemCode::serial_line_too_slow,
+      .evidence = {
+          {"bytes", 20.0}, {"baud", 115200.0}, {"carried_hz", 460.0}, {"wanted_hz", 1000.0}, {"period", 0.0022}}};
+  EXPECT_EQ(line(slow),
+            "20 bytes per cycle at 115200 Bd leave 460 Hz at most, the loop runs at 1000 Hz; loop.sampling_period to "
+            "0.0022 s or more");
+  slow.evidence.push_back({"sufficient_baud", 460800.0});
+  EXPECT_EQ(line(slow),
+            "20 bytes per cycle at 115200 Bd leave 460 Hz at most, the loop runs at 1000 Hz; set the drive and "
+            "driver.baud to 460800 or more, or loop.sampling_period to 0.0022 s or more");
+}
+
+}  // namespace
+}  // namespace zwidth
