@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/text/findings_text.hpp"
 #include "report/text/frf_text.hpp"
 #include "report/text/held_wall_text.hpp"
 #include "report/text/identification_text.hpp"
