@@ -59,7 +59,7 @@ void run_frf(const FrfArguments& arguments) {
     const auto content = arguments.points ? results::FrfContent::with_lines : results::FrfContent::summary;
     write_standard_output(results::line(results::frf_json(frf, units, content)));
   } else {
-    write_text(report::frf_text(frf, units));
+    write_text(report::frf_text(frf, units, arguments.output.findings));
   }
 }
 
@@ -74,9 +74,10 @@ void add_frf(CLI::App& app) {
       ->type_name("UNIT");
   command->add_option("--position-unit", arguments->position_unit, "Likewise; else of the column's name, else m")
       ->type_name("UNIT");
-  add_output_options(
-      *command, arguments->output,
-      {.csv = "Also write the lines of the response", .figure = "Also draw a figure: .svg, .png or .pdf"});
+  add_output_options(*command, arguments->output,
+                     {.csv = "Also write the lines of the response",
+                      .figure = "Also draw a figure: .svg, .png or .pdf",
+                      .explain = explain_help});
   command->add_flag("--points", arguments->points, "With --json: the lines of the response too");
   command->footer(
       "Examples:\n"

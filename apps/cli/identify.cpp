@@ -184,7 +184,7 @@ void print(const IdentifyArguments& arguments, const Identified& identified, con
     write_warnings(identified.remarks);
     write_standard_output(device);
   } else {
-    write_text(report::identification_text(identified) + device_hint(arguments));
+    write_text(report::identification_text(identified, arguments.output.findings) + device_hint(arguments));
   }
 }
 
@@ -251,7 +251,8 @@ void add_identify(CLI::App& app) {
   command->add_flag("--no-hold", arguments->no_hold, "Do not hold an imperfect fit to the measured critical stiffness");
   command->add_option("--output-device", arguments->output_device, "Write the fitted device; - is standard output")
       ->type_name("FILE.toml");
-  add_output_options(*command, arguments->output, {.figure = "Draw data, fit and residual (.svg, .png, .pdf)"});
+  add_output_options(*command, arguments->output,
+                     {.figure = "Draw data, fit and residual (.svg, .png, .pdf)", .explain = explain_help});
   command->add_flag("--points", arguments->points, "Measured and fitted response in the JSON document")
       ->needs(command->get_option("--json"));
   command->footer(

@@ -38,6 +38,10 @@ bool same_file(const std::string& one, const std::string& other) {
 void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help) {
   command.add_flag("--json", arguments.json, help.json);
   if (!help.csv.empty()) command.add_option("--csv", arguments.csv, help.csv)->type_name("FILE");
+  if (!help.explain.empty()) {
+    const auto show_all = [&arguments](std::int64_t) { arguments.findings = report::ShownFindings::all; };
+    command.add_flag_function("--explain", show_all, help.explain);
+  }
   if (help.figure.empty()) return;
   const std::string names = arguments.figure_option == "--output" ? "-o,--output" : arguments.figure_option;
   command.add_option(names, arguments.figure, help.figure)->type_name("FILE");

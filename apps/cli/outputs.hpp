@@ -9,6 +9,7 @@
 
 #include "report/figure/canvas.hpp"
 #include "report/output_file.hpp"
+#include "report/text/findings_text.hpp"
 
 namespace zwidth::cli {
 
@@ -18,20 +19,24 @@ enum class Ending { any, figure, figure_or_csv, page, hdf5 };
 /// Where an answer goes, as the command line says it.
 struct OutputArguments {
   bool json = false;
-  std::string csv = {};                    ///< --csv; empty: none
-  std::string figure = {};                 ///< empty: none
-  std::string figure_option = "--output";  ///< the option that names it
-  Ending ending = Ending::figure;          ///< of that file
+  report::ShownFindings findings = report::ShownFindings::three;  ///< of the text
+  std::string csv = {};                                           ///< --csv; empty: none
+  std::string figure = {};                                        ///< empty: none
+  std::string figure_option = "--output";                         ///< the option that names it
+  Ending ending = Ending::figure;                                 ///< of that file
 };
+
+inline constexpr const char* explain_help = "In words: every finding, not only the three that matter most";
 
 /// What the help says of each; empty: the command has no such option.
 struct OutputHelp {
   std::string json = "Print one JSON document on one line";
   std::string csv = {};
   std::string figure = {};
+  std::string explain = {};
 };
 
-/// Declares --json, --csv and the figure's option (--output is -o too); `arguments` must outlive the parsing.
+/// Declares --json, --csv, --explain and the figure's option (--output is -o too); `arguments` must outlive the parsing.
 void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help);
 
 /// The files that a command writes, each asked for with an option: checked before the work, written after it, all or

@@ -1,9 +1,15 @@
 #include "study/answer_bytes.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <functional>
+#include <mutex>
+#include <set>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace zwidth::study_engine {
 namespace {
@@ -18,10 +24,11 @@ class Writer {
     const auto* first = reinterpret_cast<const char*>(&value);
     bytes_.insert(bytes_.end(), first, first + sizeof value);
   }
-  void put(const std::string& text) {
+  void put(std::string_view text) {
     put(std::uint64_t{text.size()});
     bytes_.insert(bytes_.end(), text.begin(), text.end());
   }
+  void put(const std::string& text) { put(std::string_view(text)); }
   template <typename T>
   void put(const std::vector<T>& values) {
     put(std::uint64_t{values.size()});
@@ -30,11 +37,37 @@ class Writer {
   void put(const Trust& trust) {
     put(trust.verdict);
     put(trust.reasons);
+    put(trust.findings);
+  }
+  void put(const Finding& finding) {
+    put(finding.code);
+    put(finding.evidence);
+    put(finding.subjects);
+    put(finding.key);
+    put(finding.effect);
+    put(finding.severity);
+  }
+  void put(const Evidence& evidence) {
+    put(evidence.name);
+    put(evidence.value);
+    put(evidence.unit);
+  }
+  void put(const Subject& subject) {
+    put(subject.name);
+    put(subject.text);
   }
 
  private:
   std::vector<char>& bytes_;
 };
+
+/// A name as findings have it: for the rest of the program, as a literal is.
+std::string_view name_for_good(std::string name) {
+  static std::mutex one_at_a_time;
+  static std::set<std::string, std::less<>> names;
+  const std::scoped_lock lock(one_at_a_time);
+  return *names.insert(std::move(name)).first;
+}
 
 class Reader {
  public:
@@ -55,6 +88,11 @@ class Reader {
     text.assign(bytes_.data(), size);
     bytes_ = bytes_.subspan(size);
   }
+  void get(std::string_view& name) {
+    std::string text;
+    get(text);
+    name = name_for_good(std::move(text));
+  }
   template <typename T>
   void get(std::vector<T>& values) {
     values.resize(count());  // an element takes a byte at least
@@ -65,6 +103,24 @@ class Reader {
   void get(Trust& trust) {
     get(trust.verdict);
     get(trust.reasons);
+    get(trust.findings);
+  }
+  void get(Finding& finding) {
+    get(finding.code);
+    get(finding.evidence);
+    get(finding.subjects);
+    get(finding.key);
+    get(finding.effect);
+    get(finding.severity);
+  }
+  void get(Evidence& evidence) {
+    get(evidence.name);
+    get(evidence.value);
+    get(evidence.unit);
+  }
+  void get(Subject& subject) {
+    get(subject.name);
+    get(subject.text);
   }
   void get(BatchException& exception) {
     get(exception.index);

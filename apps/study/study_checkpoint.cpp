@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view first_words = "zwidth study checkpoint ";
-constexpr std::string_view first_line = "zwidth study checkpoint 2\n";  // the number is that of the format
+constexpr std::string_view first_line = "zwidth study checkpoint 3\n";  // the number is that of the format
 constexpr std::string_view last_line = "end of description\n";
 constexpr std::uint64_t record_mark = 0x6b6e756863646577;
 constexpr std::uint64_t most_record_bytes = std::uint64_t{1} << 32U;

@@ -26,9 +26,8 @@ constexpr double margin_rounding = 1e-9;
 constexpr double weaker = 0.8;  // the walk to a damper that keeps the phase margin
 constexpr int most_weaker = 120;
 constexpr int damper_bisections = 40;
-constexpr double grows = 1e-8;                                // |z| - 1
-constexpr double at_rest = 1e-6;                              // |z - 1| of the pole of a position that nothing holds
-constexpr std::array users_masses{0.0, 0.1, 1.0, 10.0, 1e3};  // times the device's
+constexpr double grows = 1e-8;                                        // |z| - 1
+constexpr std::array users_masses{0.0, 0.1, 1.0, 10.0, 1e3};          // times the device's
 constexpr std::array users_springs{0.0, 1e-4, 1e-2, 0.1, 1.0, 10.0};  // times B/T
 
 double found_damping(const CriticalDamping& critical) {

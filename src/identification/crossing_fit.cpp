@@ -6,11 +6,11 @@
 #include <numbers>
 #include <vector>
 
+#include "identification/student_t.hpp"
+
 namespace zwidth::internal {
 namespace {
 
-/// The 97.5 % point of the normal distribution.
-constexpr double two_sided_95 = 1.959963984540054;
 /// A step nearer than this to half a turn may have gone either way round.
 constexpr double ambiguity = std::numbers::pi / 6.0;
 

@@ -16,13 +16,7 @@ namespace zwidth::internal {
 namespace {
 
 /// Of the residuals of a record, per sample: deviation^2 / |filter(e^{jwT})|^2.
-double spectral_density(const ShotNoise& noise, double angle) {
-  std::complex<double> filter = 0.0;
-  for (std::size_t j = 0; j < noise.filter.size(); ++j) {
-    filter += noise.filter[j] * std::polar(1.0, -angle * static_cast<double>(j));
-  }
-  return noise.deviation * noise.deviation / std::norm(filter);
-}
+double spectral_density(const ShotNoise& noise, double angle) { return 1.0 / std::norm(response_of(noise, angle)); }
 
 /// The deviation of a white force, held over each sample, that makes what a record leaves; 0 where none shows.
 double disturbance_of(const DisturbedFit& of, std::size_t record) {

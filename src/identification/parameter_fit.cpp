@@ -14,6 +14,7 @@
 #include "identification/identifiability.hpp"
 #include "identification/misfit_doubt.hpp"
 #include "identification/residual_checks.hpp"
+#include "identification/student_t.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
@@ -23,9 +24,6 @@
 namespace zwidth {
 using namespace internal;
 namespace {
-
-// 97.5 % quantile of the normal distribution.
-constexpr double two_sided = 1.959963984540054;
 
 std::vector<ResponsePoint> points_in_band(const FrequencyResponse& response, const ParameterFitOptions& options) {
   std::vector<ResponsePoint> points;
@@ -57,8 +55,8 @@ ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determin
     return result;
   }
   result.standard_deviation = deviation;
-  result.lower = std::max(0.0, result.value - two_sided * deviation);
-  result.upper = result.value + two_sided * deviation;
+  result.lower = std::max(0.0, result.value - two_sided_95 * deviation);
+  result.upper = result.value + two_sided_95 * deviation;
   return result;
 }
 

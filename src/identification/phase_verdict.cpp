@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "identification/student_t.hpp"
+
 namespace zwidth::internal {
 namespace {
 
-/// The 97.5 % point of the normal distribution.
-constexpr double two_sided_95 = 1.959963984540054;
 /// Beyond this a phase is no matter of noise (a measured line is known within 30 degrees), and not on a smooth curve
 /// with what happens at -180 degrees.
 constexpr double near = std::numbers::pi / 3.0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "identification/motion_residuals.hpp"
+#include "identification/student_t.hpp"
 #include "identification/time_domain_start.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "stability/device_draws.hpp"
@@ -17,9 +18,6 @@
 
 namespace zwidth::internal {
 namespace {
-
-// 97.5 % quantile of the normal distribution.
-constexpr double two_sided = 1.959963984540054;
 
 /// Known to a factor of e only: nothing that a number could be given for.
 bool is_open(const Coordinate& coordinate, double variance) {
@@ -35,8 +33,8 @@ ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determin
   }
   const double deviation = coordinate.slope(x) * std::sqrt(variance);
   result.standard_deviation = deviation;
-  result.lower = std::max(0.0, result.value - two_sided * deviation);
-  result.upper = result.value + two_sided * deviation;
+  result.lower = std::max(0.0, result.value - two_sided_95 * deviation);
+  result.upper = result.value + two_sided_95 * deviation;
   return result;
 }
 

@@ -46,16 +46,11 @@ class TraceReader {
   }
 
   tl::expected<ExportedColumns, InputError> read() {
-    while (true) {
-      auto next = lines_.next();
-      if (!next) return tl::unexpected(std::move(next.error()));
-      if (!*next) break;
-      const ExportLine& line = **next;
-      if (line.is_empty()) continue;
-      if (auto taken = line.cell(0).empty() ? add_sample(line) : take_setting(line); !taken) {
-        return tl::unexpected(std::move(taken.error()));
-      }
-    }
+    const auto take = [this](const ExportLine& line) -> TraceRead {
+      if (line.is_empty()) return {};
+      return line.cell(0).empty() ? add_sample(line) : take_setting(line);
+    };
+    if (auto taken = lines_.for_each(take); !taken) return tl::unexpected(std::move(taken.error()));
     if (auto refusal = finish()) return tl::unexpected(std::move(*refusal));
     return std::move(exported_);
   }

@@ -44,11 +44,8 @@ class DeskReader {
   explicit DeskReader(ExportLines& lines) : lines_(lines) { exported_.source = lines.source(); }
 
   tl::expected<ExportedColumns, InputError> read() {
-    while (true) {
-      auto next = lines_.next();
-      if (!next) return tl::unexpected(std::move(next.error()));
-      if (!*next) break;
-      if (auto taken = take(**next); !taken) return tl::unexpected(std::move(taken.error()));
+    if (auto taken = lines_.for_each([this](const ExportLine& line) { return take(line); }); !taken) {
+      return tl::unexpected(std::move(taken.error()));
     }
     exported_.remarks.insert(
         exported_.remarks.begin(),

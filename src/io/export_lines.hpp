@@ -39,6 +39,17 @@ class ExportLines {
   /// The next line; nothing at the end. Refused: a line longer than 4 MiB.
   [[nodiscard]] tl::expected<std::optional<ExportLine>, InputError> next();
 
+  /// Calls `take` with every line that is left, until it refuses one.
+  template <typename Take>
+  tl::expected<void, InputError> for_each(const Take& take) {
+    while (true) {
+      auto line = next();
+      if (!line) return tl::unexpected(std::move(line.error()));
+      if (!*line) return {};
+      if (auto taken = take(**line); !taken) return taken;
+    }
+  }
+
   /// The number in a cell. The first cell that shows a decimal mark fixes it, where it was not given.
   [[nodiscard]] NumberCell number(std::string_view cell);
   [[nodiscard]] std::optional<char> decimal_mark() const { return decimal_mark_; }

@@ -44,14 +44,8 @@ class LvmReader {
   }
 
   tl::expected<ExportedColumns, InputError> read() {
-    while (true) {
-      auto next = lines_.next();
-      if (!next) return tl::unexpected(std::move(next.error()));
-      if (!*next) break;
-      const ExportLine& line = **next;
-      if (line.is_empty()) continue;
-      if (auto taken = take(line); !taken) return tl::unexpected(std::move(taken.error()));
-    }
+    const auto take_row_or_tag = [this](const ExportLine& line) { return line.is_empty() ? LvmRead() : take(line); };
+    if (auto taken = lines_.for_each(take_row_or_tag); !taken) return tl::unexpected(std::move(taken.error()));
     if (state_ != State::rows) {
       return tl::unexpected(InputError{exported_.source, 0, 0, "", "ends in the header of a LabVIEW measurement file",
                                        "must go on with a line of names and rows"});

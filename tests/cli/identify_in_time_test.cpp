@@ -44,7 +44,7 @@ TEST_F(IdentifyInTime, FindsTheExampleRecordingsBody) {
 TEST_F(IdentifyInTime, TakesSeveralRecordingsAndTellsItInWords) {
   const Outcome outcome =
       run("zwidth identify recordings/free_motion.csv recordings/free_motion.csv --force force --position position "
-          "--method time-domain --structure rigid");
+          "--method time-domain --structure rigid --explain");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("identified in time from recordings/free_motion.csv and 1 more"));
   EXPECT_THAT(outcome.output, HasSubstr("dry friction of 1.2 N (body.body.coulomb)"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "cli/workspace.hpp"
@@ -20,6 +21,14 @@ const std::string record = "zwidth identify recordings/locked_chirp.csv --force 
 const std::string locked =
     record + "--structure devices/lhifam.toml --locked handle --free link.stiffness,link.damping ";
 
+long lines_of_findings(const std::string& text) {
+  std::istringstream lines(text);
+  long count = 0;
+  for (std::string line; std::getline(lines, line);)
+    count += line.starts_with("  ! ") || line.starts_with("  - ") ? 1 : 0;
+  return count;
+}
+
 class Identify : public Workspace {
  protected:
   [[nodiscard]] json document(const std::string& command) const {
@@ -33,6 +42,7 @@ class Identify : public Workspace {
 
 // The recording is of the paper's Table I (79.5 kN/m, 15 N s/m): recordings/README.md.
 TEST_F(Identify, FindsTheCableOfTheExample) {
+  EXPECT_THAT(run(locked).output, HasSubstr("Trust: sound."));
   const json found = document(locked + "--json");
   EXPECT_EQ(found["schema"], "zwidth.identification/1");
   ASSERT_EQ(found["parameters"].size(), 2U);
@@ -77,10 +87,15 @@ TEST_F(Identify, DrawsDataAndFit) {
 }
 
 TEST_F(Identify, NamesWhatTheDataLeaveOpen) {
-  const Outcome outcome = run(record + "--structure two-body --locked handle");
+  const Outcome outcome = run(record + "--structure two-body --locked handle --explain");
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("only a combination of body.motor.damping, link.0.damping"));
   EXPECT_THAT(outcome.output, HasSubstr("is a placeholder"));
+  const Outcome brief = run(record + "--structure two-body --locked handle");
+  EXPECT_THAT(brief.output, HasSubstr("DOUBTFUL"));
+  EXPECT_THAT(brief.output, HasSubstr(" more: add --explain\n"));
+  EXPECT_EQ(lines_of_findings(brief.output), 3);
+  EXPECT_GT(lines_of_findings(outcome.output), 3);
   const json found = document(record + "--structure two-body --locked handle --json");
   EXPECT_EQ(found["unidentifiable"], json::parse(R"([["body.motor.damping", "link.0.damping"]])"));
   EXPECT_NEAR(found["parameters"][0]["value"], 0.3, 0.003);

@@ -4,8 +4,6 @@
 
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
-#include "report/text/trust_text.hpp"
-#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -59,34 +57,23 @@ std::string crossovers(const MeasuredResponse& frf, const std::string& unit) {
                           std::string(crossover.poles_leaving > 0 ? "an oscillation sets in" : "an oscillation ends") +
                               (limits ? "  <- critical" : "")});
   }
-  return "Phase crossovers that the data prove\n" + layout(table) + "\n";
+  return "Phase crossovers that the data prove\n" + layout(table);
 }
 
 }  // namespace
 
-std::string remarks_text(std::span<const Remark> remarks) {
-  constexpr std::size_t bullet = 4;
-  std::string lines;
-  for (const Remark::Severity severity : {Remark::Severity::warning, Remark::Severity::note}) {
-    for (const Remark& remark : remarks) {
-      if (remark.severity != severity) continue;
-      lines += wrap(remark_line(remark), line_width, bullet)
-                   .replace(0, bullet, severity == Remark::Severity::warning ? "  ! " : "  - ");
-    }
-  }
-  return lines;
-}
-
-std::string frf_text(const MeasuredResponse& frf, const results::FrfUnits& units) {
+std::string frf_text(const MeasuredResponse& frf, const results::FrfUnits& units, ShownFindings shown) {
   const FrequencyResponse& response = frf.response;
   std::string measured = fmt::format("{} lines, {}", response.points.size(),
                                      in_hertz({response.points.front().frequency, response.points.back().frequency}));
   if (response.sampling_period) measured += fmt::format(", T = {}", quantity(*response.sampling_period, "s"));
   const std::string basis =
       frf.trust.refused() ? "" : labelled("  basis", "the bare stiffness, without a virtual damper");
-  return shortened(frf.source, line_width) + "\n" + answer(frf, units.stiffness()) + basis + trust_lines(frf.trust) +
-         labelled("  measured", measured) + "\n" + crossovers(frf, units.stiffness()) + "Remarks\n" +
-         remarks_text(frf.remarks);
+  const FindingsText findings = findings_text(frf.trust, frf.remarks, shown);
+  const std::string proven = crossovers(frf, units.stiffness());
+  return shortened(frf.source, line_width) + "\n" + answer(frf, units.stiffness()) + basis + findings.against +
+         (frf.trust.sound() ? labelled("  trust", "sound") : "") + labelled("  measured", measured) +
+         (proven.empty() ? "" : "\n" + proven) + findings.remarks;
 }
 
 }  // namespace zwidth::report

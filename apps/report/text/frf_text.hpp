@@ -1,16 +1,14 @@
 #pragma once
 
-#include <span>
 #include <string>
 
+#include "report/text/findings_text.hpp"
 #include "results/frf_json.hpp"
 
 namespace zwidth::report {
 
 /// The answer for a reader: critical stiffness with its interval, every crossover, what was done and what is doubtful.
-[[nodiscard]] std::string frf_text(const MeasuredResponse& frf, const results::FrfUnits& units = {});
-
-/// One wrapped line per remark, "  - what; meaning", warnings first.
-[[nodiscard]] std::string remarks_text(std::span<const Remark> remarks);
+[[nodiscard]] std::string frf_text(const MeasuredResponse& frf, const results::FrfUnits& units = {},
+                                   ShownFindings shown = ShownFindings::all);
 
 }  // namespace zwidth::report

@@ -6,10 +6,8 @@
 #include <span>
 
 #include "report/text/explanation.hpp"
-#include "report/text/frf_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
-#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -48,7 +46,8 @@ std::string basis_text(const StiffnessBasis& basis, Motion motion) {
   return text;
 }
 
-std::string remarks(const std::vector<Remark>& all) { return all.empty() ? "" : "\nRemarks\n" + remarks_text(all); }
+/// The verdict of an answer that nothing speaks against.
+std::string sound_line(const Trust& trust) { return trust.sound() ? "Trust: sound.\n" : ""; }
 
 /// Value, unit, standard deviation and 95 % interval of each parameter.
 TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion) {
@@ -80,22 +79,25 @@ std::string limit_text(const Device& device, const Analysis& analysis, const Sti
 
 }  // namespace
 
-std::string identification_text(const Identification& identified) {
+std::string identification_text(const Identification& identified, ShownFindings shown) {
   const ParameterFit& fit = identified.fit;
   std::string text = fmt::format("{}, identified from {}\n", display_name(fit.device), identified.source);
-  text += trust_lines(identified.trust);
+  const FindingsText findings = findings_text(identified.trust, identified.remarks, shown);
+  text += findings.against;
   text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit.correlations) +
           "\n" + wrap(fit_quality(fit), line_width, 0) + "\n";
-  if (identified.trust.refused()) return text + remarks(identified.remarks);
-  return text + limit_text(fit.device, identified.analysis, identified.basis) + remarks(identified.remarks);
+  if (identified.trust.refused()) return text + findings.remarks;
+  return text + limit_text(fit.device, identified.analysis, identified.basis) + sound_line(identified.trust) +
+         findings.remarks;
 }
 
-std::string identification_text(const TimeDomainIdentification& identified) {
+std::string identification_text(const TimeDomainIdentification& identified, ShownFindings shown) {
   const Motion motion = identified.device.parameters().motion;
   std::string text =
       fmt::format("{}, identified in time from {}", display_name(identified.device), identified.motions.front().source);
   if (identified.motions.size() > 1) text += fmt::format(" and {} more", identified.motions.size() - 1);
-  text += "\n" + trust_lines(identified.trust);
+  const FindingsText findings = findings_text(identified.trust, identified.remarks, shown);
+  text += "\n" + findings.against;
   text += layout(estimate_table(identified.estimates, motion)) + correlations(identified.correlations) + "\n";
   for (const FittedMotion& each : identified.motions) {
     text +=
@@ -104,21 +106,23 @@ std::string identification_text(const TimeDomainIdentification& identified) {
              line_width, 0);
   }
   text += "\n";
-  if (identified.trust.refused()) return text + remarks(identified.remarks);
-  return text + limit_text(identified.device, identified.analysis, identified.basis) + remarks(identified.remarks);
+  if (identified.trust.refused()) return text + findings.remarks;
+  return text + limit_text(identified.device, identified.analysis, identified.basis) + sound_line(identified.trust) +
+         findings.remarks;
 }
 
-std::string identification_text(const RigidBodyIdentification& identified) {
+std::string identification_text(const RigidBodyIdentification& identified, ShownFindings shown) {
   const RigidBodyFit& fit = identified.fit;
   std::string text = fmt::format("A rigid body, identified from {}\n", identified.source);
-  text += trust_lines(identified.trust);
+  const FindingsText findings = findings_text(identified.trust, identified.remarks, shown);
+  text += findings.against;
   text += layout(estimate_table(estimates(fit), identified.device.parameters().motion)) + "\n";
   text += wrap(fmt::format("Inverse dynamics: low-pass of {:.4g} Hz without phase, every {}. sample, {} equations; the "
                            "residual force is {:.3g} % of the force (both rms). Intervals allow for residuals that are "
                            "correlated in time.",
                            fit.cutoff_hz, fit.decimation, fit.equations, 100.0 * fit.relative_residual),
                line_width, 0);
-  return text + remarks(identified.remarks);
+  return text + sound_line(identified.trust) + findings.remarks;
 }
 
 }  // namespace zwidth::report

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/text/findings_text.hpp"
 #include "report/text/frf_text.hpp"
 #include "report/text/held_wall_text.hpp"
 #include "report/text/identification_text.hpp"
@@ -108,16 +109,19 @@ std::string rig_text(const Device& device, const RigCheck& check) {
 
 std::string rig_text(const Device& device, const RigMeasurement& measurement) {
   std::string text = rig_heading(device, "Rig measurement", measurement.session);
-  text += trust_lines(measurement.trust);
-  if (measurement.response) text += frf_text(*measurement.response, results::frf_units(device));
-  return text + session_text(measurement.session);
+  if (!measurement.response) return text + trust_lines(measurement.trust) + session_text(measurement.session);
+  MeasuredResponse response = *measurement.response;
+  response.trust = measurement.trust;  // the response's, and the device's
+  return text + frf_text(response, results::frf_units(device)) + session_text(measurement.session);
 }
 
 std::string rig_text(const Device& device, const RigIdentification& identification) {
   std::string text = rig_heading(device, "Identified on the rig", identification.measurement.session);
-  text += trust_lines(identification.trust);
-  if (identification.identification) text += identification_text(*identification.identification);
-  return text + session_text(identification.measurement.session);
+  const RigSession& session = identification.measurement.session;
+  if (!identification.identification) return text + trust_lines(identification.trust) + session_text(session);
+  Identification identified = *identification.identification;
+  identified.trust = identification.trust;  // the fit's, and the device's
+  return text + identification_text(identified) + session_text(session);
 }
 
 std::string rig_text(const Device& device, const RigRelay& relay) {

@@ -1,6 +1,6 @@
 // The documents' enums as words, and what the terms mean.
 
-import type { Analysis, ForAnyUser, HolderLimit, LimitedBy, Trust } from '../api/documents'
+import type { Analysis, Finding, ForAnyUser, HolderLimit, LimitedBy, Remark, Trust } from '../api/documents'
 import { say } from './decimal'
 
 export const limiter = (limited: LimitedBy | null | undefined): string =>
@@ -8,6 +8,18 @@ export const limiter = (limited: LimitedBy | null | undefined): string =>
 
 export const trustWord: Record<Trust['verdict'], string> = { sound: 'sound', doubtful: 'doubtful', refused: 'refused' }
 export const trustSign: Record<Trust['verdict'], string> = { sound: '✓', doubtful: '!', refused: '✕' }
+
+/** Refusals first, then the doubt with which the limit is lowest. */
+export function worstFirst(reasons: string[], findings: Finding[]): string[] {
+  const of = new Map(findings.map((each) => [each.text, each]))
+  const limit = (reason: string): number => of.get(reason)?.effect?.['critical_stiffness'] ?? Infinity
+  const refuses = (reason: string): boolean => of.get(reason)?.severity === 'refusal'
+  const order = (a: string, b: string): number =>
+    Number(refuses(b)) - Number(refuses(a)) || (limit(a) === limit(b) ? 0 : limit(a) - limit(b))
+  return [...reasons].sort(order)
+}
+export const warningsFirst = (remarks: Remark[]): Remark[] =>
+  [...remarks].sort((a, b) => Number(b.severity === 'warning') - Number(a.severity === 'warning'))
 
 /** In place of a limit that is no number. */
 export const limitWord = ({ status, stable_intervals }: Pick<Analysis, 'status' | 'stable_intervals'>): string =>

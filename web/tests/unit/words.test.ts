@@ -1,7 +1,29 @@
 import { describe, expect, it } from 'vitest'
 import { groupsOf, inWords } from '../../src/model/keys'
 import { scan } from '../../src/model/toml'
-import { limitWord } from '../../src/model/words'
+import { limitWord, warningsFirst, worstFirst } from '../../src/model/words'
+
+const finding = (text: string, severity: 'doubt' | 'refusal', limit: number | null = null) => ({
+  code: 'stated',
+  severity,
+  key: null,
+  evidence: {},
+  effect: limit === null ? null : { critical_stiffness: limit },
+  remedy: '',
+  text,
+})
+
+describe('findings', () => {
+  it('come with refusals first, then the lowest limit, then as they were found', () => {
+    const found = [finding('a', 'doubt'), finding('b', 'doubt', 800), finding('c', 'doubt', 500), finding('d', 'refusal')]
+    expect(worstFirst(['a', 'b', 'no finding', 'c', 'd'], found)).toEqual(['d', 'c', 'b', 'a', 'no finding'])
+  })
+
+  it('come with warnings before notes', () => {
+    const remarks = ['note', 'warning', 'note'].map((severity, i) => ({ severity, what: String(i), consequence: '', remedy: '' }))
+    expect(warningsFirst(remarks).map((each) => each.what)).toEqual(['1', '0', '2'])
+  })
+})
 
 describe('words', () => {
   it('say what is stable where there is no limit', () => {

@@ -1,0 +1,116 @@
+#include "report/text/findings_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
+#include "zwidth/words/finding_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr std::size_t most_shown = 3;
+
+std::string remark_bullet(const Remark& remark) {
+  constexpr std::size_t bullet = 4;
+  return wrap(remark_line(remark), line_width, bullet)
+      .replace(0, bullet, remark.severity == Remark::Severity::warning ? "  ! " : "  - ");
+}
+
+/// What a reason is the sentence of; nothing where the library did not find it.
+const Finding* finding_of(const std::string& reason, const Trust& trust) {
+  const auto found = std::ranges::find(trust.findings, reason, [](const Finding& each) { return text(each); });
+  return found == trust.findings.end() ? nullptr : &*found;
+}
+
+double limit_with(const Finding* finding) {
+  if (finding == nullptr) return std::numeric_limits<double>::infinity();
+  const auto found = std::ranges::find(finding->effect, "critical_stiffness", &Evidence::name);
+  return found == finding->effect.end() ? std::numeric_limits<double>::infinity() : found->value;
+}
+
+/// The trust with the reasons that matter most first.
+Trust most_severe_first(Trust trust) {
+  const auto comes_first = [&](const std::string& a, const std::string& b) {
+    const Finding* const of_a = finding_of(a, trust);
+    const Finding* const of_b = finding_of(b, trust);
+    const auto severity = [&](const Finding* finding) {
+      if (finding != nullptr) return finding->severity;
+      return trust.refused() ? Finding::Severity::refusal : Finding::Severity::doubt;
+    };
+    if (severity(of_a) != severity(of_b)) return severity(of_a) > severity(of_b);
+    return limit_with(of_a) < limit_with(of_b);
+  };
+  std::vector<std::string> reasons = trust.reasons;
+  std::ranges::stable_sort(reasons, comes_first);
+  trust.reasons = std::move(reasons);
+  return trust;
+}
+
+/// Whether the doubt rests on all that the remark rests on, or the other way round.
+bool is_of_the_same(const Finding& doubt, const Finding& remark) {
+  const auto holds_all = [](const std::vector<Evidence>& these, const std::vector<Evidence>& those) {
+    return std::ranges::all_of(those,
+                               [&](const Evidence& each) { return std::ranges::find(these, each) != these.end(); });
+  };
+  return doubt.code == remark.code && doubt.key == remark.key && doubt.subjects == remark.subjects &&
+         (holds_all(doubt.evidence, remark.evidence) || holds_all(remark.evidence, doubt.evidence));
+}
+
+bool is_said(const Remark& remark, const Trust& trust) {
+  const auto is_reason = [&](const std::string& each) {
+    return std::ranges::find(trust.reasons, each) != trust.reasons.end();
+  };
+  if (is_reason(remark_line(remark))) return true;
+  if (!remark.finding) return false;
+  const Finding& finding = *remark.finding;
+  const auto repeats = [&](const Subject& each) { return each.name == "reason" && is_reason(each.text); };
+  return std::ranges::any_of(finding.subjects, repeats) ||
+         std::ranges::any_of(trust.findings, [&](const Finding& doubt) { return is_of_the_same(doubt, finding); });
+}
+
+/// Those that the trust does not say, each once, warnings first.
+std::vector<Remark> remaining(std::span<const Remark> remarks, const Trust& trust) {
+  std::vector<Remark> rest;
+  for (const Remark::Severity severity : {Remark::Severity::warning, Remark::Severity::note}) {
+    for (const Remark& remark : remarks) {
+      if (remark.severity != severity || is_said(remark, trust)) continue;
+      const std::string line = remark_line(remark);
+      if (std::ranges::find(rest, line, &remark_line) == rest.end()) rest.push_back(remark);
+    }
+  }
+  return rest;
+}
+
+}  // namespace
+
+FindingsText findings_text(const Trust& trust, std::span<const Remark> remarks, ShownFindings shown) {
+  const std::size_t most = shown == ShownFindings::three ? most_shown : std::numeric_limits<std::size_t>::max();
+  Trust said = most_severe_first(trust);
+  std::vector<Remark> rest = remaining(remarks, trust);
+  const std::size_t all = said.reasons.size() + rest.size();
+  said.reasons.resize(std::min(said.reasons.size(), most));
+  rest.resize(std::min(rest.size(), most - said.reasons.size()));
+  FindingsText found{trust_lines(said), ""};
+  if (!rest.empty()) found.remarks += "\nRemarks\n" + remarks_text(rest);
+  const std::size_t more = all - said.reasons.size() - rest.size();
+  if (more > 0) found.remarks += fmt::format("  ... {} more: add --explain\n", more);
+  return found;
+}
+
+std::string remarks_text(std::span<const Remark> remarks) {
+  std::string lines;
+  for (const Remark::Severity severity : {Remark::Severity::warning, Remark::Severity::note}) {
+    for (const Remark& remark : remarks) {
+      if (remark.severity == severity) lines += remark_bullet(remark);
+    }
+  }
+  return lines;
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,83 @@
+// What a fit's text says of its findings: each once, those that matter most first.
+
+#include "report/text/findings_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace zwidth::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+Finding unsafe(double at_most) {
+  return {.code = FindingCode::limit_above_measured,
+          .evidence = {{"fitted", 2.0 * at_most}, {"proven", at_most}},
+          .subjects = {{"unit", "N/m"}},
+          .effect = {{"critical_stiffness", at_most}}};
+}
+
+const Remark a_note{Remark::Severity::note, "how it was done", ""};
+const Remark a_warning{Remark::Severity::warning, "what is odd", ""};
+
+TEST(FindingsText, OfASoundAnswerIsItsRemarksWarningsFirst) {
+  const FindingsText found = findings_text({}, std::vector{a_note, a_warning, a_note}, ShownFindings::three);
+  EXPECT_THAT(found.against, IsEmpty());
+  EXPECT_EQ(found.remarks, "\nRemarks\n  ! what is odd\n  - how it was done\n");
+  EXPECT_THAT(findings_text({}, {}, ShownFindings::three).remarks, IsEmpty());
+}
+
+TEST(FindingsText, ShowsThreeThenSaysHowManyMore) {
+  Trust trust;
+  trust.doubt("a");
+  trust.doubt("b");
+  const std::vector remarks{a_note, a_warning};
+  const FindingsText three = findings_text(trust, remarks, ShownFindings::three);
+  EXPECT_THAT(three.against, HasSubstr("DOUBTFUL"));
+  EXPECT_THAT(three.against, HasSubstr("  ! a\n  ! b\n"));
+  EXPECT_EQ(three.remarks, "\nRemarks\n  ! what is odd\n  ... 1 more: add --explain\n");
+  const FindingsText all = findings_text(trust, remarks, ShownFindings::all);
+  EXPECT_EQ(all.against, three.against);
+  EXPECT_EQ(all.remarks, "\nRemarks\n  ! what is odd\n  - how it was done\n");
+}
+
+TEST(FindingsText, PutsRefusalsFirstThenTheLowestLimit) {
+  Trust trust;
+  trust.doubt("a doubt that names no limit");
+  trust.doubt("another");
+  trust.doubt(unsafe(800.0));
+  trust.doubt(unsafe(500.0));
+  trust.refuse("no data");
+  const FindingsText found = findings_text(trust, {}, ShownFindings::three);
+  EXPECT_THAT(found.against, HasSubstr("REFUSED"));
+  EXPECT_EQ(found.remarks, "  ... 2 more: add --explain\n");
+  const std::size_t refusal = found.against.find("no data");
+  const std::size_t lower = found.against.find("1000");  // fitted, where 500 are proven
+  const std::size_t higher = found.against.find("1600");
+  ASSERT_NE(higher, std::string::npos);
+  EXPECT_LT(refusal, lower);
+  EXPECT_LT(lower, higher);
+  EXPECT_THAT(found.against, Not(HasSubstr("another")));
+}
+
+TEST(FindingsText, SaysADoubtThatIsARemarkTooOnce) {
+  Trust trust;
+  Finding finding = unsafe(500.0);
+  finding.evidence.push_back({"threshold", 1.1});
+  trust.doubt(finding);
+  const Remark repeated =
+      warning({.code = FindingCode::limit_may_be_wrong, .subjects = {{"reason", trust.reasons.front()}}});
+  const std::vector remarks{warning(unsafe(500.0)), warning(unsafe(400.0)), repeated};
+  const FindingsText found = findings_text(trust, remarks, ShownFindings::all);
+  EXPECT_THAT(found.remarks, HasSubstr("  ! "));
+  EXPECT_EQ(found.remarks.find("  ! "), found.remarks.rfind("  ! ")) << found.remarks;
+  EXPECT_THAT(found.remarks, HasSubstr("400"));
+}
+
+}  // namespace
+}  // namespace zwidth::report
