@@ -81,7 +81,7 @@ set(slow
   "^SameAnswerOfRecordings\\."
   "^Commands/SameAnswerOn\\.EveryDeviceFile"
   "^Commands/SameAnswerOnRecordings\\..*/(Rigid|LinkOfTwoBodies|InTime)$"
-  "^Devices/Export\\.RunsIn.*/(lhifam|three_masses|.*_delay|filters|one_filter|lag|transfer_function)$"
+  "^Devices/(Export|ExportWall)\\..*(Octave|Python|Scipy).*/(lhifam|three_masses|.*_delay|filters|one_filter|lag|transfer_function)$"
   # the loop in real time, which waits; of the drives one, of the devices on the bench three
   "^Rig\\.(EveryAction|Identify|TheReport|TheFlight|TheKnock|TheDefault|ATerminal|TellsWhatItCannotDo|Rounding)"
   "^RigFault\\."

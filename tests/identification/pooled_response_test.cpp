@@ -241,7 +241,7 @@ TEST(PooledResponse, IdentifiesADeviceFromSeveralRecordings) {
     ASSERT_TRUE(found.analysis.interval) << "seed " << seed;
     held += found.analysis.interval->lower <= truth_of(device) && truth_of(device) <= found.analysis.interval->upper;
   }
-  EXPECT_GE(held, 0.85 * seeds);
+  EXPECT_GE(held, test::by_tier(3, 17));  // chance leaves fewer of 4 or of 20 once in 70 times
 }
 
 TEST(PooledResponse, RefusesWhatDoesNotBelongTogether) {
