@@ -3,7 +3,7 @@
 
 usage: schemas.py ROOT [--write]
 Compares the files with docs/schemas/descriptions.toml, or writes it into them. A key without a description fails, and so does
-a description of no key.
+a description of no key. A key may be null where its description says so.
 """
 
 import json
@@ -45,16 +45,14 @@ def described(schema, told):
 
 def _bare(schema):
     """Without what this script writes: as tests/python/schema_of_documents.py finds it."""
-    if not isinstance(schema, dict):
-        return schema
     bare = {key: value for key, value in schema.items() if key not in ("description", "title", "minItems", "maxItems")}
     if "enum" in bare and "type" in bare:
         del bare["enum"]
-    if bare.get("type") == "number":
-        bare["type"] = ["number", "null"]
+    if types := [each for each in _types(bare) if each != "null"]:
+        bare["type"] = types[0] if len(types) == 1 else types
     if "properties" in bare:
         bare["properties"] = {key: _bare(value) for key, value in bare["properties"].items()}
-    return bare | {key: _bare(bare[key]) for key in ("items", "additionalProperties") if key in bare}
+    return bare | ({"items": _bare(bare["items"])} if "items" in bare else {})
 
 
 def _with_keys(schema, path, told):
@@ -73,19 +71,36 @@ def _of_key(schema, path, told):
     if not text:
         raise SystemExit(f'docs/schemas/descriptions.toml does not say what "{".".join(path)}" means')
     schema = told.of("types", path) or schema
-    if values := _types(schema) & {"string"} and told.of("values", path):
-        schema = {**schema, "enum": [*values, None] if "null" in _types(schema) else values}
-    if "number" in _types(_innermost(schema)):
-        if told.of("pairs", path):
-            schema = _as_pairs(schema)
-        if told.of("always", path):
-            schema = _without_null(schema)
+    if values := _types(schema) == ["string"] and told.of("values", path):
+        schema = {**schema, "enum": values}
+    if "number" in _types(_innermost(schema)) and told.of("pairs", path):
+        schema = _as_pairs(schema)
+    schema = _with_null(schema, text)
     return {"description": text, **_with_keys(schema, path, told)}
 
 
+def _with_null(schema, text):
+    """With null among the types where the description says so; of what a list holds where it says so of an end or an entry."""
+    whole, of_entries = re.subn(r"\b(end|entry) is null", "", text)
+    if of_entries:
+        schema = _entries_or_null(schema)
+    return _or_null(schema) if re.search(r"\bnull\b", whole) else schema
+
+
+def _entries_or_null(schema):
+    return {**schema, "items": _entries_or_null(schema["items"])} if "items" in schema else _or_null(schema)
+
+
+def _or_null(schema):
+    if not _types(schema) or "null" in _types(schema):
+        return schema
+    schema = {**schema, "type": [*_types(schema), "null"]}
+    return {**schema, "enum": [*schema["enum"], None]} if "enum" in schema else schema
+
+
 def _types(schema):
-    types = schema.get("type", ())
-    return {types} if isinstance(types, str) else set(types)
+    types = schema.get("type", [])
+    return [types] if isinstance(types, str) else types
 
 
 def _innermost(schema):
@@ -96,10 +111,6 @@ def _as_pairs(schema):
     if "items" in schema["items"]:
         return {**schema, "items": _as_pairs(schema["items"])}
     return {**schema, "minItems": 2, "maxItems": 2}
-
-
-def _without_null(schema):
-    return {**schema, "items": _without_null(schema["items"])} if "items" in schema else {**schema, "type": "number"}
 
 
 def key_table(schema):
