@@ -70,7 +70,8 @@ def _of_key(schema, path, told):
     text = told.of("descriptions", path)
     if not text:
         raise SystemExit(f'docs/schemas/descriptions.toml does not say what "{".".join(path)}" means')
-    schema = told.of("types", path) or schema
+    if type := told.of("types", path):
+        schema = {"type": type}
     if values := _types(schema) == ["string"] and told.of("values", path):
         schema = {**schema, "enum": values}
     if "number" in _types(_innermost(schema)) and told.of("pairs", path):
