@@ -49,7 +49,7 @@ def _bare(schema):
     if "enum" in bare and "type" in bare:
         del bare["enum"]
     if types := [each for each in _types(bare) if each != "null"]:
-        bare["type"] = types[0] if len(types) == 1 else types
+        bare["type"] = types[0].replace("integer", "number") if len(types) == 1 else types
     if "properties" in bare:
         bare["properties"] = {key: _bare(value) for key, value in bare["properties"].items()}
     return bare | ({"items": _bare(bare["items"])} if "items" in bare else {})
@@ -59,7 +59,8 @@ def _with_keys(schema, path, told):
     if title := "properties" in schema and told.of("titles", path):
         schema = {"title": title, **schema}
     if "properties" in schema:
-        schema["properties"] = {key: _of_key(value, [*path, key], told) for key, value in schema["properties"].items()}
+        keys = schema["properties"]
+        schema["properties"] = {key: _of_key(keys[told.of("same", [*path, key]) or key], [*path, key], told) for key in keys}
     for key in ("items", "additionalProperties"):
         if isinstance(schema.get(key), dict):
             schema[key] = _with_keys(schema[key], path, told)
@@ -74,8 +75,11 @@ def _of_key(schema, path, told):
         schema = {"type": type}
     if values := _types(schema) == ["string"] and told.of("values", path):
         schema = {**schema, "enum": values}
-    if "number" in _types(_innermost(schema)) and told.of("pairs", path):
-        schema = _as_pairs(schema)
+    if "number" in _types(_innermost(schema)):
+        if told.of("integers", path):
+            schema = _as_integers(schema)
+        if pair := told.of("pairs", path):
+            schema = _as_pairs(schema, pair)
     schema = _with_null(schema, text)
     return {"description": text, **_with_keys(schema, path, told)}
 
@@ -108,10 +112,14 @@ def _innermost(schema):
     return _innermost(schema["items"]) if "items" in schema else schema
 
 
-def _as_pairs(schema):
+def _as_integers(schema):
+    return {**schema, "items": _as_integers(schema["items"])} if "items" in schema else {**schema, "type": "integer"}
+
+
+def _as_pairs(schema, pair):
     if "items" in schema["items"]:
-        return {**schema, "items": _as_pairs(schema["items"])}
-    return {**schema, "minItems": 2, "maxItems": 2}
+        return {**schema, "items": _as_pairs(schema["items"], pair)}
+    return {**({"title": pair} if isinstance(pair, str) else {}), **schema, "minItems": 2, "maxItems": 2}
 
 
 def key_table(schema):

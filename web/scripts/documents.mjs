@@ -28,7 +28,7 @@ const alternatives = (schema) => {
   return typesOf(schema).map((type) => {
     if (type === 'array') return schema.items ? arrayOf(schema) : 'unknown[]'
     if (type === 'object') return objectOf(schema)
-    return type
+    return type === 'integer' ? 'number' : type
   })
 }
 const typeOf = (schemas) => {

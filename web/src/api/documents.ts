@@ -11,7 +11,7 @@ export type {
   Remark,
   Simulation,
   HolderLimit,
-  LimitedBy,
+  Mechanism as LimitedBy,
   Trust,
   WallPoint,
   WallToRender,
