@@ -16,6 +16,8 @@ elseif(ZWIDTH_WEB)
   find_program(npm npm REQUIRED)
   set(web_files ${web}/dist)
   file(GLOB_RECURSE web_inputs CONFIGURE_DEPENDS ${web}/src/* ${web}/public/*)
+  list(FILTER web_inputs EXCLUDE REGEX /api/generated/)  # "npm run build" writes it
+  file(GLOB schemas CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/schemas/*.json)
   file(GLOB web_settings CONFIGURE_DEPENDS ${web}/*.json ${web}/*.ts ${web}/*.js ${web}/*.html)
   # "npm ci" where the lock file has changed since, or was never installed.
   add_custom_command(OUTPUT ${web}/node_modules/.package-lock.json DEPENDS ${web}/package-lock.json VERBATIM
@@ -24,7 +26,7 @@ elseif(ZWIDTH_WEB)
     COMMAND ${CMAKE_COMMAND} -E touch node_modules/.package-lock.json
     COMMENT "Fetching what the front end is built with" USES_TERMINAL)
   add_custom_command(OUTPUT ${web}/dist/index.html VERBATIM WORKING_DIRECTORY ${web}
-    DEPENDS ${web_inputs} ${web_settings} ${web}/node_modules/.package-lock.json
+    DEPENDS ${web_inputs} ${web_settings} ${schemas} ${web}/scripts/documents.mjs ${web}/node_modules/.package-lock.json
     COMMAND ${npm} run build
     COMMAND ${CMAKE_COMMAND} -E touch dist/index.html
     COMMENT "Building the front end")

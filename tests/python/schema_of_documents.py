@@ -1,30 +1,37 @@
 """The JSON Schema that documents of one kind have in common: what docs/schemas is written from."""
 
+import sys
 from collections import defaultdict
+
+from conftest import ROOT
+
+sys.path.insert(0, str(ROOT / "tests/rules"))
+
+from schemas import Descriptions, described  # noqa: E402
 
 NULL = type(None)
 VERDICTS = ["sound", "doubtful", "refused"]  # of "trust", whichever were seen
 NUMBERS = {"additionalProperties": {"type": ["number", "null"]}}  # by their names
 FINDING = {  # whichever were seen
-    "code": {"type": "string", "description": "what was found: a name of docs/findings.md"},
-    "severity": {"enum": ["note", "doubt", "refusal"], "description": "refusal: no number is given; doubt: the number stands, but something does not carry it; note: anything else"},
-    "key": {"type": ["string", "null"], "description": "the device file's, that it concerns; null where there is none"},
-    "evidence": {"type": "object", **NUMBERS, "description": "the numbers that it rests on, and the threshold that they were held to, in SI units"},
-    "effect": {"type": ["object", "null"], **NUMBERS, "description": "the limit with it, critical_stiffness or critical_damping; null where that is not known"},
-    "remedy": {"type": "string", "description": "what to do about it; may be empty"},
-    "text": {"type": "string", "description": "the sentence that stands in trust.reasons or remarks"},
+    "code": {"type": "string"},
+    "severity": {"enum": ["note", "doubt", "refusal"]},
+    "key": {"type": ["string", "null"]},
+    "evidence": {"type": "object", **NUMBERS},
+    "effect": {"type": ["object", "null"], **NUMBERS},
+    "remedy": {"type": "string"},
+    "text": {"type": "string"},
 }
-FINDINGS = {
-    "type": "array",
-    "description": "what trust and remarks are written from, each once",
-    "items": {"type": "object", "properties": FINDING, "required": list(FINDING), "additionalProperties": False},
-}
+REMARK = {key: {"type": "string"} for key in ("severity", "what", "meaning", "consequence", "remedy")}
+
+
+def list_of(properties):
+    return {"type": "array", "items": {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}}
 
 
 def schema_of(values, key=""):
     """Every number may be null, as a number that does not exist is; else only what was null somewhere."""
-    if key == "findings":
-        return FINDINGS
+    if key in ("findings", "remarks"):
+        return list_of(FINDING if key == "findings" else REMARK)
     kinds = defaultdict(list)
     for value in values:
         kind = float if isinstance(value, int) and not isinstance(value, bool) else type(value)
@@ -62,4 +69,4 @@ def published(name, documents):
     """The schema of documents whose "schema" is this name."""
     schema = schema_of(documents)
     schema["properties"]["schema"] = {"const": name}
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": name, **schema}
+    return described({"$schema": "https://json-schema.org/draft/2020-12/schema", "title": name, **schema}, Descriptions(ROOT))

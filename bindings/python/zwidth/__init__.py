@@ -54,29 +54,27 @@ from ._core import (
 )
 from ._errors import DoubtfulResult, Error, InputError, Place, Problem, ResultWarning, WorkFailed
 from ._record import Record, Result
-from ._device_results import (
+from ._documents import Crossover, Finding, HolderLimit, HoldingLimits, Mechanism, Mode, Remark, StableFor, Trust, WallMargins
+from ._results import (
     Analysis,
     Bode,
     Comparison,
     Design,
     DesignTargets,
     Diagnosis,
+    Excitation,
+    FrequencyResponse,
+    Identification,
+    Model,
     Notch,
     Region,
+    Relay,
+    RigidBodyIdentification,
+    Simulation,
     Study,
     Sweep,
     WallRecommendation,
 )
-from ._measured_results import (
-    Excitation,
-    FrequencyResponse,
-    Identification,
-    Relay,
-    RigidBodyIdentification,
-    Simulation,
-)
-from ._parts import Crossover, Finding, HolderLimit, HoldingLimits, Mechanism, Mode, Remark, StableFor, Trust, WallMargins
-from ._results import Model
 
 if TYPE_CHECKING:
     from . import control as control, plot as plot

@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _device, _device_results, _measured_results, _results
+from . import _core, _device, _results
 from ._core import Device
 from ._errors import InputError, warn_of_document
 
@@ -157,84 +157,84 @@ def _result(
     return result
 
 
-def analyze(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Analysis:
+def analyze(device: Device, *, progress: Progress = None, **options: Option) -> _results.Analysis:
     """Critical stiffness of a device, what limits it, and the margins of its wall."""
-    result: _device_results.Analysis = _result("analyze", device, (), progress, options)
+    result: _results.Analysis = _result("analyze", device, (), progress, options)
     return result
 
 
-def bode(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Bode:
+def bode(device: Device, *, progress: Progress = None, **options: Option) -> _results.Bode:
     """Frequency responses of a device with every crossover (`from_` is the option --from)."""
-    result: _device_results.Bode = _result("bode", device, (), progress, options)
+    result: _results.Bode = _result("bode", device, (), progress, options)
     return result
 
 
-def region(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Region:
+def region(device: Device, *, progress: Progress = None, **options: Option) -> _results.Region:
     """Every stable wall, stiff and damped: the region in the plane of K and B."""
-    result: _device_results.Region = _result("region", device, (), progress, options)
+    result: _results.Region = _result("region", device, (), progress, options)
     return result
 
 
-def design(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Design:
+def design(device: Device, *, progress: Progress = None, **options: Option) -> _results.Design:
     """What each number of the device does to the limits."""
     _refuse("design", options, "sweep", "compare", "notch", "target", "recommend")
-    result: _device_results.Design = _result("design", device, (), progress, options)
+    result: _results.Design = _result("design", device, (), progress, options)
     return result
 
 
 def sweep(
     device: Device, axis: Union[str, Sequence[str]], *, progress: Progress = None, **options: Option
-) -> _device_results.Sweep:
+) -> _results.Sweep:
     """The limit along one number or two: `axis` is "KEY=FIRST:LAST:COUNT", or with ":log", or two of these."""
-    result: _device_results.Sweep = _result("design", device, (), progress, {**_given("sweep", axis), **options})
+    result: _results.Sweep = _result("design", device, (), progress, {**_given("sweep", axis), **options})
     return result
 
 
-def compare(device: Device, values: str, *, progress: Progress = None, **options: Option) -> _device_results.Comparison:
+def compare(device: Device, values: str, *, progress: Progress = None, **options: Option) -> _results.Comparison:
     """Several values of one key side by side: "KEY=VALUE,VALUE"."""
-    result: _device_results.Comparison = _result("design", device, (), progress, {**_given("compare", values), **options})
+    result: _results.Comparison = _result("design", device, (), progress, {**_given("compare", values), **options})
     return result
 
 
-def design_notch(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Notch:
+def design_notch(device: Device, *, progress: Progress = None, **options: Option) -> _results.Notch:
     """A notch on the wall's force that lets the wall be stiffer."""
-    result: _device_results.Notch = _result("design", device, (), progress, {"notch": True, **options})
+    result: _results.Notch = _result("design", device, (), progress, {"notch": True, **options})
     return result
 
 
 def design_targets(
     device: Device, target: Union[float, str], *, progress: Progress = None, **options: Option
-) -> _device_results.DesignTargets:
+) -> _results.DesignTargets:
     """What each number alone must be for the limit to reach `target`: N/m or N m/rad, "2x", "200 %"; goal="damper": B."""
-    result: _device_results.DesignTargets = _result("design", device, (), progress, {**_given("target", target), **options})
+    result: _results.DesignTargets = _result("design", device, (), progress, {**_given("target", target), **options})
     return result
 
 
-def recommend_wall(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.WallRecommendation:
+def recommend_wall(device: Device, *, progress: Progress = None, **options: Option) -> _results.WallRecommendation:
     """The wall to render: K, B, velocity filter and optional notch, stable for any passive user with margins."""
-    result: _device_results.WallRecommendation = _result("recommend", device, (), progress, options)
+    result: _results.WallRecommendation = _result("recommend", device, (), progress, options)
     return result
 
 
 def diagnose(
     device: Device, *, recording: Optional[Recorded] = None, progress: Progress = None, **options: Option
-) -> _device_results.Diagnosis:
+) -> _results.Diagnosis:
     """What an oscillation is, by its frequency (oscillates_hz) or a recording of it, and what moves it."""
     recordings = () if recording is None else (recording,)
-    result: _device_results.Diagnosis = _result("diagnose", device, recordings, progress, options)
+    result: _results.Diagnosis = _result("diagnose", device, recordings, progress, options)
     return result
 
 
 def simulate(
     device: Device, *, user_force: Union[str, Recorded, None] = None, progress: Progress = None, **options: Option
-) -> _measured_results.Simulation:
+) -> _results.Simulation:
     """The sampled loop in time. `points=True` keeps the motion; `user_force`: "step:5@0.1" and the like, or a recording."""
     recordings: Tuple[Recorded, ...] = ()
     if isinstance(user_force, str) and user_force.partition(":")[0] in ("step", "ramp", "sine"):
         options["user_force"] = user_force
     elif user_force is not None:
         recordings = (user_force,)
-    result: _measured_results.Simulation = _result("simulate", device, recordings, progress, options)
+    result: _results.Simulation = _result("simulate", device, recordings, progress, options)
     return result
 
 
@@ -244,18 +244,18 @@ def relay(
     recording: Optional[Recorded] = None,
     progress: Progress = None,
     **options: Option,
-) -> _measured_results.Relay:
+) -> _results.Relay:
     """The relay experiment, simulated or recorded: the stiffness it reads, beside what theory expects."""
     recordings = () if recording is None else (recording,)
-    result: _measured_results.Relay = _result("relay", device, recordings, progress, options)
+    result: _results.Relay = _result("relay", device, recordings, progress, options)
     return result
 
 
 def frequency_response(
     recording: Recorded, *more: Recorded, progress: Progress = None, **options: Option
-) -> _measured_results.FrequencyResponse:
+) -> _results.FrequencyResponse:
     """The measured frequency response of recordings, and the critical stiffness it shows: the command frf."""
-    result: _measured_results.FrequencyResponse = _result("frf", None, (recording, *more), progress, options)
+    result: _results.FrequencyResponse = _result("frf", None, (recording, *more), progress, options)
     return result
 
 
@@ -274,9 +274,9 @@ def identify(
     return _result("identify", device, (recording, *more), progress, options)
 
 
-def excite(device: Optional[Device] = None, *, progress: Progress = None, **options: Option) -> _measured_results.Excitation:
+def excite(device: Optional[Device] = None, *, progress: Progress = None, **options: Option) -> _results.Excitation:
     """A signal to excite a device with, played through a model of it where one is given."""
-    result: _measured_results.Excitation = _result("excite", device, (), progress, options)
+    result: _results.Excitation = _result("excite", device, (), progress, options)
     return result
 
 
@@ -286,7 +286,7 @@ def study(
     *,
     progress: Progress = None,
     **options: Option,
-) -> _device_results.Study:
+) -> _results.Study:
     """How the limit varies over many units: yield, quantiles, the worst unit, which tolerance to tighten.
 
     `study`: a study file's path, its text (more than one line), or its keys as a dict (docs/study.md).
@@ -304,7 +304,7 @@ def study(
         held = Path(_device.text_of("study", os.fspath(study)))
     else:
         raise InputError("study", f"is of type {type(study).__name__}", "a path, a text, or a dict")
-    result: _device_results.Study = _result("study", device, (), progress, options, held)
+    result: _results.Study = _result("study", device, (), progress, options, held)
     return result
 
 

@@ -94,9 +94,10 @@ def _wrapped(answer: _core.Answer, path: str, value: Any, kind: Type[Record]) ->
 class Field(Generic[T]):
     """A declared key of a document."""
 
-    def __init__(self, doc: str, read: Callable[[Record, str], Any]) -> None:
+    def __init__(self, doc: str, read: Callable[[Record, str], Any], is_optional: bool = False) -> None:
         self.__doc__ = doc
         self._read = read
+        self._is_optional = is_optional
         self._name = ""
 
     def __set_name__(self, owner: Type[Any], name: str) -> None:
@@ -111,7 +112,7 @@ class Field(Generic[T]):
     def __get__(self, record: Optional[Record], owner: Type[Any]) -> Union["Field[T]", T]:
         if record is None:
             return self
-        if self._name not in record._values:
+        if self._name not in record._values and not self._is_optional:
             raise AttributeError(f"{type(record).__name__} has no {self._name!r}: {self.__doc__}")
         made: T = self._read(record, self._name)
         return made
@@ -122,6 +123,16 @@ class Field(Generic[T]):
 
 def _plain(record: Record, name: str) -> Any:
     return record._part(name, Record)
+
+
+def anything(doc: str) -> Field[Any]:
+    """What has no type of its own: lists of lists, what no document is known to have."""
+    return Field(doc, _plain)
+
+
+def or_none(field: Field[T]) -> Field[Optional[T]]:
+    """The same, None where the document has no such key."""
+    return Field(field.__doc__ or "", lambda record, name: field._read(record, name) if name in record._values else None, is_optional=True)
 
 
 def text(doc: str) -> Field[str]:

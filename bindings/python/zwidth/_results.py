@@ -1,33 +1,111 @@
-"""The class of each document, by its schema."""
+"""The class of each document: its keys are those of its schema (_documents.py), what it can do besides stands here."""
 
 from __future__ import annotations
 
 from typing import Any, Dict, Type
 
-from . import _core
-from ._device_results import (
-    Analysis,
-    Bode,
-    Comparison,
-    Design,
-    DesignTargets,
-    Diagnosis,
-    Notch,
-    Region,
-    Study,
-    Sweep,
-    WallRecommendation,
-)
-from ._errors import InputError
-from ._measured_results import (
-    Excitation,
-    FrequencyResponse,
-    Identification,
-    Relay,
-    RigidBodyIdentification,
-    Simulation,
-)
-from ._record import Result
+from . import _core, _documents
+from ._errors import Error, InputError
+from ._record import Array, Result
+
+
+def _device_of(result: Result, none: str) -> _core.Device:
+    found = result._answer.device
+    if found is None:
+        raise Error(none)
+    return _core.Device.from_toml(found)
+
+
+class Analysis(_documents.Analysis):
+    """What a device renders stably: docs/analysis_json.md."""
+
+
+class Bode(_documents.Bode):
+    """Frequency responses of a device: docs/bode_json.md."""
+
+
+class Region(_documents.Region):
+    """Every stable wall (K, B): docs/region.md."""
+
+
+class Design(_documents.Design):
+    """What each number of a device does to the limit: docs/design.md."""
+
+
+class Sweep(_documents.DesignSweep):
+    """The limit along one number or two: docs/design.md."""
+
+
+class Comparison(_documents.DesignComparison):
+    """Several values of one key side by side: docs/design.md."""
+
+
+class Notch(_documents.Notch):
+    """A notch for the wall: docs/design.md."""
+
+
+class DesignTargets(_documents.DesignTarget):
+    """What each number alone must be for the limit to reach a target: docs/design.md."""
+
+
+class WallRecommendation(_documents.WallRecommendation):
+    """The wall to render: docs/recommendation.md."""
+
+
+class Diagnosis(_documents.Diagnosis):
+    """What an oscillation is, and what moves it: docs/diagnosis.md."""
+
+
+class Study(_documents.Study):
+    """How the limit varies over many units of one design: docs/study.md."""
+
+    def worst_device(self) -> _core.Device:
+        """The worst unit as a device, as study --output-device writes it."""
+        return _device_of(self, "no unit has a limit: there is no worst one")
+
+
+class Identification(_documents.Identification):
+    """A device from a recording: docs/identification.md."""
+
+    def to_device(self) -> _core.Device:
+        """The device with what was found and how sure it is, as identify --output-device writes it."""
+        return _device_of(self, "no device was found")
+
+
+class RigidBodyIdentification(_documents.InverseDynamics):
+    """Mass and friction of a rigid body from its motion: docs/inverse_dynamics.md."""
+
+    def to_device(self) -> _core.Device:
+        """The rigid device with what was found, as identify --output-device writes it."""
+        return _device_of(self, "no device was found")
+
+
+class FrequencyResponse(_documents.Frf):
+    """A measured response and the critical stiffness that it shows: docs/frf_json.md."""
+
+
+class Simulation(_documents.Simulation):
+    """The sampled loop in time: docs/simulation.md."""
+
+
+class Relay(_documents.Relay):
+    """The relay experiment: docs/relay.md."""
+
+    def force(self, trial: int = 0) -> Array:
+        """The relay's force in a trial (from 0), every sample: N or N m."""
+        return self._series(f"force_{trial + 1}")
+
+    def position(self, trial: int = 0) -> Array:
+        """The position in that trial, m or rad."""
+        return self._series(f"position_{trial + 1}")
+
+
+class Excitation(_documents.Excitation):
+    """A signal to excite a device with: docs/excitation.md."""
+
+    def force(self) -> Array:
+        """Every sample of the signal, N or N m."""
+        return self._series("samples")
 
 
 class Model(Result):

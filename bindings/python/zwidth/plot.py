@@ -9,7 +9,7 @@ import numpy.typing as npt
 from matplotlib.axes import Axes  # type: ignore[import]
 from matplotlib.figure import Figure  # type: ignore[import]
 
-from . import _commands, _device_results, _measured_results, _parts
+from . import _commands, _documents, _results
 from ._core import Device
 from ._errors import InputError
 from ._record import Result
@@ -30,7 +30,7 @@ def _result_of(source: Union[Device, R], call: Callable[..., R], options: Any) -
     return source
 
 
-def _figure(figure: Optional[Figure], rows: int, title: str, trust: Optional[_parts.Trust]) -> Tuple[Figure, Sequence[Axes]]:
+def _figure(figure: Optional[Figure], rows: int, title: str, trust: Optional[_documents.Trust]) -> Tuple[Figure, Sequence[Axes]]:
     if figure is None:
         import matplotlib.pyplot as plt  # type: ignore[import]
 
@@ -47,7 +47,7 @@ def _figure(figure: Optional[Figure], rows: int, title: str, trust: Optional[_pa
     return figure, axes
 
 
-def bode(source: Union[Device, _device_results.Bode], *, figure: Optional[Figure] = None, **options: Any) -> Figure:
+def bode(source: Union[Device, _results.Bode], *, figure: Optional[Figure] = None, **options: Any) -> Figure:
     """Frequency responses of a device, its crossovers marked; options as those of zwidth.bode()."""
     result = _result_of(source, _commands.bode, options)
     figure, (gain, phase) = _figure(figure, 2, result.device, result.trust)
@@ -85,7 +85,7 @@ def _clip(shown: Any, outlines: Any, axes: Any) -> None:
         shown.set_visible(False)
 
 
-def region(source: Union[Device, _device_results.Region], *, figure: Optional[Figure] = None, **options: Any) -> Figure:
+def region(source: Union[Device, _results.Region], *, figure: Optional[Figure] = None, **options: Any) -> Figure:
     """Every stable wall in the plane of B and K, and those that no passive user destabilises."""
     result = _result_of(source, _commands.region, options)
     held = result.nobody is not None
@@ -115,7 +115,7 @@ def region(source: Union[Device, _device_results.Region], *, figure: Optional[Fi
     return figure
 
 
-def frf(source: _measured_results.FrequencyResponse, *, figure: Optional[Figure] = None) -> Figure:
+def frf(source: _results.FrequencyResponse, *, figure: Optional[Figure] = None) -> Figure:
     """A measured response with its 95 % intervals; of frequency_response(..., points=True)."""
     _needs_points(source, "frequency_hz")
     figure, (gain, phase) = _figure(figure, 2, source.recording, source.trust)
@@ -136,7 +136,7 @@ def frf(source: _measured_results.FrequencyResponse, *, figure: Optional[Figure]
     return figure
 
 
-def fit(source: _measured_results.Identification, *, figure: Optional[Figure] = None) -> Figure:
+def fit(source: _results.Identification, *, figure: Optional[Figure] = None) -> Figure:
     """Measured and fitted response, and what is left; of identify(..., points=True)."""
     _needs_points(source, "points")
     points = source.points
@@ -158,7 +158,7 @@ def _numbers(values: Sequence[Optional[float]]) -> npt.NDArray[np.float64]:
     return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
 
 
-def sweep(source: _device_results.Sweep, *, figure: Optional[Figure] = None) -> Figure:
+def sweep(source: _results.Sweep, *, figure: Optional[Figure] = None) -> Figure:
     """The limit along one number, or as a map of two."""
     figure, (axes,) = _figure(figure, 1, source.device, source.trust)
     limit = _numbers([point.critical_stiffness for point in source.points])
@@ -183,7 +183,7 @@ def sweep(source: _device_results.Sweep, *, figure: Optional[Figure] = None) -> 
     return figure
 
 
-def simulation(source: Union[Device, _measured_results.Simulation], *, figure: Optional[Figure] = None, **options: Any) -> Figure:
+def simulation(source: Union[Device, _results.Simulation], *, figure: Optional[Figure] = None, **options: Any) -> Figure:
     """Motion and force of a run; a result must be of simulate(..., points=True)."""
     result = _result_of(source, lambda device, **more: _commands.simulate(device, points=True, **more), options)
     _needs_points(result, "points")
