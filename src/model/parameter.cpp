@@ -21,13 +21,14 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(table)>, WallFilter>) {
           if (!is_number_of(table, key.name)) return;
         }
-        visit(fmt::format("{}.{}", path, key.name), member);
+        visit(std::string(path).append(1, '.').append(key.name), member);
       }
     });
   };
   const auto visit_tables = [&](DeviceTable kind, auto& tables) {
-    for (std::size_t k = 0; k < tables.size(); ++k)
+    for (std::size_t k = 0; k < tables.size(); ++k) {
       visit_table(kind, fmt::format("{}.{}", path_of(kind), k), tables[k]);
+    }
   };
   for (auto& body : parameters.bodies) visit_table(DeviceTable::body, "body." + body.name, body);
   visit_tables(DeviceTable::link, parameters.links);
