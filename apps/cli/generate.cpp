@@ -19,7 +19,7 @@ std::string generated(const CLI::App& app, const std::string& kind) {
   if (kind == "bash") return bash_completion(commands);
   if (kind == "zsh") return zsh_completion(commands);
   if (kind == "fish") return fish_completion(commands);
-  if (kind == "keys") return results::device_keys_json().dump(1) + "\n";
+  if (kind == "keys") return results::device_keys_json().dump() + "\n";
   for (const CommandDescription& command : commands) {
     if (kind == page_of + command.name) return manual_page(commands, command);
   }

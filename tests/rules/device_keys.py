@@ -34,11 +34,23 @@ def document(file, keys):
     return before + table(keys) + rest[rest.index("\n\n") + 1 :]
 
 
+def of_page(keys):
+    """What the page needs, a line a key."""
+    names = ("key", "type", "unit", "takes_zero", "default", "help", "same_as")
+    lines = [
+        json.dumps({"table": each["path"], **{name: key[name] for name in names}}, ensure_ascii=False)
+        for each in keys["tables"]
+        for key in each["keys"]
+    ]
+    return "[\n" + ",\n".join(lines) + "\n]\n"
+
+
 def main():
     program, root = sys.argv[1], Path(sys.argv[2])
-    printed = subprocess.run([program, "--generate", "keys"], check=True, capture_output=True, text=True).stdout
+    printed = subprocess.run([program, "--generate", "keys"], check=True, capture_output=True, encoding="utf-8").stdout
+    keys = json.loads(printed)
     page, docs = root / "web/src/model/device_keys.json", root / "docs/device_file.md"
-    for file, text in [(page, printed), (docs, document(docs, json.loads(printed)))]:
+    for file, text in [(page, of_page(keys)), (docs, document(docs, keys))]:
         if sys.argv[3:] == ["--write"]:
             file.write_text(text, encoding="utf-8")
         elif not file.exists() or file.read_text(encoding="utf-8") != text:

@@ -1,6 +1,6 @@
 // The numbers of a device file as the page names them; the rest of the table of keys is the program's (tests/rules/device_keys.py).
 
-import table from './device_keys.json'
+import keys from './device_keys.json'
 import { find, samePath, scan, type Scan, type TomlValue } from './toml'
 
 export interface Field {
@@ -53,9 +53,8 @@ const firsts: Record<string, Pair> = {
 /** The numbers of a table of the device file, and every key of the rig's; what stands for another key is left out. */
 function fieldsOf(path: string): Field[] {
   const ofRig = path === 'driver'
-  const keys = table.tables.find((each) => each.path === path)!.keys
   return keys
-    .filter((each) => each.same_as === '' && (ofRig || each.type === 'number'))
+    .filter((each) => each.table === path && each.same_as === '' && (ofRig || each.type === 'number'))
     .map((each): Field => {
       const own = shown[`${path}.${each.key}`]
       return {
