@@ -121,13 +121,13 @@ class DeviceReader {
   }
 
   void read_surroundings() {
-    read_table(DeviceTable::actuator, device_.actuator);
-    read_table(DeviceTable::sensor, device_.sensor);
-    if (auto wall = read_table(DeviceTable::wall, device_.wall)) {
+    read_table(root_, DeviceTable::actuator, device_.actuator);
+    read_table(root_, DeviceTable::sensor, device_.sensor);
+    if (auto wall = read_table(root_, DeviceTable::wall, device_.wall)) {
       read_velocity_filter_tau(*wall);
       read_filters(*wall);
     }
-    read_table(DeviceTable::user, device_.user);
+    read_table(root_, DeviceTable::user, device_.user);
   }
 
   /// The velocity's low-pass by the time constant of backward Euler, whose pole is tau/(tau + T), instead of its cutoff:
@@ -155,7 +155,7 @@ class DeviceReader {
   }
 
   void read_driver() {
-    if (root_.has(path_of(DeviceTable::driver))) read_table(DeviceTable::driver, device_.driver.emplace());
+    if (root_.has(path_of(DeviceTable::driver))) read_table(root_, DeviceTable::driver, device_.driver.emplace());
   }
 
   void read_uncertainty() {
@@ -196,10 +196,10 @@ class DeviceReader {
     return reader;
   }
 
-  /// A table of the root that may be left out, and its reader where it is there.
+  /// A table that may be left out, and its reader where it is there.
   template <typename Table>
-  std::optional<TableReader> read_table(DeviceTable kind, Table& members) {
-    const toml::table* table = root_.table(kind);
+  std::optional<TableReader> read_table(TableReader& parent, DeviceTable kind, Table& members) {
+    const toml::table* table = parent.table(kind);
     if (!table) return std::nullopt;
     TableReader reader = table_reader(kind, *table);
     read_members(reader, kind, members);
