@@ -190,8 +190,9 @@ const DeviceTableKey& entry_of(DeviceTable table) { return all_tables[static_cas
 namespace internal {
 
 std::span<const KeyRow> rows_of(DeviceTable table) {
-  const auto found = std::ranges::equal_range(all_rows, table, {}, [](const KeyRow& row) { return row.key.table; });
-  return {found.begin(), found.end()};
+  const auto table_of = [](const KeyRow& row) { return row.key.table; };
+  return {std::ranges::lower_bound(all_rows, table, {}, table_of),
+          std::ranges::upper_bound(all_rows, table, {}, table_of)};
 }
 
 const DeviceKey& key_of(DeviceTable table, std::string_view name) {
