@@ -12,6 +12,7 @@ namespace zwidth {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(KeyType, {{KeyType::number, "number"},
                                        {KeyType::whole_number, "whole_number"},
+                                       {KeyType::sign, "sign"},
                                        {KeyType::text, "text"},
                                        {KeyType::numbers, "numbers"},
                                        {KeyType::texts, "texts"},

@@ -71,8 +71,10 @@ class Checks {
   template <typename Number>
   void number(std::string_view path, const DeviceKey& key, Number value) {
     const auto given = static_cast<double>(value);
-    if (!key.range || key.range->contains(given)) return;
-    refuse(fmt::format("{}.{}", path, key.name), fmt::format("is {}", value), allowed_in(*key.range, key.type, given));
+    const bool is_sign = key.type == KeyType::sign;
+    if (is_sign ? std::abs(given) == 1.0 : !key.range || key.range->contains(given)) return;
+    refuse(fmt::format("{}.{}", path, key.name), fmt::format("is {}", value),
+           is_sign ? "must be 1 or -1" : allowed_in(*key.range, key.type, given));
   }
 
   std::vector<DeviceProblem> problems_;
@@ -242,7 +244,6 @@ void check_driver(const DeviceParameters& parameters, Checks& checks) {
                   "must be given: how far the device moves in a turn, such as \"25 mm\"");
   }
   checks.numbers(DeviceTable::driver, "driver", drive);
-  if (std::abs(drive.sign) != 1.0) checks.refuse("driver.sign", fmt::format("is {}", drive.sign), "must be 1 or -1");
   const bool is_letter = drive.command.size() == 1 && ((drive.command[0] >= 'A' && drive.command[0] <= 'Z') ||
                                                        (drive.command[0] >= 'a' && drive.command[0] <= 'z'));
   if (!is_letter) checks.refuse("driver.command", "is no letter", "must be one letter, such as \"M\"");

@@ -154,7 +154,7 @@ constexpr auto made_rows() {
        &MotorDrive::travel},
       {{driver, "gear", number, ratio, above_0, "1", "", "Turns of the motor per turn behind the gear."},
        &MotorDrive::gear},
-      {{driver, "sign", number, none, none, "1", "1 or -1", "-1 where the drive counts against the device."},
+      {{driver, "sign", sign, none, none, "1", "1 or -1", "-1 where the drive counts against the device."},
        &MotorDrive::sign},
       {{driver, "torque_constant", number, torque_per_current, above_0, "none", "",
         "Torque constant of the motor: for VESC, and SimpleFOC by current."},

@@ -40,7 +40,7 @@ enum class Measure {
 };
 
 /// What stands behind a key.
-enum class KeyType { number, whole_number, text, numbers, texts, matrix };
+enum class KeyType { number, whole_number, sign, text, numbers, texts, matrix };
 
 /// The numbers that a key takes: from `least` to `greatest`, and 0 where it takes that.
 struct NumberRange {

@@ -65,7 +65,7 @@ function fieldsOf(path: string): Field[] {
         mayBeZero: each.takes_zero,
         first: own?.first ?? firsts[each.unit?.linear ?? ''] ?? [2, 2],
         ...((ofRig || each.default === 'none') && { mayBeAbsent: each.default.replaceAll("'", '’') }),
-        ...(ofRig && { ofRig: each.type === 'number' && each.unit ? 'number' : 'choice' }),
+        ...(ofRig && { ofRig: each.type === 'number' ? 'number' : 'choice' }),
       }
     })
 }
