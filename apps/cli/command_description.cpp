@@ -1,9 +1,13 @@
 #include "cli/command_description.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <string_view>
 #include <utility>
+
+#include "zwidth/model/device_key.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -23,6 +27,18 @@ bool names_file(std::string_view value) {
   return value.find("FILE") != std::string_view::npos || value.starts_with("OUT") || value == "DEVICE";
 }
 
+/// "loop.delay=", "body.0.mass=": every key of the device file as an override begins.
+std::vector<std::string> key_words() {
+  std::vector<std::string> words;
+  for (const DeviceTableKey& table : device_tables()) {
+    const std::string path = path_of(table.table) + (table.is_many ? ".0" : "");
+    for (const DeviceKey& key : device_keys()) {
+      if (key.table == table.table) words.push_back(fmt::format("{}{}{}=", path, path.empty() ? "" : ".", key.name));
+    }
+  }
+  return words;
+}
+
 OptionDescription described(const CLI::Option& option) {
   OptionDescription description;
   for (const std::string& name : option.get_snames()) description.names.push_back("-" + name);
@@ -33,6 +49,7 @@ OptionDescription described(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     description.value = is_positional ? description.names.front() : type.substr(0, type.find(':'));
     description.choices = choices_in(type);
+    description.words = type.starts_with("KEY=") ? key_words() : description.choices;
     description.default_value = option.get_default_str();
   }
   description.takes_file = names_file(description.value);

@@ -11,6 +11,7 @@ struct OptionDescription {
   std::vector<std::string> names;  ///< "-o", "--output"; of a positional argument its one name
   std::string value;               ///< "FILE"; empty: a flag
   std::vector<std::string> choices;
+  std::vector<std::string> words;  ///< that a shell offers: the choices, or the keys of the device file with "="
   bool takes_file = false;
   bool repeats = false;
   bool is_required = false;

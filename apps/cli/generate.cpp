@@ -7,6 +7,7 @@
 #include "cli/manual_page.hpp"
 #include "cli/shell_completion.hpp"
 #include "cli/standard_output.hpp"
+#include "results/device_keys_json.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -18,6 +19,7 @@ std::string generated(const CLI::App& app, const std::string& kind) {
   if (kind == "bash") return bash_completion(commands);
   if (kind == "zsh") return zsh_completion(commands);
   if (kind == "fish") return fish_completion(commands);
+  if (kind == "keys") return results::device_keys_json().dump() + "\n";
   for (const CommandDescription& command : commands) {
     if (kind == page_of + command.name) return manual_page(commands, command);
   }
@@ -27,7 +29,7 @@ std::string generated(const CLI::App& app, const std::string& kind) {
 }  // namespace
 
 void add_generate(CLI::App& app) {
-  std::vector<std::string> kinds{"bash", "zsh", "fish", "man"};
+  std::vector<std::string> kinds{"bash", "zsh", "fish", "man", "keys"};
   for (const CLI::App* command : app.get_subcommands({})) kinds.push_back(page_of + command->get_name());
   app.add_option_function<std::string>(
          "--generate",
@@ -35,7 +37,7 @@ void add_generate(CLI::App& app) {
            write_standard_output(generated(app, kind));
            throw Generated();
          },
-         "Print completion for a shell, or a manual page, and exit")
+         "Print completion for a shell, the keys of the device file, or a manual page, and exit")
       ->type_name("KIND")
       ->check(CLI::IsMember(kinds));
 }

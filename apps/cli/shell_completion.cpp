@@ -59,9 +59,9 @@ std::string bash_options(const CommandDescription& command, std::string_view oth
   std::string text = "    case $previous in\n";
   for (const OptionDescription& option : command.options) {
     if (option.value.empty()) continue;
-    const std::string what = option.takes_file        ? "files=1"
-                             : option.choices.empty() ? "return"
-                                                      : fmt::format("words='{}'", fmt::join(option.choices, " "));
+    const std::string what = option.takes_file      ? "files=1"
+                             : option.words.empty() ? "return"
+                                                    : fmt::format("words='{}'", fmt::join(option.words, " "));
     text += fmt::format("    {}) {} ;;\n", fmt::join(option.names, "|"), what);
   }
   return text + fmt::format("    *) if [[ $current == -* ]]; then words='{}'; else {}; fi ;;\n    esac\n    ;;\n",
@@ -72,11 +72,13 @@ std::string bash_options(const CommandDescription& command, std::string_view oth
 std::string zsh_argument(const OptionDescription& option) {
   const bool is_positional = !option.names.front().starts_with('-');
   std::string action;
+  const bool is_open = !option.words.empty() && option.words.front().ends_with('=');  // a value follows
+  const std::string_view offer = is_open ? "{{compadd -S \"\" - {}}}" : "({})";
   if (is_positional || !option.value.empty()) {
     action = fmt::format(":{}:{}", option.value,
-                         option.takes_file        ? "_files"
-                         : option.choices.empty() ? " "
-                                                  : fmt::format("({})", fmt::join(option.choices, " ")));
+                         option.takes_file      ? "_files"
+                         : option.words.empty() ? " "
+                                                : fmt::format(fmt::runtime(offer), fmt::join(option.words, " ")));
   }
   constexpr std::string_view special = "[]:\\";
   if (is_positional) return fmt::format("'{}{}'", option.repeats ? "*" : "", action);
@@ -107,8 +109,8 @@ std::string fish_option(const OptionDescription& option, std::string_view condit
   }
   if (option.takes_file) {
     line += " -r -F";
-  } else if (!option.choices.empty()) {
-    line += fmt::format(" -x -a '{}'", fmt::join(option.choices, " "));
+  } else if (!option.words.empty()) {
+    line += fmt::format(" -x -a '{}'", fmt::join(option.words, " "));
   } else if (!option.value.empty()) {
     line += " -x";
   }
@@ -143,6 +145,7 @@ _zwidth() {
     mapfile -t COMPREPLY < <(compgen -f -- "$current")
   else
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+    [[ ${COMPREPLY[0]-} != *= ]] || compopt -o nospace 2>/dev/null
   fi
 }
 complete -F _zwidth zwidth

@@ -1,5 +1,7 @@
 #include "results/units.hpp"
 
+#include "zwidth/io/number_with_unit.hpp"
+
 namespace zwidth::results {
 
 std::optional<double> decibels(std::optional<double> value) {
@@ -12,15 +14,16 @@ std::optional<double> hertz(std::optional<double> frequency) {
   return hertz(*frequency);
 }
 
+std::string unit_of(Measure measure, Motion motion) {
+  std::string unit(si_unit(measure, motion));
+  if (const std::size_t square = unit.find("^2"); square != std::string::npos) unit.replace(square, 2, "²");
+  return unit;
+}
+
 std::string parameter_unit(const std::string& key, Motion motion) {
-  const Units units = units_of(motion);
-  if (key.ends_with("mass")) return std::string(units.mass);
-  if (key.ends_with(".damping") || key == "viscous") return std::string(units.damping);
-  if (key.ends_with(".stiffness")) return std::string(units.stiffness);
-  if (key.ends_with("coulomb") || key == "offset") return std::string(units.force);
-  if (key.ends_with("_hz")) return "Hz";
-  if (key.starts_with("loop.") || key == "actuator.time_constant" || key == "delay") return "s";
-  return {};
+  if (key == "viscous") return unit_of(Measure::damping, motion);
+  if (key == "offset") return unit_of(Measure::force, motion);
+  return unit_of(measure_of(key).value_or(Measure::ratio), motion);
 }
 
 Json wall_units(Motion motion) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "results/json.hpp"
+#include "zwidth/model/device_key.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::results {
@@ -15,6 +16,9 @@ using zwidth::hertz;
 [[nodiscard]] std::optional<double> decibels(std::optional<double> value);
 
 [[nodiscard]] std::optional<double> hertz(std::optional<double> frequency);
+
+/// "kg m²", "N/m", "Hz"; empty for a ratio.
+[[nodiscard]] std::string unit_of(Measure measure, Motion motion);
 
 /// "kg", "N s/m", "s", "Hz": the unit of a device file's key, or of a rigid body's fit ("viscous"); empty for a ratio.
 [[nodiscard]] std::string parameter_unit(const std::string& key, Motion motion);

@@ -12,6 +12,7 @@
 #include "parts.hpp"
 #include "python_error.hpp"
 #include "results/device_json.hpp"
+#include "results/device_keys_json.hpp"
 #include "server/api/device_toml.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -153,6 +154,11 @@ void bind_device(py::module_& module) {
         return py::make_tuple(py::module_::import("zwidth._device").attr("restored"), py::make_tuple(toml_of(device)));
       });
   module.def("transfer_function_of", &transfer_function_of);
+  module.def(
+      "device_keys", [] { return to_python(results::device_keys_json()["tables"]); },
+      "The keys of a device file: a dict for each table with its \"path\" and its \"keys\", each with unit, range, "
+      "default "
+      "and a sentence.");
 }
 
 }  // namespace zwidth::python

@@ -49,6 +49,7 @@
 #include "zwidth/io/study_file.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/device_key.hpp"
 #include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_variants.hpp"

@@ -1,20 +1,23 @@
 #include "design/design_parameter.hpp"
 
+#include <fmt/format.h>
+
+#include "model/key_members.hpp"
+
 namespace zwidth::internal {
 namespace {
 
 using Kind = DesignParameter::Kind;
 
 void add_filter(const WallFilter& filter, std::size_t index, std::vector<DesignParameter>& parameters) {
-  using enum WallFilter::Kind;
-  if (filter.kind == digital || (filter.kind == biquad && filter.frequency_hz == 0.0)) return;
-  const std::string key = "wall.filter." + std::to_string(index);
-  parameters.push_back({Kind::filter_frequency_hz, index, key + ".frequency_hz", filter.frequency_hz});
-  if (filter.kind == notch || (filter.kind == low_pass && filter.order == 2)) {
-    parameters.push_back({Kind::filter_damping_ratio, index, key + ".damping_ratio", filter.damping_ratio});
-  }
-  if (filter.kind == notch) parameters.push_back({Kind::filter_depth, index, key + ".depth", filter.depth});
-  if (filter.kind == lead_lag) parameters.push_back({Kind::filter_ratio, index, key + ".ratio", filter.ratio});
+  const auto add = [&](Kind kind, const char* name, double value) {
+    if (is_number_of(filter, name))
+      parameters.push_back({kind, index, fmt::format("wall.filter.{}.{}", index, name), value});
+  };
+  add(Kind::filter_frequency_hz, "frequency_hz", filter.frequency_hz);
+  add(Kind::filter_damping_ratio, "damping_ratio", filter.damping_ratio);
+  add(Kind::filter_depth, "depth", filter.depth);
+  add(Kind::filter_ratio, "ratio", filter.ratio);
 }
 
 }  // namespace

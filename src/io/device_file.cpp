@@ -22,17 +22,6 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-/// `mass`, or its alias `inertia` where the motion is rotary.
-std::string_view mass_key(TableReader& reader, Motion motion) {
-  if (!reader.has("inertia")) return "mass";
-  if (motion == Motion::linear) {
-    reader.refuse("inertia", "is for rotary motion", "must be \"mass\", or set motion = \"rotary\"");
-  } else if (reader.has("mass")) {
-    reader.refuse("inertia", "is given beside mass, which means the same", "must be one of the two");
-  }
-  return "inertia";
-}
-
 /// Reads the tables of one document, in the order in which later ones need earlier ones.
 class DeviceReader {
  public:
@@ -73,10 +62,7 @@ class DeviceReader {
       if (!body.name.empty()) reader.rename(fmt::format("body.{}", body.name));
       reader.refuse_keys_not_of(DeviceTable::body);
       if (!reader.has("name")) reader.refuse_missing("name", "must be given as text in quotes");
-      body.mass = reader.required_positive_number(mass_key(reader, device_.motion), Measure::mass);
-      body.damping = reader.number("damping", Measure::damping).value_or(0.0);
-      body.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
-      body.coulomb = reader.number("coulomb", Measure::force).value_or(0.0);
+      read_members(reader, DeviceTable::body, body);
       names_.push_back(body.name);
       device_.bodies.push_back(std::move(body));
     }
@@ -95,8 +81,7 @@ class DeviceReader {
         link.first = body_index(reader, "between", between[0]);
         link.second = body_index(reader, "between", between[1]);
       }
-      link.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
-      link.damping = reader.number("damping", Measure::damping).value_or(0.0);
+      read_members(reader, DeviceTable::link, link);
       if (!reader.has("stiffness") && !reader.has("damping")) {
         reader.refuse_missing("stiffness", "must be given, or damping, or both");
       }
@@ -132,46 +117,29 @@ class DeviceReader {
     device_.loop.actuated = loop_body(reader, "actuated", 0);
     device_.loop.sensed = loop_body(reader, "sensed", 0);
     device_.loop.held = loop_body(reader, "held", device_.bodies.empty() ? 0 : device_.bodies.size() - 1);
-    device_.loop.sampling_period = reader.required_positive_number("sampling_period", Measure::time);
-    device_.loop.delay = reader.number("delay", Measure::time).value_or(0.0);
+    read_members(reader, DeviceTable::loop, device_.loop);
   }
 
   void read_surroundings() {
-    if (const toml::table* table = root_.table(DeviceTable::actuator)) {
-      TableReader reader = table_reader(DeviceTable::actuator, *table);
-      device_.actuator.time_constant = reader.number("time_constant", Measure::time).value_or(0.0);
-      device_.actuator.force_limit = reader.number("force_limit", Measure::force);
+    read_table(root_, DeviceTable::actuator, device_.actuator);
+    read_table(root_, DeviceTable::sensor, device_.sensor);
+    if (auto wall = read_table(root_, DeviceTable::wall, device_.wall)) {
+      read_velocity_filter_tau(*wall);
+      read_filters(*wall);
     }
-    if (const toml::table* table = root_.table(DeviceTable::sensor)) {
-      TableReader reader = table_reader(DeviceTable::sensor, *table);
-      device_.sensor.resolution = reader.number("resolution", Measure::position).value_or(0.0);
-    }
-    if (const toml::table* table = root_.table(DeviceTable::wall)) {
-      TableReader reader = table_reader(DeviceTable::wall, *table);
-      device_.wall.stiffness = reader.number("stiffness", Measure::stiffness);
-      device_.wall.damping = reader.number("damping", Measure::damping).value_or(0.0);
-      read_velocity_filter(reader);
-      read_filters(reader);
-    }
-    if (const toml::table* table = root_.table(DeviceTable::user)) {
-      TableReader reader = table_reader(DeviceTable::user, *table);
-      device_.user.mass = reader.number(mass_key(reader, device_.motion), Measure::mass).value_or(0.0);
-      device_.user.damping = reader.number("damping", Measure::damping).value_or(0.0);
-      device_.user.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
-    }
+    read_table(root_, DeviceTable::user, device_.user);
   }
 
-  /// The low-pass by its cutoff, or by the time constant of backward Euler, whose pole is tau/(tau + T):
+  /// The velocity's low-pass by the time constant of backward Euler, whose pole is tau/(tau + T), instead of its cutoff:
   ///     exp(-2 pi f T) = tau/(tau + T)   for   f = ln(1 + T/tau) / (2 pi T)
-  void read_velocity_filter(TableReader& wall) {
-    device_.wall.velocity_filter_hz = wall.number("velocity_filter_hz", Measure::frequency_hz).value_or(0.0);
+  void read_velocity_filter_tau(TableReader& wall) {
     const std::optional<double> tau = wall.number("velocity_filter_tau", Measure::time);
     if (!tau) return;
     const double period = device_.loop.sampling_period;
     if (wall.has("velocity_filter_hz")) {
       wall.refuse("velocity_filter_tau", "is given beside velocity_filter_hz, which is the same filter",
                   "must be one of the two");
-    } else if (!(*tau == 0.0 || (*tau >= 1e-30 && *tau <= 1e30))) {
+    } else if (!not_negative_numbers.contains(*tau)) {
       wall.refuse("velocity_filter_tau", fmt::format("is {}", *tau), "must be 0 or from 1e-30 to 1e30 (in s)");
     } else if (*tau > 0.0 && period > 0.0) {
       device_.wall.velocity_filter_hz = std::log1p(period / *tau) / (2.0 * std::numbers::pi * period);
@@ -187,28 +155,7 @@ class DeviceReader {
   }
 
   void read_driver() {
-    const toml::table* table = root_.table(DeviceTable::driver);
-    if (!table) return;
-    TableReader reader = table_reader(DeviceTable::driver, *table);
-    MotorDrive& drive = device_.driver.emplace();
-    drive.travel = reader.number("travel", Measure::position);
-    drive.gear = reader.number("gear", Measure::ratio).value_or(1.0);
-    drive.sign = reader.number("sign").value_or(1.0);
-    drive.torque_constant = reader.number("torque_constant", Measure::torque_per_current);
-    drive.torque_per_volt = reader.number("torque_per_volt", Measure::torque_per_voltage);
-    drive.id = whole_number(reader, "id");
-    drive.command = reader.text("command").value_or("M");
-    drive.baud = whole_number(reader, "baud");
-  }
-
-  static std::optional<int> whole_number(TableReader& reader, std::string_view key) {
-    const std::optional<double> number = reader.number(key);
-    constexpr double largest = 1e9;
-    if (!number || (std::abs(*number) <= largest && std::trunc(*number) == *number)) {
-      return number ? std::optional(static_cast<int>(*number)) : std::nullopt;
-    }
-    reader.refuse(key, fmt::format("is {}", *number), "must be a whole number of at most 1e9");
-    return std::nullopt;
+    if (root_.has(path_of(DeviceTable::driver))) read_table(root_, DeviceTable::driver, device_.driver.emplace());
   }
 
   void read_uncertainty() {
@@ -244,8 +191,18 @@ class DeviceReader {
   }
 
   TableReader table_reader(DeviceTable kind, const toml::table& table) {
-    TableReader reader(reading_, table, std::string(name_of(kind)));
+    TableReader reader(reading_, table, path_of(kind));
     reader.refuse_keys_not_of(kind);
+    return reader;
+  }
+
+  /// A table that may be left out, and its reader where it is there.
+  template <typename Table>
+  std::optional<TableReader> read_table(TableReader& parent, DeviceTable kind, Table& members) {
+    const toml::table* table = parent.table(kind);
+    if (!table) return std::nullopt;
+    TableReader reader = table_reader(kind, *table);
+    read_members(reader, kind, members);
     return reader;
   }
 

@@ -70,11 +70,18 @@ tl::expected<std::size_t, InputError> selected(const toml::array& tables, Device
   return tl::unexpected(refusal(whole_key, fmt::format("there is no {} {}", table, in_quotes(selector)), allowed));
 }
 
-/// The node that holds the [[tables]]: in the document, or in its [wall].
-toml::node* tables_node(toml::table& document, DeviceTable kind) {
-  if (kind != DeviceTable::filter) return document.get(name_of(kind));
-  toml::node* wall = document.get(name_of(DeviceTable::wall));
-  return wall && wall->is_table() ? wall->as_table()->get(name_of(kind)) : wall;
+/// The node of the table or the [[tables]]; null where the file left it out, the one that holds it where that is no table.
+toml::node* node_of(toml::table& document, DeviceTable kind) {
+  if (kind == DeviceTable::root) return &document;
+  toml::node* parent = node_of(document, entry_of(kind).parent);
+  return parent && parent->is_table() ? parent->as_table()->get(entry_of(kind).name) : parent;
+}
+
+/// The same, made where the file left it out.
+toml::node* made_node(toml::table& document, DeviceTable kind) {
+  if (toml::node* node = node_of(document, kind)) return node;
+  toml::table& parent = *made_node(document, entry_of(kind).parent)->as_table();
+  return &parent.insert_or_assign(toml::key(entry_of(kind).name, override_region()), toml::table{}).first->second;
 }
 
 std::string remedy_without_tables(DeviceTable kind) {
@@ -92,7 +99,7 @@ tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceT
     return tl::unexpected(
         refusal(whole_key, fmt::format("unknown key {}", in_quotes(key)), remedy_for_unknown_key(kind, key)));
   }
-  toml::node* node = tables_node(document, kind);
+  toml::node* node = node_of(document, kind);
   if (!node) {
     return tl::unexpected(
         refusal(whole_key, fmt::format("the device has no {}", header_of(kind)), remedy_without_tables(kind)));
@@ -113,10 +120,7 @@ tl::expected<Target, InputError> target_in_table(toml::table& document, DeviceTa
     return tl::unexpected(
         refusal(whole_key, fmt::format("unknown key {}", in_quotes(unknown)), remedy_for_unknown_key(kind, unknown)));
   }
-  const std::string_view name = name_of(kind);
-  toml::node* node = document.get(name);
-  if (!node) node = &document.insert_or_assign(toml::key(name, override_region()), toml::table{}).first->second;
-  return Target{node->as_table(), std::string(key)};
+  return Target{made_node(document, kind)->as_table(), std::string(key)};
 }
 
 tl::expected<Target, InputError> find_target(toml::table& document, std::string_view whole_key) {
@@ -127,18 +131,13 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
                                   remedy_for_unknown_key(DeviceTable::root, first)));
   }
   if (dot == std::string_view::npos) return Target{&document, std::string(first)};
-  const std::string_view rest = whole_key.substr(dot + 1);
-  for (const DeviceTable kind : {DeviceTable::body, DeviceTable::link}) {
-    if (first == name_of(kind)) return target_in_tables(document, kind, rest, whole_key);
+  const DeviceTableKey* table = nullptr;  // the innermost
+  for (const DeviceTableKey& each : device_tables().subspan(1)) {
+    if (whole_key.starts_with(path_of(each.table) + ".")) table = &each;
   }
-  const std::string filters = path_of(DeviceTable::filter) + ".";
-  if (whole_key.starts_with(filters)) {
-    return target_in_tables(document, DeviceTable::filter, whole_key.substr(filters.size()), whole_key);
-  }
-  for (const DeviceTable kind :
-       {DeviceTable::loop, DeviceTable::actuator, DeviceTable::sensor, DeviceTable::wall, DeviceTable::user,
-        DeviceTable::transfer_function, DeviceTable::uncertainty, DeviceTable::driver}) {
-    if (first == name_of(kind)) return target_in_table(document, kind, rest, whole_key);
+  if (table) {
+    const std::string_view rest = whole_key.substr(path_of(table->table).size() + 1);
+    return (table->is_many ? target_in_tables : target_in_table)(document, table->table, rest, whole_key);
   }
   return tl::unexpected(refusal(whole_key, fmt::format("{} is one value, not a table", in_quotes(first)),
                                 fmt::format("write {}=VALUE", first)));
@@ -181,11 +180,10 @@ std::optional<InputError> apply_override(toml::table& document, const std::strin
   if (!target) return target.error();
   if (!target->table) return std::nullopt;
   // Two keys of one quantity: the override replaces whichever the file gave.
-  constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"mass", "inertia"},
-                                                                       {"velocity_filter_hz", "velocity_filter_tau"}};
-  for (const auto& [one, other] : aliases) {
-    if (target->key == one) target->table->erase(other);
-    if (target->key == other) target->table->erase(one);
+  for (const DeviceKey& each : device_keys()) {
+    if (each.same_as.empty()) continue;
+    if (target->key == each.name) target->table->erase(each.same_as);
+    if (target->key == each.same_as) target->table->erase(each.name);
   }
   value->get("value")->visit(
       [&](auto& node) { target->table->insert_or_assign(toml::key(target->key, override_region()), std::move(node)); });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "io/prose.hpp"
@@ -148,9 +149,30 @@ std::optional<double> TableReader::number_of(const toml::node& node, std::string
   return std::nullopt;
 }
 
-double TableReader::required_positive_number(std::string_view key, Measure measure) {
+double TableReader::required_positive_number(std::string_view key, std::optional<Measure> measure) {
   if (!has(key)) refuse_missing(key, "must be given as a number > 0");
   return number(key, measure).value_or(0.0);
+}
+
+std::optional<int> TableReader::whole_number(std::string_view key) {
+  const std::optional<double> value = number(key);
+  constexpr double largest = 1e9;
+  if (!value || (std::abs(*value) <= largest && std::trunc(*value) == *value)) {
+    return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
+  }
+  refuse(key, fmt::format("is {}", *value), "must be a whole number of at most 1e9");
+  return std::nullopt;
+}
+
+std::string_view TableReader::spelling_of(const DeviceKey& key) {
+  constexpr std::string_view inertia = "inertia";
+  if (key.measure != Measure::mass || !has(inertia)) return key.name;
+  if (reading_.motion() == Motion::linear) {
+    refuse(inertia, "is for rotary motion", "must be \"mass\", or set motion = \"rotary\"");
+  } else if (has(key.name)) {
+    refuse(inertia, "is given beside mass, which means the same", "must be one of the two");
+  }
+  return inertia;
 }
 
 std::optional<std::string> TableReader::text(std::string_view key) {
@@ -211,7 +233,7 @@ std::vector<std::string> TableReader::required_texts(std::string_view key, std::
   return texts;
 }
 
-const toml::table* TableReader::table(DeviceTable kind) { return table(name_of(kind), header_of(kind)); }
+const toml::table* TableReader::table(DeviceTable kind) { return table(entry_of(kind).name, header_of(kind)); }
 
 const toml::table* TableReader::table(std::string_view name, std::string_view header) {
   const toml::node* node = find(name);
@@ -220,7 +242,9 @@ const toml::table* TableReader::table(std::string_view name, std::string_view he
   return node->as_table();
 }
 
-std::vector<const toml::table*> TableReader::tables(DeviceTable kind) { return tables(name_of(kind), header_of(kind)); }
+std::vector<const toml::table*> TableReader::tables(DeviceTable kind) {
+  return tables(entry_of(kind).name, header_of(kind));
+}
 
 std::vector<const toml::table*> TableReader::tables(std::string_view name, std::string_view header) {
   std::vector<const toml::table*> result;

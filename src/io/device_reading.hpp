@@ -6,10 +6,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "io/device_keys.hpp"
 #include "io/toml.hpp"
+#include "model/key_members.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/number_with_unit.hpp"
 
@@ -67,7 +69,11 @@ class TableReader {
   /// In SI units; a text with its unit too, where something is measured.
   [[nodiscard]] std::optional<double> number(std::string_view key, std::optional<Measure> measure = std::nullopt);
   /// Refused when missing; that it is positive is for find_problem() to check.
-  [[nodiscard]] double required_positive_number(std::string_view key, Measure measure);
+  [[nodiscard]] double required_positive_number(std::string_view key, std::optional<Measure> measure);
+  /// A whole number of at most 1e9 in magnitude.
+  [[nodiscard]] std::optional<int> whole_number(std::string_view key);
+  /// How the key of a row is spelt in this table: "inertia" for "mass" where that is given, refused where it may not be.
+  [[nodiscard]] std::string_view spelling_of(const DeviceKey& key);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   /// All elements, each required to be what the name says; empty (and refused) when the key is missing.
   [[nodiscard]] std::vector<double> required_numbers(std::string_view key,
@@ -106,5 +112,25 @@ class TableReader {
   std::string key_;
   bool has_unknown_key_ = false;
 };
+
+/// Reads every key that has a member in the table's struct; what the file leaves out stays as it is there.
+template <typename Table>
+void read_members(TableReader& reader, DeviceTable kind, Table& members) {
+  visit_members(kind, members, [&](const DeviceKey& key, auto& member) {
+    using Value = std::remove_reference_t<decltype(member)>;
+    const std::string_view name = reader.spelling_of(key);
+    if constexpr (std::is_same_v<Value, std::string>) {
+      member = reader.text(name).value_or(member);
+    } else if constexpr (std::is_same_v<Value, std::optional<int>>) {
+      member = reader.whole_number(name);
+    } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+      member = reader.number(name, key.measure);
+    } else if constexpr (std::is_same_v<Value, double>) {
+      const bool is_needed = key.otherwise == needed_key;
+      member = is_needed ? reader.required_positive_number(name, key.measure)
+                         : reader.number(name, key.measure).value_or(member);
+    }
+  });
+}
 
 }  // namespace zwidth::internal

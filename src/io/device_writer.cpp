@@ -6,10 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "model/key_members.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 /// A TOML basic string; find_problem() has ruled out control characters.
@@ -51,47 +53,62 @@ std::string rows_value(const std::vector<std::vector<double>>& rows) {
   return result + "]";
 }
 
+std::string plain_value(double value) { return number_value(value); }
+std::string plain_value(int value) { return fmt::format("{}", value); }
+std::string plain_value(const std::string& value) { return text_value(value); }
+
 class Writer {
  public:
-  void header(std::string_view text) { text_ += fmt::format("\n{}\n", text); }
+  explicit Writer(Motion motion) : motion_(motion) {}
+  void header(DeviceTable kind) { text_ += fmt::format("\n{}\n", header_of(kind)); }
   void value(std::string_view key, std::string_view toml) { text_ += fmt::format("{} = {}\n", key, toml); }
-  void number(std::string_view key, double value_of_key) { value(key, number_value(value_of_key)); }
+  /// Every key that has a member in the table's struct, and a value in it.
+  template <typename Table>
+  void members(DeviceTable kind, const Table& table) {
+    visit_members(kind, table, [&](const DeviceKey& key, const auto& member) {
+      if constexpr (std::is_same_v<Table, WallFilter>) {
+        if (!is_number_of(table, key.name)) return;
+      }
+      const bool is_inertia = key.measure == Measure::mass && motion_ == Motion::rotary;
+      if constexpr (requires { member.value(); }) {
+        if (member) value(key.name, plain_value(*member));
+      } else {
+        value(is_inertia ? "inertia" : key.name, plain_value(member));
+      }
+    });
+  }
+  template <typename Table>
+  void table(DeviceTable kind, const Table& table) {
+    header(kind);
+    members(kind, table);
+  }
   [[nodiscard]] std::string text() && { return std::move(text_); }
 
  private:
+  Motion motion_;
   std::string text_;
 };
 
-void write_bodies(const DeviceParameters& device, std::string_view mass, Writer& out) {
+void write_bodies(const DeviceParameters& device, Writer& out) {
   for (const Body& body : device.bodies) {
-    out.header("[[body]]");
+    out.header(DeviceTable::body);
     out.value("name", text_value(body.name));
-    out.number(mass, body.mass);
-    out.number("damping", body.damping);
-    out.number("stiffness", body.stiffness);
-    out.number("coulomb", body.coulomb);
+    out.members(DeviceTable::body, body);
   }
   for (const Link& link : device.links) {
-    out.header("[[link]]");
+    out.header(DeviceTable::link);
     out.value("between", fmt::format("[{}, {}]", text_value(device.bodies[link.first].name),
                                      text_value(device.bodies[link.second].name)));
-    out.number("stiffness", link.stiffness);
-    out.number("damping", link.damping);
+    out.members(DeviceTable::link, link);
   }
 }
 
 void write_filters(const DeviceParameters& device, Writer& out) {
   using enum WallFilter::Kind;
   for (const WallFilter& filter : device.wall.filters) {
-    out.header("[[wall.filter]]");
+    out.header(DeviceTable::filter);
     out.value("type", text_value(wall_filter_type(filter.kind)));
-    if (filter.frequency_hz > 0.0) out.number("frequency_hz", filter.frequency_hz);
-    if (filter.kind == low_pass) out.value("order", fmt::format("{}", filter.order));
-    if (filter.kind == notch || (filter.kind == low_pass && filter.order == 2)) {
-      out.number("damping_ratio", filter.damping_ratio);
-    }
-    if (filter.kind == notch) out.number("depth", filter.depth);
-    if (filter.kind == lead_lag) out.number("ratio", filter.ratio);
+    out.members(DeviceTable::filter, filter);
     if (filter.kind == biquad || filter.kind == digital) {
       out.value("numerator", array_value(filter.numerator));
       out.value("denominator", array_value(filter.denominator));
@@ -99,60 +116,35 @@ void write_filters(const DeviceParameters& device, Writer& out) {
   }
 }
 
-void write_driver(const MotorDrive& drive, Writer& out) {
-  out.header("[driver]");
-  if (drive.travel) out.number("travel", *drive.travel);
-  out.number("gear", drive.gear);
-  out.number("sign", drive.sign);
-  if (drive.torque_constant) out.number("torque_constant", *drive.torque_constant);
-  if (drive.torque_per_volt) out.number("torque_per_volt", *drive.torque_per_volt);
-  if (drive.id) out.value("id", fmt::format("{}", *drive.id));
-  out.value("command", text_value(drive.command));
-  if (drive.baud) out.value("baud", fmt::format("{}", *drive.baud));
-}
-
 }  // namespace
 
 std::string write_device(const DeviceParameters& parameters) {
   const Device checked(parameters);
   const DeviceParameters& device = checked.parameters();
-  const std::string_view mass = device.motion == Motion::rotary ? "inertia" : "mass";
-  Writer out;
+  Writer out(device.motion);
   out.value("name", text_value(device.name));
   out.value("motion", device.motion == Motion::rotary ? "\"rotary\"" : "\"linear\"");
-  write_bodies(device, mass, out);
+  write_bodies(device, out);
   if (device.transfer_function) {
-    out.header("[transfer_function]");
+    out.header(DeviceTable::transfer_function);
     out.value("numerator", array_value(device.transfer_function->numerator));
     out.value("denominator", array_value(device.transfer_function->denominator));
   }
-  out.header("[loop]");
+  out.header(DeviceTable::loop);
   if (checked.has_bodies()) {
     out.value("actuated", text_value(device.bodies[device.loop.actuated].name));
     out.value("sensed", text_value(device.bodies[device.loop.sensed].name));
     out.value("held", text_value(device.bodies[device.loop.held].name));
   }
-  out.number("sampling_period", device.loop.sampling_period);
-  out.number("delay", device.loop.delay);
-  out.header("[actuator]");
-  out.number("time_constant", device.actuator.time_constant);
-  if (device.actuator.force_limit) out.number("force_limit", *device.actuator.force_limit);
-  out.header("[sensor]");
-  out.number("resolution", device.sensor.resolution);
-  out.header("[wall]");
-  if (device.wall.stiffness) out.number("stiffness", *device.wall.stiffness);
-  out.number("damping", device.wall.damping);
-  out.number("velocity_filter_hz", device.wall.velocity_filter_hz);
+  out.members(DeviceTable::loop, device.loop);
+  out.table(DeviceTable::actuator, device.actuator);
+  out.table(DeviceTable::sensor, device.sensor);
+  out.table(DeviceTable::wall, device.wall);
   write_filters(device, out);
-  if (checked.has_bodies()) {
-    out.header("[operator]");
-    out.number(mass, device.user.mass);
-    out.number("damping", device.user.damping);
-    out.number("stiffness", device.user.stiffness);
-  }
-  if (device.driver) write_driver(*device.driver, out);
+  if (checked.has_bodies()) out.table(DeviceTable::user, device.user);
+  if (device.driver) out.table(DeviceTable::driver, *device.driver);
   if (device.uncertainty) {
-    out.header("[uncertainty]");
+    out.header(DeviceTable::uncertainty);
     const Uncertainty& uncertainty = *device.uncertainty;
     if (!uncertainty.parameters.empty()) {
       out.value("parameters", text_array_value(uncertainty.parameters));

@@ -172,31 +172,6 @@ std::optional<std::string> with_decimal_point(std::string_view text) {
 
 std::string_view si_unit(Measure measure, Motion motion) { return unit_of(measure, motion).si; }
 
-std::optional<Measure> measure_of(std::string_view key) {
-  constexpr std::pair<std::string_view, Measure> keys[] = {{"mass", Measure::mass},
-                                                           {"inertia", Measure::mass},
-                                                           {"damping", Measure::damping},
-                                                           {"stiffness", Measure::stiffness},
-                                                           {"coulomb", Measure::force},
-                                                           {"force_limit", Measure::force},
-                                                           {"resolution", Measure::position},
-                                                           {"sampling_period", Measure::time},
-                                                           {"delay", Measure::time},
-                                                           {"time_constant", Measure::time},
-                                                           {"travel", Measure::position},
-                                                           {"torque_constant", Measure::torque_per_current},
-                                                           {"torque_per_volt", Measure::torque_per_voltage},
-                                                           {"velocity_filter_hz", Measure::frequency_hz},
-                                                           {"velocity_filter_tau", Measure::time},
-                                                           {"frequency_hz", Measure::frequency_hz},
-                                                           {"damping_ratio", Measure::ratio},
-                                                           {"depth", Measure::ratio},
-                                                           {"ratio", Measure::ratio}};
-  const std::string_view last = key.substr(key.rfind('.') + 1);  // npos + 1 is 0
-  const auto* const found = std::ranges::find(keys, last, [](const auto& each) { return each.first; });
-  return found == std::end(keys) ? std::nullopt : std::optional(found->second);
-}
-
 std::string allowed_numbers(Measure measure, Motion motion) {
   const MeasuredUnit& unit = unit_of(measure, motion);
   return fmt::format("must be a number{}{}, or a text with its unit such as \"{}\"", unit.si.empty() ? "" : " of ",

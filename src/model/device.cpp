@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
+#include "model/key_members.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 
@@ -14,17 +16,17 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-// Squares, and products and quotients of three such values, stay finite and normal in double precision.
-constexpr double smallest_value = 1e-30;
-constexpr double largest_value = 1e30;
 // Coefficients are products of up to `degree` frequencies, so they spread further than physical quantities.
 constexpr double smallest_coefficient = 1e-100;
 constexpr double largest_coefficient = 1e100;
 
-bool is_of_sane_size(double value) { return value >= smallest_value && value <= largest_value; }
-
-std::string sane_sizes(std::string_view alternative) {
-  return fmt::format("must be {}from {} to {}", alternative, smallest_value, largest_value);
+/// What a number outside the range must be.
+std::string allowed_in(const NumberRange& range, KeyType type, double value) {
+  const bool is_plain = range == positive_numbers || range == not_negative_numbers;
+  const bool is_positive = value > 0.0 && std::isfinite(value);
+  if (is_plain && !is_positive) return fmt::format("must be a finite number {} 0", range.takes_zero ? ">=" : ">");
+  return fmt::format("must be {}{}from {} to {}", type == KeyType::whole_number ? "a whole number " : "",
+                     range.takes_zero ? "0 or " : "", range.least, range.greatest);
 }
 
 std::string body_key(const DeviceParameters& parameters, std::size_t body) {
@@ -43,16 +45,16 @@ class Checks {
     problems_.push_back({std::move(key), std::move(what), std::move(allowed)});
   }
 
-  void positive(std::string_view table, std::string_view member, double value) {
-    if (is_of_sane_size(value)) return;
-    refuse(fmt::format("{}.{}", table, member), fmt::format("is {}", value),
-           value > 0.0 && std::isfinite(value) ? sane_sizes("") : "must be a finite number > 0");
-  }
-
-  void not_negative(std::string_view table, std::string_view member, double value) {
-    if (value == 0.0 || is_of_sane_size(value)) return;
-    refuse(fmt::format("{}.{}", table, member), fmt::format("is {}", value),
-           value > 0.0 && std::isfinite(value) ? sane_sizes("0 or ") : "must be a finite number >= 0");
+  /// Every number that the table's struct has, against the range of its key.
+  template <typename Table>
+  void numbers(DeviceTable kind, std::string_view path, const Table& table) {
+    visit_members(kind, table, [&](const DeviceKey& key, const auto& member) {
+      if constexpr (requires { member.value(); }) {
+        if (member) number(path, key, *member);
+      } else if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(member)>>) {
+        number(path, key, member);
+      }
+    });
   }
 
   void name(std::string key, const std::string& value) {
@@ -66,6 +68,15 @@ class Checks {
   }
 
  private:
+  template <typename Number>
+  void number(std::string_view path, const DeviceKey& key, Number value) {
+    const auto given = static_cast<double>(value);
+    const bool is_sign = key.type == KeyType::sign;
+    if (is_sign ? std::abs(given) == 1.0 : !key.range || key.range->contains(given)) return;
+    refuse(fmt::format("{}.{}", path, key.name), fmt::format("is {}", value),
+           is_sign ? "must be 1 or -1" : allowed_in(*key.range, key.type, given));
+  }
+
   std::vector<DeviceProblem> problems_;
 };
 
@@ -86,10 +97,7 @@ void check_bodies(const DeviceParameters& parameters, Checks& checks) {
       checks.refuse(name_key, fmt::format("\"{}\" names two bodies", body.name), "must be different for every body");
     }
     const std::string key = body_key(parameters, i);
-    checks.positive(key, "mass", body.mass);
-    checks.not_negative(key, "damping", body.damping);
-    checks.not_negative(key, "stiffness", body.stiffness);
-    checks.not_negative(key, "coulomb", body.coulomb);
+    checks.numbers(DeviceTable::body, key, body);
   }
 }
 
@@ -111,8 +119,7 @@ void check_links(const DeviceParameters& parameters, Checks& checks) {
       checks.refuse(key + ".between", fmt::format("ties \"{}\" to itself", parameters.bodies[link.first].name),
                     "must be two different bodies");
     }
-    checks.not_negative(key, "stiffness", link.stiffness);
-    checks.not_negative(key, "damping", link.damping);
+    checks.numbers(DeviceTable::link, key, link);
     if (link.stiffness == 0.0 && link.damping == 0.0) {
       checks.refuse(key + ".stiffness", "and damping are both 0", "one of the two must be > 0, or there is no link");
     }
@@ -207,9 +214,8 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
     is_body("sensed", loop.sensed);
     is_body("held", loop.held);
   }
-  checks.positive("loop", "sampling_period", loop.sampling_period);
-  checks.not_negative("loop", "delay", loop.delay);
-  if (is_of_sane_size(loop.sampling_period) && loop.delay > max_delay_samples * loop.sampling_period) {
+  checks.numbers(DeviceTable::loop, "loop", loop);
+  if (positive_numbers.contains(loop.sampling_period) && loop.delay > max_delay_samples * loop.sampling_period) {
     checks.refuse("loop.delay",
                   fmt::format("is {} s, {:.6g} sampling periods", loop.delay, loop.delay / loop.sampling_period),
                   fmt::format("must be at most {} sampling periods", max_delay_samples));
@@ -223,7 +229,7 @@ void check_filters(const DeviceParameters& parameters, Checks& checks) {
                   fmt::format("must be at most {} filters", max_wall_filters));
     return;
   }
-  if (!is_of_sane_size(parameters.loop.sampling_period)) return;  // their frequencies stand beside it
+  if (!positive_numbers.contains(parameters.loop.sampling_period)) return;  // their frequencies stand beside it
   for (std::size_t i = 0; i < filters.size(); ++i) {
     const auto problem = find_problem(filters[i], parameters.loop.sampling_period);
     if (problem) checks.refuse(fmt::format("wall.filter.{}.{}", i, problem->member), problem->what, problem->allowed);
@@ -237,35 +243,19 @@ void check_driver(const DeviceParameters& parameters, Checks& checks) {
     checks.refuse("driver.travel", "is missing",
                   "must be given: how far the device moves in a turn, such as \"25 mm\"");
   }
-  if (drive.travel) checks.positive("driver", "travel", *drive.travel);
-  checks.positive("driver", "gear", drive.gear);
-  if (std::abs(drive.sign) != 1.0) checks.refuse("driver.sign", fmt::format("is {}", drive.sign), "must be 1 or -1");
-  if (drive.torque_constant) checks.positive("driver", "torque_constant", *drive.torque_constant);
-  if (drive.torque_per_volt) checks.positive("driver", "torque_per_volt", *drive.torque_per_volt);
-  const auto whole = [&](std::string_view member, const std::optional<int>& value, int least, int most) {
-    if (!value || (*value >= least && *value <= most)) return;
-    checks.refuse(fmt::format("driver.{}", member), fmt::format("is {}", *value),
-                  fmt::format("must be a whole number from {} to {}", least, most));
-  };
-  whole("id", drive.id, 0, 127);
-  whole("baud", drive.baud, 1200, 4'000'000);
+  checks.numbers(DeviceTable::driver, "driver", drive);
   const bool is_letter = drive.command.size() == 1 && ((drive.command[0] >= 'A' && drive.command[0] <= 'Z') ||
                                                        (drive.command[0] >= 'a' && drive.command[0] <= 'z'));
   if (!is_letter) checks.refuse("driver.command", "is no letter", "must be one letter, such as \"M\"");
 }
 
 void check_surroundings(const DeviceParameters& parameters, Checks& checks) {
-  checks.not_negative("actuator", "time_constant", parameters.actuator.time_constant);
-  if (parameters.actuator.force_limit) checks.positive("actuator", "force_limit", *parameters.actuator.force_limit);
-  checks.not_negative("sensor", "resolution", parameters.sensor.resolution);
-  if (parameters.wall.stiffness) checks.not_negative("wall", "stiffness", *parameters.wall.stiffness);
-  checks.not_negative("wall", "damping", parameters.wall.damping);
-  checks.not_negative("wall", "velocity_filter_hz", parameters.wall.velocity_filter_hz);
+  checks.numbers(DeviceTable::actuator, "actuator", parameters.actuator);
+  checks.numbers(DeviceTable::sensor, "sensor", parameters.sensor);
+  checks.numbers(DeviceTable::wall, "wall", parameters.wall);
   check_filters(parameters, checks);
   check_driver(parameters, checks);
-  checks.not_negative("operator", "mass", parameters.user.mass);
-  checks.not_negative("operator", "damping", parameters.user.damping);
-  checks.not_negative("operator", "stiffness", parameters.user.stiffness);
+  checks.numbers(DeviceTable::user, "operator", parameters.user);
 }
 
 }  // namespace

@@ -1,53 +1,43 @@
 #include "zwidth/model/parameter.hpp"
 
+#include <fmt/format.h>
+
+#include <type_traits>
+#include <utility>
+
+#include "model/key_members.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
-
-/// The numbers that the filter's kind has.
-template <typename Filter, typename Visitor>
-void visit_filter(const std::string& key, Filter& filter, Visitor&& visit) {
-  using enum WallFilter::Kind;
-  if (filter.kind == digital || (filter.kind == biquad && filter.frequency_hz == 0.0)) return;
-  visit(key + ".frequency_hz", filter.frequency_hz);
-  if (filter.kind == notch || (filter.kind == low_pass && filter.order == 2)) {
-    visit(key + ".damping_ratio", filter.damping_ratio);
-  }
-  if (filter.kind == notch) visit(key + ".depth", filter.depth);
-  if (filter.kind == lead_lag) visit(key + ".ratio", filter.ratio);
-}
 
 /// Calls visit(key, member) for every number that a key names; a member is a double or an optional<double>.
 template <typename Parameters, typename Visitor>
 void visit_parameters(Parameters& parameters, Visitor&& visit) {
-  for (auto& body : parameters.bodies) {
-    const std::string key = "body." + body.name;
-    visit(key + ".mass", body.mass);
-    visit(key + ".damping", body.damping);
-    visit(key + ".stiffness", body.stiffness);
-    visit(key + ".coulomb", body.coulomb);
-  }
-  for (std::size_t k = 0; k < parameters.links.size(); ++k) {
-    const std::string key = "link." + std::to_string(k);
-    visit(key + ".stiffness", parameters.links[k].stiffness);
-    visit(key + ".damping", parameters.links[k].damping);
-  }
-  visit("loop.sampling_period", parameters.loop.sampling_period);
-  visit("loop.delay", parameters.loop.delay);
-  visit("actuator.time_constant", parameters.actuator.time_constant);
-  visit("actuator.force_limit", parameters.actuator.force_limit);
-  visit("sensor.resolution", parameters.sensor.resolution);
-  visit("wall.stiffness", parameters.wall.stiffness);
-  visit("wall.damping", parameters.wall.damping);
-  visit("wall.velocity_filter_hz", parameters.wall.velocity_filter_hz);
-  for (std::size_t k = 0; k < parameters.wall.filters.size(); ++k) {
-    visit_filter("wall.filter." + std::to_string(k), parameters.wall.filters[k], visit);
-  }
-  if (parameters.transfer_function) return;
-  visit("operator.mass", parameters.user.mass);
-  visit("operator.damping", parameters.user.damping);
-  visit("operator.stiffness", parameters.user.stiffness);
+  const auto visit_table = [&](DeviceTable kind, const std::string& path, auto& table) {
+    visit_members(kind, table, [&](const DeviceKey& key, auto& member) {
+      if constexpr (is_real_number<std::remove_reference_t<decltype(member)>>) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(table)>, WallFilter>) {
+          if (!is_number_of(table, key.name)) return;
+        }
+        visit(std::string(path).append(1, '.').append(key.name), member);
+      }
+    });
+  };
+  const auto visit_tables = [&](DeviceTable kind, auto& tables) {
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      visit_table(kind, fmt::format("{}.{}", path_of(kind), k), tables[k]);
+    }
+  };
+  for (auto& body : parameters.bodies) visit_table(DeviceTable::body, "body." + body.name, body);
+  visit_tables(DeviceTable::link, parameters.links);
+  visit_table(DeviceTable::loop, "loop", parameters.loop);
+  visit_table(DeviceTable::actuator, "actuator", parameters.actuator);
+  visit_table(DeviceTable::sensor, "sensor", parameters.sensor);
+  visit_table(DeviceTable::wall, "wall", parameters.wall);
+  visit_tables(DeviceTable::filter, parameters.wall.filters);
+  if (!parameters.transfer_function) visit_table(DeviceTable::user, "operator", parameters.user);
 }
 
 }  // namespace
@@ -59,13 +49,11 @@ std::string without_alias(std::string_view key) {
 }
 
 std::string full_parameter_key(const DeviceParameters& parameters, std::string_view key) {
-  constexpr std::string_view prefix = "link.";
-  if (parameters.links.size() == 1 && (key == "link.stiffness" || key == "link.damping")) {
-    return "link.0." + std::string(key.substr(prefix.size()));
-  }
-  constexpr std::string_view filter = "wall.filter.";
-  if (parameters.wall.filters.size() == 1 && key.starts_with(filter) && key.find('.', filter.size()) == key.npos) {
-    return "wall.filter.0." + std::string(key.substr(filter.size()));
+  for (const auto& [prefix, count] : {std::pair{std::string_view("link."), parameters.links.size()},
+                                      std::pair{std::string_view("wall.filter."), parameters.wall.filters.size()}}) {
+    if (count == 1 && key.starts_with(prefix) && key.find('.', prefix.size()) == key.npos) {
+      return fmt::format("{}0.{}", prefix, key.substr(prefix.size()));
+    }
   }
   return without_alias(key);
 }

@@ -5,22 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/key_members.hpp"
+
 namespace zwidth {
+using namespace internal;
 namespace {
 
-constexpr double smallest_depth = 1e-6;
-constexpr double largest_ratio = 1e6;
-constexpr double smallest_damping_ratio = 1e-6;
-constexpr double largest_damping_ratio = 1e3;
 constexpr double smallest_coefficient = 1e-100;
 constexpr double largest_coefficient = 1e100;
 constexpr double smallest_frequency = 1e-30;  // Hz: its square is still a number
 
 using Problem = std::optional<WallFilterProblem>;
 
-Problem check_between(const char* member, double value, double least, double greatest) {
-  if (value >= least && value <= greatest) return std::nullopt;
-  return WallFilterProblem{member, fmt::format("is {}", value), fmt::format("must be from {} to {}", least, greatest)};
+Problem check_range(const char* member, double value) {
+  const NumberRange range = key_of(DeviceTable::filter, member).range.value();
+  if (range.contains(value)) return std::nullopt;
+  return WallFilterProblem{member, fmt::format("is {}", value),
+                           fmt::format("must be from {} to {}", range.least, range.greatest)};
 }
 
 // All roots in Re s < 0: for degrees 1 and 2, all coefficients of one sign.
@@ -99,9 +100,7 @@ Problem check_frequency(const WallFilter& filter, double sampling_period) {
 std::optional<WallFilterProblem> find_problem(const WallFilter& filter, double sampling_period) {
   using enum WallFilter::Kind;
   if (auto problem = check_frequency(filter, sampling_period)) return problem;
-  const auto damping_ratio = [&] {
-    return check_between("damping_ratio", filter.damping_ratio, smallest_damping_ratio, largest_damping_ratio);
-  };
+  const auto damping_ratio = [&] { return check_range("damping_ratio", filter.damping_ratio); };
   switch (filter.kind) {
     case low_pass:
       if (filter.order != 1 && filter.order != 2) {
@@ -110,9 +109,9 @@ std::optional<WallFilterProblem> find_problem(const WallFilter& filter, double s
       return filter.order == 2 ? damping_ratio() : std::nullopt;
     case notch:
       if (auto problem = damping_ratio()) return problem;
-      return check_between("depth", filter.depth, smallest_depth, 1.0);
+      return check_range("depth", filter.depth);
     case lead_lag:
-      return check_between("ratio", filter.ratio, 1.0 / largest_ratio, largest_ratio);
+      return check_range("ratio", filter.ratio);
     case biquad:
     case digital:
       return check_coefficients(filter);

@@ -72,6 +72,9 @@ TEST_F(GeneratedFiles, BashCompletesValuesAndFiles) {
   EXPECT_EQ(completed("zwidth simulate --contact ="), kinds);  // --contact=
   EXPECT_EQ(completed("zwidth simulate --contact = uni"), Words{"unilateral"});
   EXPECT_EQ(completed("zwidth simulate --duration ''"), Words{});
+  EXPECT_EQ(completed("zwidth analyze --set loop."),
+            (Words{"loop.actuated=", "loop.sensed=", "loop.held=", "loop.sampling_period=", "loop.delay="}));
+  EXPECT_EQ(completed("zwidth design --sweep body.0.m"), Words{"body.0.mass="});
   write("a b.toml", "");
   EXPECT_EQ(completed("zwidth analyze 'a '"), Words{"a b.toml"});
   EXPECT_EQ(completed("zwidth analyze devices/lhifam_r"),
@@ -100,6 +103,8 @@ TEST_F(GeneratedFiles, OtherShellsReadTheirs) {
   }
   const Outcome fish = run("fish -c \"source file; complete -C 'zwidth simulate --contact '\" | cut -f1");
   EXPECT_EQ(words_in(fish.output), (Words{"bilateral", "unilateral"})) << fish.errors;
+  const Outcome keys = run("fish -c \"source file; complete -C 'zwidth analyze --set wall.velocity'\" | cut -f1");
+  EXPECT_EQ(words_in(keys.output), (Words{"wall.velocity_filter_hz=", "wall.velocity_filter_tau="})) << keys.errors;
   const Outcome actions = run("fish -c \"source file; complete -C 'zwidth rig '\" | cut -f1");
   EXPECT_EQ(words_in(actions.output), (Words{"check", "identify", "limit", "measure", "relay", "wall"}));
   const Outcome files = run("fish -c \"source file; complete -C 'zwidth rig wall devices/emp'\" | cut -f1");

@@ -51,6 +51,7 @@ from ._core import (
     any_user_limit,
     critical_damping,
     critical_stiffness,
+    device_keys,
 )
 from ._errors import DoubtfulResult, Error, InputError, Place, Problem, ResultWarning, WorkFailed
 from ._record import Record, Result
@@ -144,6 +145,7 @@ __all__ = [
     "design",
     "design_notch",
     "design_targets",
+    "device_keys",
     "diagnose",
     "excite",
     "export",

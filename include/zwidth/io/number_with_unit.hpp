@@ -6,24 +6,9 @@
 #include <tl/expected.hpp>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/device_key.hpp"
 
 namespace zwidth {
-
-/// What a number measures: which units it may have.
-enum class Measure {
-  ratio,
-  time,
-  frequency_hz,
-  angular_frequency,
-  position,
-  force,
-  mass,
-  damping,
-  stiffness,
-  velocity,
-  torque_per_current,
-  torque_per_voltage
-};
 
 /// Why a text is not a number with a unit of what is measured.
 struct UnitProblem {
@@ -47,9 +32,6 @@ struct UnitProblem {
 
 /// The SI unit of a plain number: "N m/rad"; empty for a ratio.
 [[nodiscard]] std::string_view si_unit(Measure measure, Motion motion);
-
-/// What the number of a device's key measures: "loop.delay" a time; none of a key that is no number.
-[[nodiscard]] std::optional<Measure> measure_of(std::string_view key);
 
 /// What a text must be instead: "must be a number of N m/rad, or a text with its unit such as \"0.4 N m/deg\"".
 [[nodiscard]] std::string allowed_numbers(Measure measure, Motion motion);

@@ -1,5 +1,6 @@
-// The numbers of a device file: their names, units and a word on each. What is allowed, the server says.
+// The numbers of a device file as the page names them; the rest of the table of keys is the program's (tests/rules/device_keys.py).
 
+import keys from './device_keys.json'
 import { find, samePath, scan, type Scan, type TomlValue } from './toml'
 
 export interface Field {
@@ -13,212 +14,70 @@ export interface Field {
   ofRig?: 'number' | 'choice' // no limit feels it: nothing to slide or follow; a choice is not stepped either
 }
 
-const mass: Field = {
-  key: 'mass',
-  label: 'mass',
-  unit: ['kg', 'kg m²'],
-  about: 'Mass of the body; of a rotary device its moment of inertia.',
-  mayBeZero: false,
-  first: [0.1, 1e-4],
+type Pair = [linear: number, rotary: number]
+
+// Where the page says it in other words than the file, and where a slider begins otherwise than its unit does.
+const shown: Record<string, { label?: string; first?: Pair }> = {
+  'body.damping': { first: [0.1, 1e-4] },
+  'body.stiffness': { first: [10, 1e-2] },
+  'body.coulomb': { label: 'dry friction', first: [0.1, 1e-3] },
+  'loop.sampling_period': { first: [1e-3, 1e-3] },
+  'actuator.time_constant': { label: 'lag' },
+  'actuator.force_limit': { label: 'largest force' },
+  'sensor.resolution': { label: 'encoder step' },
+  'wall.stiffness': { label: 'stiffness K' },
+  'wall.damping': { label: 'damping B' },
+  'wall.velocity_filter_hz': { label: 'velocity filter' },
+  'wall.filter.frequency_hz': { label: 'frequency' },
+  'wall.filter.damping_ratio': { first: [0.7, 0.7] },
+  'wall.filter.depth': { first: [0.1, 0.1] },
+  'operator.stiffness': { first: [100, 0.1] },
+  'driver.travel': { first: [0.025, 6.2832] },
+  'driver.sign': { first: [-1, -1] },
+  'driver.id': { first: [1, 1] },
+  'driver.command': { first: [0, 0] },
+  'driver.baud': { first: [921600, 921600] },
 }
-const damping: Field = {
-  key: 'damping',
-  label: 'damping',
-  unit: ['N s/m', 'N m s/rad'],
-  about: 'Viscous damping between the body and the ground.',
-  mayBeZero: true,
-  first: [0.1, 1e-4],
-}
-const stiffness: Field = {
-  key: 'stiffness',
-  label: 'stiffness',
-  unit: ['N/m', 'N m/rad'],
-  about: 'Spring between the body and the ground.',
-  mayBeZero: true,
-  first: [10, 1e-2],
+const firsts: Record<string, Pair> = {
+  kg: [0.1, 1e-4],
+  'N s/m': [1, 1e-3],
+  'N/m': [1e3, 1],
+  N: [10, 0.1],
+  m: [1e-6, 1e-4],
+  s: [1e-4, 1e-4],
+  Hz: [100, 100],
+  'N m/A': [0.05, 0.05],
+  'N m/V': [0.1, 0.1],
 }
 
-const body: Field[] = [
-  mass,
-  damping,
-  stiffness,
-  {
-    key: 'coulomb',
-    label: 'dry friction',
-    unit: ['N', 'N m'],
-    about: 'Coulomb friction of the body. Only the simulation and the relay feel it.',
-    mayBeZero: true,
-    first: [0.1, 1e-3],
-  },
+/** The numbers of a table of the device file, and every key of the rig's; what stands for another key is left out. */
+function fieldsOf(path: string): Field[] {
+  const ofRig = path === 'driver'
+  return keys
+    .filter((each) => each.table === path && each.same_as === '' && (ofRig || each.type === 'number'))
+    .map((each): Field => {
+      const own = shown[`${path}.${each.key}`]
+      return {
+        key: each.key,
+        label: own?.label ?? each.key.replaceAll('_', ' '),
+        unit: [each.unit?.linear ?? '', each.unit?.rotary ?? ''],
+        about: each.help.replaceAll("'", '’'),
+        mayBeZero: each.takes_zero,
+        first: own?.first ?? firsts[each.unit?.linear ?? ''] ?? [2, 2],
+        ...((ofRig || each.default === 'none') && { mayBeAbsent: each.default.replaceAll("'", '’') }),
+        ...(ofRig && { ofRig: each.type === 'number' ? 'number' : 'choice' }),
+      }
+    })
+}
+
+const [body, link, loop, actuator, sensor] = [
+  fieldsOf('body'),
+  fieldsOf('link'),
+  fieldsOf('loop'),
+  fieldsOf('actuator'),
+  fieldsOf('sensor'),
 ]
-const link: Field[] = [
-  { ...stiffness, about: 'Stiffness of the cable, belt, shaft or gear between two bodies.', mayBeZero: true, first: [1e3, 1] },
-  { ...damping, about: 'Viscous damping between the two bodies.', first: [1, 1e-3] },
-]
-const loop: Field[] = [
-  {
-    key: 'sampling_period',
-    label: 'sampling period',
-    unit: ['s', 's'],
-    about: 'Time between two samples of the controller.',
-    mayBeZero: false,
-    first: [1e-3, 1e-3],
-  },
-  {
-    key: 'delay',
-    label: 'delay',
-    unit: ['s', 's'],
-    about: 'From sample to force, in addition to the half period that holding the force costs.',
-    mayBeZero: true,
-    first: [1e-4, 1e-4],
-  },
-]
-const actuator: Field[] = [
-  {
-    key: 'time_constant',
-    label: 'lag',
-    unit: ['s', 's'],
-    about: 'Time constant from commanded to real force, first order.',
-    mayBeZero: true,
-    first: [1e-4, 1e-4],
-  },
-  {
-    key: 'force_limit',
-    label: 'largest force',
-    unit: ['N', 'N m'],
-    about: 'Where the force saturates. Only the simulation feels it.',
-    mayBeZero: false,
-    first: [10, 0.1],
-    mayBeAbsent: 'none',
-  },
-]
-const sensor: Field[] = [
-  {
-    key: 'resolution',
-    label: 'encoder step',
-    unit: ['m', 'rad'],
-    about: 'Position of one count of the encoder.',
-    mayBeZero: true,
-    first: [1e-6, 1e-4],
-  },
-]
-const wall: Field[] = [
-  { ...stiffness, label: 'stiffness K', about: 'Stiffness of the virtual wall that is judged.', first: [1e3, 1], mayBeAbsent: 'none' },
-  {
-    ...damping,
-    label: 'damping B',
-    about: 'Virtual damper of the wall: B times the difference of two sampled positions, per period.',
-    first: [1, 1e-3],
-  },
-  {
-    key: 'velocity_filter_hz',
-    label: 'velocity filter',
-    unit: ['Hz', 'Hz'],
-    about: 'Low-pass of the damper’s velocity; 0 is none.',
-    mayBeZero: true,
-    first: [100, 100],
-  },
-]
-const filter: Field[] = [
-  {
-    key: 'frequency_hz',
-    label: 'frequency',
-    unit: ['Hz', 'Hz'],
-    about: 'Where the filter of the wall’s force acts.',
-    mayBeZero: false,
-    first: [100, 100],
-  },
-  { key: 'damping_ratio', label: 'damping ratio', unit: ['', ''], about: 'Of the filter.', mayBeZero: false, first: [0.7, 0.7] },
-  { key: 'depth', label: 'depth', unit: ['', ''], about: 'Gain of the notch at its frequency.', mayBeZero: false, first: [0.1, 0.1] },
-  { key: 'ratio', label: 'ratio', unit: ['', ''], about: 'Of the lead or lag.', mayBeZero: false, first: [2, 2] },
-]
-const operator: Field[] = [
-  { ...mass, about: 'Mass of the user’s hand.', mayBeZero: true },
-  { ...damping, about: 'Damping of the user’s hand.', first: [1, 1e-3] },
-  { ...stiffness, about: 'Stiffness of the user’s hand.', first: [100, 0.1] },
-]
-const driver: Field[] = [
-  {
-    key: 'travel',
-    label: 'travel',
-    unit: ['m', 'rad'],
-    about: 'How far the device moves per turn behind the gear. Linear: needed; rotary: else a turn.',
-    mayBeZero: false,
-    first: [0.025, 6.2832],
-    mayBeAbsent: 'none',
-    ofRig: 'number',
-  },
-  {
-    key: 'gear',
-    label: 'gear',
-    unit: ['', ''],
-    about: 'Turns of the motor per turn behind the gear.',
-    mayBeZero: false,
-    first: [2, 2],
-    mayBeAbsent: '1',
-    ofRig: 'number',
-  },
-  {
-    key: 'sign',
-    label: 'sign',
-    unit: ['', ''],
-    about: '-1 where the drive counts against the device.',
-    mayBeZero: false,
-    first: [-1, -1],
-    mayBeAbsent: '1',
-    ofRig: 'choice',
-  },
-  {
-    key: 'torque_constant',
-    label: 'torque constant',
-    unit: ['N m/A', 'N m/A'],
-    about: 'Torque constant of the motor: for VESC, and SimpleFOC by current.',
-    mayBeZero: false,
-    first: [0.05, 0.05],
-    mayBeAbsent: 'none',
-    ofRig: 'number',
-  },
-  {
-    key: 'torque_per_volt',
-    label: 'torque per volt',
-    unit: ['N m/V', 'N m/V'],
-    about: 'Of the motor at rest, k_t/R: for SimpleFOC by voltage.',
-    mayBeZero: false,
-    first: [0.1, 0.1],
-    mayBeAbsent: 'none',
-    ofRig: 'number',
-  },
-  {
-    key: 'id',
-    label: 'id',
-    unit: ['', ''],
-    about: 'ODrive: the axis, 0 or 1. moteus: 1 to 127.',
-    mayBeZero: false,
-    first: [1, 1],
-    mayBeAbsent: 'the firmware’s',
-    ofRig: 'choice',
-  },
-  {
-    key: 'command',
-    label: 'command',
-    unit: ['', ''],
-    about: 'The motor’s letter in SimpleFOC’s Commander.',
-    mayBeZero: false,
-    first: [0, 0],
-    mayBeAbsent: 'M',
-    ofRig: 'choice',
-  },
-  {
-    key: 'baud',
-    label: 'baud',
-    unit: ['', ''],
-    about: 'Of the serial line.',
-    mayBeZero: false,
-    first: [921600, 921600],
-    mayBeAbsent: 'the firmware’s',
-    ofRig: 'choice',
-  },
-]
+const [wall, filter, operator, driver] = [fieldsOf('wall'), fieldsOf('wall.filter'), fieldsOf('operator'), fieldsOf('driver')]
 // What a mass is called in a rotary device.
 const inertias = new Map(
   [...body, ...operator].filter((each) => each.key === 'mass').map((each): [Field, Field] => [each, { ...each, label: 'inertia' }]),

@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "model/key_members.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr auto made_tables() {
+  using enum DeviceTable;
+  return std::to_array<DeviceTableKey>({
+      {root, root, ""},
+      {body, root, "body", true, "", "1 to 100, all connected by links; or `[transfer_function]`"},
+      {link, root, "link", true, "none", "at most 1000"},
+      {loop, root, "loop", false, needed_key, ""},
+      {actuator, root, "actuator", false, "", ""},
+      {sensor, root, "sensor", false, "", ""},
+      {wall, root, "wall", false, "", ""},
+      {filter, wall, "filter", true, "none", "at most 20"},
+      {user, root, "operator", false, "", "a user at the held body"},
+      {transfer_function, root, "transfer_function", false, "none",
+       "instead of bodies and links, without `[operator]`: force to sensed position"},
+      {uncertainty, root, "uncertainty", false, "none", "of some numbers above"},
+      {driver, root, "driver", false, "none", "what a rig reaches the motor through"},
+  });
+}
+
+// The one table of the device file's keys, in the order of DeviceTable and of a written file. A new key is a row here, its
+// member and its use; tests/rules/device_keys.py writes it into the document and for the page.
+constexpr auto made_rows() {
+  using enum DeviceTable;
+  using enum KeyType;
+  using enum Measure;
+  constexpr auto none = std::nullopt;
+  constexpr NumberRange above_0 = positive_numbers;
+  constexpr NumberRange from_0 = not_negative_numbers;
+  return std::to_array<KeyRow>({
+      {{root, "name", text, none, none, "the file's name without its end", "text, at most 200 bytes",
+        "Name for people."}},
+      {{root, "motion", text, none, none, "`\"linear\"`", "`\"linear\"`, `\"rotary\"`",
+        "Which units all numbers have."}},
+
+      {{body, "name", text, none, none, needed_key, "text, at most 200 bytes, different for every body",
+        "Name of the body."}},
+      {{body, "mass", number, mass, above_0, needed_key, "",
+        "Mass of the body; of a rotary device its moment of inertia."},
+       &Body::mass},
+      {{body, "inertia", number, mass, above_0, "`mass`", "of rotary motion", "The same.", "mass"}},
+      {{body, "damping", number, damping, from_0, "0", "", "Viscous damping between the body and the ground."},
+       &Body::damping},
+      {{body, "stiffness", number, stiffness, from_0, "0", "", "Spring between the body and the ground."},
+       &Body::stiffness},
+      {{body, "coulomb", number, force, from_0, "0", "",
+        "Coulomb friction of the body. Only the simulation and the relay feel it."},
+       &Body::coulomb},
+
+      {{link, "between", texts, none, none, needed_key, "two names of different bodies",
+        "The bodies that it connects."}},
+      {{link, "stiffness", number, stiffness, from_0, "0", "one of the two > 0",
+        "Stiffness of the cable, belt, shaft or gear between two bodies."},
+       &Link::stiffness},
+      {{link, "damping", number, damping, from_0, "0", "one of the two > 0",
+        "Viscous damping between the two bodies; of a damping ratio z it is 2 z sqrt(stiffness m), m = m1 m2/(m1 + "
+        "m2)."},
+       &Link::damping},
+
+      {{loop, "actuated", text, none, none, "the first body", "a body's name; none with `[transfer_function]`",
+        "The body that the actuator pushes."}},
+      {{loop, "sensed", text, none, none, "the first body", "likewise", "The body whose position is sampled."}},
+      {{loop, "held", text, none, none, "the last body", "likewise", "The body that the user holds."}},
+      {{loop, "sampling_period", number, time, above_0, needed_key, "", "Time between two samples of the controller."},
+       &Loop::sampling_period},
+      {{loop, "delay", number, time, from_0, "0", "at most 10 000 sampling periods",
+        "From sample to force, in addition to the half period that holding the force costs."},
+       &Loop::delay},
+
+      {{actuator, "time_constant", number, time, from_0, "0", "",
+        "Time constant from commanded to real force, first order."},
+       &Actuator::time_constant},
+      {{actuator, "force_limit", number, force, above_0, "none", "",
+        "Where the force saturates. Only the simulation feels it."},
+       &Actuator::force_limit},
+
+      {{sensor, "resolution", number, position, from_0, "0", "",
+        "Position of one count of the encoder. Only the simulation and the force per count feel it."},
+       &Sensor::resolution},
+
+      {{wall, "stiffness", number, stiffness, from_0, "none", "", "Stiffness K of the virtual wall that is judged."},
+       &Wall::stiffness},
+      {{wall, "damping", number, damping, from_0, "0", "",
+        "Virtual damper B of the wall: B times the difference of two sampled positions, per period."},
+       &Wall::damping},
+      {{wall, "velocity_filter_hz", number, frequency_hz, from_0, "0", "",
+        "Low-pass of the damper's velocity; 0 is none."},
+       &Wall::velocity_filter_hz},
+      {{wall, "velocity_filter_tau", number, time, from_0, "0", "not both",
+        "The same by backward Euler's time constant.", "velocity_filter_hz"}},
+
+      {{filter, "type", text, none, none, needed_key,
+        "`\"low_pass\"`, `\"notch\"`, `\"lead_lag\"`, `\"biquad\"`, `\"digital\"`",
+        "Which of the numbers below it has."}},
+      {{filter, "frequency_hz", number, frequency_hz, above_0, "needed; `biquad`: none, not prewarped",
+        "below Nyquist; not of `digital`", "Where the filter of the wall's force acts."},
+       &WallFilter::frequency_hz},
+      {{filter, "order", whole_number, none, NumberRange{1, 2}, "1", "of `low_pass`", "Order of the filter."},
+       &WallFilter::order},
+      {{filter, "damping_ratio", number, ratio, NumberRange{1e-6, 1e3}, "1/sqrt 2",
+        "of `low_pass` of order 2 and `notch`", "Damping ratio of the filter."},
+       &WallFilter::damping_ratio},
+      {{filter, "depth", number, ratio, NumberRange{1e-6, 1}, "0.1", "of `notch`",
+        "Gain of the notch at its frequency."},
+       &WallFilter::depth},
+      {{filter, "ratio", number, ratio, NumberRange{1e-6, 1e6}, needed_key, "of `lead_lag`",
+        "Ratio of the lead (above 1) or lag."},
+       &WallFilter::ratio},
+      {{filter, "numerator", numbers, none, none, needed_key,
+        "1 to as many as the denominator, static gain > 0; of `biquad` and `digital`", "Numerator by falling powers."}},
+      {{filter, "denominator", numbers, none, none, needed_key,
+        "2 or 3, the first not 0, poles stable; each 0 or 1e-100 to 1e100 in magnitude; of the same two",
+        "Denominator by falling powers of s or z."}},
+
+      {{user, "mass", number, mass, from_0, "0", "", "Mass of the user's hand."}, &Operator::mass},
+      {{user, "inertia", number, mass, from_0, "`mass`", "of rotary motion", "The same.", "mass"}},
+      {{user, "damping", number, damping, from_0, "0", "", "Damping of the user's hand."}, &Operator::damping},
+      {{user, "stiffness", number, stiffness, from_0, "0", "", "Stiffness of the user's hand."}, &Operator::stiffness},
+
+      {{transfer_function, "numerator", numbers, none, none, needed_key,
+        "of lower degree than the denominator, not all 0, no longer than it; each 0 or 1e-100 to 1e100 in magnitude",
+        "Numerator by falling powers of s."}},
+      {{transfer_function, "denominator", numbers, none, none, needed_key,
+        "at most 101, the first not 0; each 0 or 1e-100 to 1e100 in magnitude", "Denominator by falling powers of s."}},
+
+      {{uncertainty, "parameters", texts, none, none,
+        "needed, unless the table only says how far the file is to be trusted",
+        "1 to 100 different keys, each with a value", "The numbers that are uncertain."}},
+      {{uncertainty, "covariance", matrix, none, none, "with `parameters`",
+        "a row per parameter; symmetric, positive semidefinite, variances 0 or 1e-60 to 1e60",
+        "Their covariance, in products of their units."}},
+      {{uncertainty, "verdict", text, none, none, "`doubtful` with a warning, reasons or assumed numbers, else `sound`",
+        "`\"sound\"`, `\"doubtful\"`: the numbers stand but the data do not carry them; `\"refused\"`: no limit is "
+        "computed "
+        "from this device",
+        "How far the file is to be trusted; every command repeats it."}},
+      {{uncertainty, "warning", text, none, none, "none", "text", "Why; every command repeats it."}},
+      {{uncertainty, "reasons", texts, none, none, "none", "an array of texts", "Why; every command repeats them."}},
+      {{uncertainty, "assumed", texts, none, none, "none", "keys such as `body.motor.mass`",
+        "Numbers that nobody has measured or stated; the device is doubtful until they are off the list."}},
+
+      {{driver, "travel", number, position, above_0, "none", "",
+        "How far the device moves per turn behind the gear. Linear: needed; rotary: else a turn."},
+       &MotorDrive::travel},
+      {{driver, "gear", number, ratio, above_0, "1", "", "Turns of the motor per turn behind the gear."},
+       &MotorDrive::gear},
+      {{driver, "sign", sign, none, none, "1", "1 or -1", "-1 where the drive counts against the device."},
+       &MotorDrive::sign},
+      {{driver, "torque_constant", number, torque_per_current, above_0, "none", "",
+        "Torque constant of the motor: for VESC, and SimpleFOC by current."},
+       &MotorDrive::torque_constant},
+      {{driver, "torque_per_volt", number, torque_per_voltage, above_0, "none", "",
+        "Of the motor at rest, k_t/R: for SimpleFOC by voltage."},
+       &MotorDrive::torque_per_volt},
+      {{driver, "id", whole_number, none, NumberRange{0, 127}, "the firmware's", "",
+        "ODrive: the axis, 0 or 1. moteus: 1 to 127."},
+       &MotorDrive::id},
+      {{driver, "command", text, none, none, "M", "a letter", "The motor's letter in SimpleFOC's Commander."},
+       &MotorDrive::command},
+      {{driver, "baud", whole_number, none, NumberRange{1200, 4'000'000}, "the firmware's", "of those that a port has",
+        "Of the serial line."},
+       &MotorDrive::baud},
+  });
+}
+
+constexpr auto all_tables = made_tables();
+constexpr auto all_rows = made_rows();
+static_assert(std::ranges::is_sorted(all_rows, {}, [](const KeyRow& row) { return row.key.table; }));
+
+constexpr auto all_keys = [] {
+  std::array<DeviceKey, all_rows.size()> keys;
+  std::ranges::transform(all_rows, keys.begin(), &KeyRow::key);
+  return keys;
+}();
+
+const DeviceTableKey& entry_of(DeviceTable table) { return all_tables[static_cast<std::size_t>(table)]; }
+
+}  // namespace
+
+namespace internal {
+
+std::span<const KeyRow> rows_of(DeviceTable table) {
+  const auto table_of = [](const KeyRow& row) { return row.key.table; };
+  return {std::ranges::lower_bound(all_rows, table, {}, table_of),
+          std::ranges::upper_bound(all_rows, table, {}, table_of)};
+}
+
+const DeviceKey& key_of(DeviceTable table, std::string_view name) {
+  return std::ranges::find(rows_of(table), name, [](const KeyRow& row) { return row.key.name; })->key;
+}
+
+bool is_number_of(const WallFilter& filter, std::string_view key) {
+  using enum WallFilter::Kind;
+  const bool is_low_pass = filter.kind == low_pass;
+  if (key == "frequency_hz") return filter.kind != digital && (filter.kind != biquad || filter.frequency_hz > 0.0);
+  if (key == "order") return is_low_pass;
+  if (key == "damping_ratio") return filter.kind == notch || (is_low_pass && filter.order == 2);
+  if (key == "depth") return filter.kind == notch;
+  return key == "ratio" && filter.kind == lead_lag;
+}
+
+}  // namespace internal
+
+std::span<const DeviceKey> device_keys() { return all_keys; }
+
+std::span<const DeviceTableKey> device_tables() { return all_tables; }
+
+std::string path_of(DeviceTable table) {
+  const DeviceTableKey& own = entry_of(table);
+  return own.parent == DeviceTable::root ? std::string(own.name) : fmt::format("{}.{}", path_of(own.parent), own.name);
+}
+
+std::string header_of(DeviceTable table) {
+  if (table == DeviceTable::root) return "the top level";
+  return fmt::format(fmt::runtime(entry_of(table).is_many ? "[[{}]]" : "[{}]"), path_of(table));
+}
+
+std::optional<Measure> measure_of(std::string_view key) {
+  const std::string_view last = key.substr(key.rfind('.') + 1);  // npos + 1 is 0
+  const auto* const found = std::ranges::find(all_keys, last, &DeviceKey::name);
+  return found == all_keys.end() ? std::nullopt : found->measure;
+}
+
+}  // namespace zwidth
