@@ -4,8 +4,9 @@
 function(zwidth_unity target)
   # Long by themselves and with little in common: alone, they spread over the cores.
   set(alone plant_slopes identifiability pole_count_in_digits)
-  list(APPEND alone wall_recommendation mat5_matrix)  # some names of theirs are others in wall_search, mat73_file
-  list(APPEND alone stiffness_kernel)  # includes itself, once per instruction set
+  list(APPEND alone wall_recommendation mat5_matrix)  # some names of theirs are others in wall_search, mat_recording
+  # What the program loads on demand. The kernel includes itself besides, once per instruction set.
+  list(APPEND alone stiffness_kernel mat73_file least_squares shot_fit quiet_solve)
   # tests that name their seed, cases or period as their neighbours do
   list(APPEND alone any_user_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
     diagnosis_property_test drive_gains_test export_test hybrid_loop_linear_test hybrid_loop_property_test

@@ -6,10 +6,13 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commit.hpp"
@@ -67,6 +70,35 @@ std::string short_help(const CLI::App& app) {
       app.get_description(), fmt::join(names, ", "));
 }
 
+struct NamedCommand {
+  std::string_view name;
+  void (*add)(CLI::App& app);
+};
+
+constexpr std::array command_table{NamedCommand{"analyze", add_analyze},
+                                   NamedCommand{"bode", add_bode},
+                                   NamedCommand{"design", add_design},
+                                   NamedCommand{"diagnose", add_diagnose},
+                                   NamedCommand{"excite", add_excite},
+                                   NamedCommand{"export", add_export},
+                                   NamedCommand{"frf", add_frf},
+                                   NamedCommand{"identify", add_identify},
+                                   NamedCommand{"region", add_region},
+                                   NamedCommand{"relay", add_relay},
+                                   NamedCommand{"reproduce", add_reproduce},
+                                   NamedCommand{"rig", add_rig},
+                                   NamedCommand{"serve", add_serve},
+                                   NamedCommand{"simulate", add_simulate},
+                                   NamedCommand{"study", add_study}};
+
+/// The command that is `asked` for, or all of them: the options of all take as long as an answer.
+void add_commands(CLI::App& app, std::string_view asked) {
+  const auto* const one = std::ranges::find(command_table, asked, &NamedCommand::name);
+  for (const NamedCommand& command : command_table) {
+    if (one == command_table.end() || command.name == asked) command.add(app);
+  }
+}
+
 int run(int argument_count, char** arguments) {
   CLI::App app("The stiffest virtual wall that a haptic device renders stably.", "zwidth");
   app.set_version_flag("--version", fmt::format("zwidth {} ({})", ZWIDTH_VERSION, commit),
@@ -81,21 +113,7 @@ int run(int argument_count, char** arguments) {
       "'zwidth COMMAND --help' explains a command.\n"
       "Exit status: 0 done, 1 the work failed, 2 wrong usage or bad input. An answer that is refused\n"
       "(no number is given) is an answer, 0; a file that it would have filled is work that failed, 1.");
-  add_analyze(app);
-  add_bode(app);
-  add_design(app);
-  add_diagnose(app);
-  add_excite(app);
-  add_export(app);
-  add_frf(app);
-  add_identify(app);
-  add_region(app);
-  add_relay(app);
-  add_reproduce(app);
-  add_rig(app);
-  add_serve(app);
-  add_simulate(app);
-  add_study(app);
+  add_commands(app, argument_count < 2 ? "" : arguments[1]);
   for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
   accept_units(app);
   add_generate(app);

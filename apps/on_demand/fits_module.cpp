@@ -1,0 +1,10 @@
+#include "on_demand/on_demand.hpp"
+
+using namespace zwidth;
+
+const void* zwidth_module_functions() {
+  static constexpr on_demand::Fits functions{internal::least_squares,   internal::shot_slopes,
+                                             internal::fit_shots,       internal::shot_residuals,
+                                             internal::open_mat73_file, study_engine::write_result};
+  return &functions;
+}

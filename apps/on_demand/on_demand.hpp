@@ -1,0 +1,35 @@
+#pragma once
+
+// What the program loads at the first call: functions of the library and of the studies whose own libraries take longer
+// to load than an answer takes. A module holds them and those libraries. The program holds a stand-in of the same name
+// for each (stand_ins.cpp), which asks the module; all others that link with the library have the functions themselves.
+
+#include "batch/kernel/stiffness_kernel.hpp"
+#include "identification/least_squares.hpp"
+#include "identification/shot_fit.hpp"
+#include "io/mat73_file.hpp"
+#include "study/study_result_file.hpp"
+
+namespace zwidth::on_demand {
+
+/// With Ceres and HDF5.
+struct Fits {
+  static constexpr const char* file = "fits-" ZWIDTH_VERSION ".so";
+  decltype(internal::least_squares)* least_squares;
+  decltype(internal::shot_slopes)* shot_slopes;
+  decltype(internal::fit_shots)* fit_shots;
+  decltype(internal::shot_residuals)* shot_residuals;
+  decltype(internal::open_mat73_file)* open_mat73_file;
+  decltype(study_engine::write_result)* write_result;
+};
+
+/// With Highway.
+struct Kernel {
+  static constexpr const char* file = "kernel-" ZWIDTH_VERSION ".so";
+  decltype(internal::solve_group)* solve_group;
+};
+
+}  // namespace zwidth::on_demand
+
+/// The functions of a module, the one name that it exports.
+extern "C" [[gnu::visibility("default")]] const void* zwidth_module_functions();

@@ -1,0 +1,74 @@
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "on_demand/on_demand.hpp"
+
+namespace zwidth {
+namespace {
+
+/// Of the module's file, which stands in the program's run path; it stays loaded.
+const void* functions_in(const char* file) {
+  void* const module = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  void* const functions = module != nullptr ? dlsym(module, "zwidth_module_functions") : nullptr;
+  if (functions == nullptr) {
+    throw std::runtime_error(fmt::format(
+        "a part of zwidth cannot be loaded: {}\nIt is in the package zwidth, in the folder {} from that of the program",
+        dlerror(), ZWIDTH_MODULES));
+  }
+  return reinterpret_cast<decltype(&zwidth_module_functions)>(functions)();
+}
+
+template <typename Functions>
+const Functions& loaded() {
+  static const void* const functions = functions_in(Functions::file);
+  return *static_cast<const Functions*>(functions);
+}
+
+}  // namespace
+
+namespace internal {
+
+LeastSquares least_squares(const FitModel& model, const FitData& data, const Eigen::VectorXd& start,
+                           const LeastSquaresOptions& options, const Pull& pull) {
+  return loaded<on_demand::Fits>().least_squares(model, data, start, options, pull);
+}
+
+std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<Shot>& shots,
+                                      const std::vector<ShotNoise>& noise, const Eigen::VectorXd& x,
+                                      const std::vector<Eigen::VectorXd>& states) {
+  return loaded<on_demand::Fits>().shot_slopes(model, shots, noise, x, states);
+}
+
+std::optional<ShotFit> fit_shots(const ShotModel& model, const std::vector<Shot>& shots,
+                                 const std::vector<ShotNoise>& noise, ShotFit start, const Eigen::VectorXd& towards,
+                                 const ShotFitOptions& options) {
+  return loaded<on_demand::Fits>().fit_shots(model, shots, noise, std::move(start), towards, options);
+}
+
+std::optional<ShotPositions> shot_residuals(const ShotModel& model, const std::vector<Shot>& shots,
+                                            const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& states,
+                                            const PlayOn& play_on) {
+  return loaded<on_demand::Fits>().shot_residuals(model, shots, x, states, play_on);
+}
+
+tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
+  return loaded<on_demand::Fits>().open_mat73_file(path);
+}
+
+void solve_group(const KernelGroup& group, const KernelDevices& devices, std::size_t count, KernelAnswers& answers,
+                 KernelScratch& scratch) {
+  loaded<on_demand::Kernel>().solve_group(group, devices, count, answers, scratch);
+}
+
+}  // namespace internal
+
+namespace study_engine {
+
+void write_result(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
+  loaded<on_demand::Fits>().write_result(path, run, chunks, study);
+}
+
+}  // namespace study_engine
+}  // namespace zwidth
