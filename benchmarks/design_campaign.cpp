@@ -37,7 +37,7 @@ std::string notch(const Device& device, test::RandomDevices& random) {
   const WallFilter filter = design.notch.value_or(WallFilter{});
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), "phase %.2f drift %.2f: %.12g %.12g at %.12g Hz, %.12g, %.12g",
-                options.phase_margin, options.drift, design.without, design.with,
+                options.phase_margin, options.modal_frequency_uncertainty, design.without, design.with,
                 design.notch ? filter.frequency_hz : 0.0, filter.damping_ratio, filter.depth);
   return text.data();
 }
@@ -47,7 +47,7 @@ std::string recommendation(Device device, test::RandomDevices& random) {
   if (random.chance(0.7)) parameters.sensor.resolution = random.log_uniform(1e-7, 1e-4);
   RecommendationOptions options;
   options.goal = std::array{WallGoal::stiffness, WallGoal::width, WallGoal::critical_damping}[random.index(3)];
-  if (random.chance(0.5)) options.ripple = random.log_uniform(1e-3, 1.0);
+  if (random.chance(0.5)) options.quantisation_force = random.log_uniform(1e-3, 1.0);
   const WallRecommendation answer = recommend_wall(Device(parameters), options);
   if (!answer.wall) return text(answer.reason);
   std::array<char, 200> text{};
@@ -59,9 +59,9 @@ std::string recommendation(Device device, test::RandomDevices& random) {
 }
 
 std::string target(const Device& device, StiffnessGoal goal, double share) {
-  const Analysis analysis = analyze(device, {.any_user = goal == StiffnessGoal::any_user_limit, .draws = 0});
+  const Analysis analysis = analyze(device, {.any_user = goal == StiffnessGoal::absolute_stability_limit, .draws = 0});
   double now = analysis.critical.stiffness;
-  if (goal == StiffnessGoal::any_user_limit)
+  if (goal == StiffnessGoal::absolute_stability_limit)
     now = std::min(now, analysis.any_user ? analysis.any_user->stiffness : 0.0);
   if (analysis.critical.trust.refused() || !(now > 0.0) || !std::isfinite(now)) return "not asked";
   std::string text;
@@ -76,7 +76,8 @@ std::string target(const Device& device, StiffnessGoal goal, double share) {
 std::string answer(std::string_view what, const Device& device, test::RandomDevices& random) {
   if (what == "notch") return notch(device, random);
   if (what == "recommend") return recommendation(device, random);
-  const StiffnessGoal goal = what == "target" ? StiffnessGoal::critical_stiffness : StiffnessGoal::any_user_limit;
+  const StiffnessGoal goal =
+      what == "target" ? StiffnessGoal::critical_stiffness : StiffnessGoal::absolute_stability_limit;
   return target(device, goal, random.log_uniform(0.3, 3.0));
 }
 

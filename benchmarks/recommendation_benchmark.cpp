@@ -7,11 +7,11 @@
 
 namespace {
 
-void recommendation(benchmark::State& state, const char* file, zwidth::WallGoal goal, double ripple) {
+void recommendation(benchmark::State& state, const char* file, zwidth::WallGoal goal, double quantisation_force) {
   const zwidth::Device device = zwidth::read_device_file(std::string(ZWIDTH_SOURCE_DIR "/devices/") + file).value();
   zwidth::RecommendationOptions options;
   options.goal = goal;
-  if (ripple > 0.0) options.ripple = ripple;
+  if (quantisation_force > 0.0) options.quantisation_force = quantisation_force;
   for (auto _ : state) benchmark::DoNotOptimize(recommend_wall(device, options));
 }
 

@@ -49,13 +49,13 @@ void raster_100_by_100(benchmark::State& state, double delay) {
 
 void any_user(benchmark::State& state, double delay) {
   const Device device = two_mass(delay);
-  for (auto _ : state) benchmark::DoNotOptimize(any_user_limit(device));
+  for (auto _ : state) benchmark::DoNotOptimize(absolute_stability_limit(device));
 }
 
-void any_user_boundary(benchmark::State& state) {
+void absolute_stability_boundary(benchmark::State& state) {
   const Device device = two_mass(0.0);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(any_user_region(device, StableWalls(filtered_plant(device)), 600.0));
+    benchmark::DoNotOptimize(absolute_stability_region(device, StableWalls(filtered_plant(device)), 600.0));
   }
 }
 
@@ -68,6 +68,6 @@ BENCHMARK_CAPTURE(raster_100_by_100, two_mass_delay_0_25_samples, 0.25e-3)->Unit
 BENCHMARK_CAPTURE(any_user, two_mass, 0.0)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(any_user, two_mass_delay_0_25_samples, 0.25e-3)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(any_user, two_mass_delay_8_25_samples, 8.25e-3)->Unit(benchmark::kMicrosecond);
-BENCHMARK(any_user_boundary)->Unit(benchmark::kMillisecond);
+BENCHMARK(absolute_stability_boundary)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -30,10 +30,10 @@ void all_sensitivities_at_the_crossover(benchmark::State& state, double delay) {
   for (auto _ : state) benchmark::DoNotOptimize(stiffness_sensitivities(device, critical));
 }
 
-void all_any_user_sensitivities(benchmark::State& state) {
+void all_absolute_stability_sensitivities(benchmark::State& state) {
   const Device device = two_mass(0.0);
-  const zwidth::AnyUserLimit limit = any_user_limit(device);
-  for (auto _ : state) benchmark::DoNotOptimize(any_user_sensitivities(device, limit));
+  const zwidth::AbsoluteStabilityLimit limit = absolute_stability_limit(device);
+  for (auto _ : state) benchmark::DoNotOptimize(absolute_stability_sensitivities(device, limit));
 }
 
 void all_branch_switches(benchmark::State& state) {
@@ -52,7 +52,7 @@ BENCHMARK_CAPTURE(all_sensitivities, two_mass_delay_0_25_samples, 0.25e-3)->Unit
 BENCHMARK_CAPTURE(all_sensitivities_at_the_crossover, two_mass, 0.0)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(all_sensitivities_at_the_crossover, two_mass_delay_0_25_samples, 0.25e-3)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK(all_any_user_sensitivities)->Unit(benchmark::kMicrosecond);
+BENCHMARK(all_absolute_stability_sensitivities)->Unit(benchmark::kMicrosecond);
 BENCHMARK(all_branch_switches)->Unit(benchmark::kMillisecond);
 BENCHMARK(sweep_of_1000)->Unit(benchmark::kMillisecond);
 

@@ -3,12 +3,12 @@
 # compiler says so, and what follows is compiled alone.
 function(zwidth_unity target)
   # Long by themselves and with little in common: alone, they spread over the cores.
-  set(alone plant_slopes identifiability pole_count_in_digits)
+  set(alone plant_sensitivity identifiability pole_count_in_digits)
   list(APPEND alone wall_recommendation mat5_matrix)  # some names of theirs are others in wall_search, mat_recording
   # What the program loads on demand. The kernel includes itself besides, once per instruction set.
   list(APPEND alone stiffness_kernel mat73_file least_squares shot_fit quiet_solve)
   # tests that name their seed, cases or period as their neighbours do
-  list(APPEND alone any_user_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
+  list(APPEND alone absolute_stability_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
     diagnosis_property_test drive_gains_test export_test hybrid_loop_linear_test hybrid_loop_property_test
     identify_in_time_test inverse_dynamics_test nonlinear_records_test
     pooled_response_test record_fit_test relay_trials_test same_answer_on_recordings_test simulate_test study_test

@@ -69,7 +69,7 @@ inline Matrices50 matrices_of(const Device& device) {
     const Body& body = device.bodies()[i];
     to_ground(i, body.mass, body.damping, body.stiffness);
   }
-  const Operator& user = device.parameters().user;
+  const User& user = device.parameters().user;
   to_ground(device.loop().held, user.mass, user.damping, user.stiffness);
   for (const Link& link : device.links()) {
     for (const auto& [matrix, value] : {std::pair(&m.damping, link.damping), std::pair(&m.stiffness, link.stiffness)}) {

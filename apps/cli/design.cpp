@@ -123,7 +123,7 @@ void run_sweep(const DesignArguments& arguments) {
   if (const auto problem = find_sweep_problem(device, axes)) {
     throw BadInput("--sweep", fmt::format("{}: {}", problem->key, problem->what), problem->allowed);
   }
-  // The figure of one parameter shows the any-user limit beside it.
+  // The figure of one parameter shows the absolute stability limit beside it.
   const bool is_curve = outputs.figure("--output").has_value() && axes.size() == 1;
   const SweepOptions options{arguments.any_user || (is_curve && device.has_bodies()), is_curve};
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
@@ -156,7 +156,7 @@ void run_comparison(const DesignArguments& arguments) {
     }
     throw BadInput(std::move(problems));
   }
-  std::optional<Operator> user;
+  std::optional<User> user;
   if (!arguments.user.empty()) {
     const auto number = [&](std::size_t i, Measure measure) {
       return measured_number("--operator", arguments.user[i], measure, device.parameters().motion);
@@ -203,12 +203,12 @@ void set_target(const std::string& text, Motion motion, DesignTargetOptions& opt
 
 /// Which limit is to reach it. Throws BadInput.
 void set_goal(const DesignArguments& arguments, DesignTargetOptions& options) {
-  if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
+  if (arguments.any_user) options.goal = StiffnessGoal::absolute_stability_limit;
   const std::string goal = arguments.notch.goal.value_or("stiffness");
   if (goal == "damper") {
     options.limit_of = WallNumber::damping;
   } else if (goal == "any-user") {
-    options.goal = StiffnessGoal::any_user_limit;
+    options.goal = StiffnessGoal::absolute_stability_limit;
   } else if (goal != "stiffness" && goal != "critical-stiffness") {
     throw BadInput("--goal", fmt::format("{} is not for a target", goal), "stiffness, any-user or damper is");
   }
@@ -234,7 +234,7 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
   if (arguments.recommend.wanted) {
     return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output.json);
   }
-  if (arguments.recommend.ripple) throw BadInput("--ripple", "is for a recommendation", "add --recommend");
+  if (arguments.recommend.quantisation_force) throw BadInput("--ripple", "is for a recommendation", "add --recommend");
   if (arguments.notch.wanted) {
     if (!arguments.sweeps.empty() || !arguments.compare.empty()) {
       throw BadInput("--notch", "excludes --sweep and --compare");

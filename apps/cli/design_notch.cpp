@@ -28,21 +28,21 @@ constexpr std::array options_of_notch{"--goal",           "--drift-percent",  "-
 
 NotchOptions notch_options(const NotchArguments& arguments) {
   NotchOptions options;
-  if (arguments.goal == "any-user") options.goal = StiffnessGoal::any_user_limit;
+  if (arguments.goal == "any-user") options.goal = StiffnessGoal::absolute_stability_limit;
   if (arguments.goal && *arguments.goal != "any-user" && *arguments.goal != "critical-stiffness") {
     throw BadInput("--goal", fmt::format("{} is not for a notch", *arguments.goal),
                    "critical-stiffness or any-user is");
   }
-  if (arguments.drift_percent) options.drift = *arguments.drift_percent / 100.0;
+  if (arguments.drift_percent) options.modal_frequency_uncertainty = *arguments.drift_percent / 100.0;
   if (arguments.gain_margin_db) options.gain_margin = ratio_of_decibels(*arguments.gain_margin_db);
   if (arguments.phase_margin_deg) options.phase_margin = radians(*arguments.phase_margin_deg);
   options.far_from_modes = arguments.far_from_modes;
-  options.lower_any_user = arguments.lower_any_user;
+  options.lower_absolute_stability_limit = arguments.lower_absolute_stability_limit;
   return options;
 }
 
 constexpr std::pair<std::string_view, std::string_view> options_of_notch_design[] = {
-    {"drift", "--drift-percent"},
+    {"modal_frequency_uncertainty", "--drift-percent"},
     {"gain_margin", "--gain-margin-db"},
     {"phase_margin", "--phase-margin-deg"},
     {"goal", "--goal"},
@@ -85,7 +85,9 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command.add_flag("--far-from-modes", arguments.far_from_modes, "The filter may lie far from every mode: a lag")
       ->group(group);
-  command.add_flag("--lower-any-user", arguments.lower_any_user, "The notch may lower the limit with any passive user")
+  command
+      .add_flag("--lower-any-user", arguments.lower_absolute_stability_limit,
+                "The notch may lower the limit with any passive user")
       ->group(group);
   command.add_option("--write", arguments.write, "Write the device file with the notch and the wall in it")
       ->type_name("FILE")

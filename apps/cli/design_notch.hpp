@@ -9,7 +9,7 @@
 
 namespace zwidth::cli {
 
-/// What `design --notch` asks for; goal, drift, margins and `write` are of --recommend too.
+/// What `design --notch` asks for; goal, modal frequency uncertainty, margins and `write` are of --recommend too.
 struct NotchArguments {
   bool wanted = false;
   std::optional<std::string> goal;
@@ -17,7 +17,7 @@ struct NotchArguments {
   std::optional<double> gain_margin_db;
   std::optional<double> phase_margin_deg;
   bool far_from_modes = false;
-  bool lower_any_user = false;
+  bool lower_absolute_stability_limit = false;
   std::string write;
 };
 

@@ -39,16 +39,16 @@ RecommendationOptions recommendation_options(const RecommendArguments& arguments
   }
   if (shared.gain_margin_db) options.gain_margin = ratio_of_decibels(*shared.gain_margin_db);
   if (shared.phase_margin_deg) options.phase_margin = radians(*shared.phase_margin_deg);
-  if (shared.drift_percent) options.drift = *shared.drift_percent / 100.0;
-  options.ripple = arguments.ripple;
+  if (shared.drift_percent) options.modal_frequency_uncertainty = *shared.drift_percent / 100.0;
+  options.quantisation_force = arguments.quantisation_force;
   return options;
 }
 
 constexpr std::pair<std::string_view, std::string_view> options_of_recommendation[] = {
     {"gain_margin", "--gain-margin-db"},
     {"phase_margin", "--phase-margin-deg"},
-    {"ripple", "--ripple"},
-    {"drift", "--drift-percent"},
+    {"quantisation_force", "--ripple"},
+    {"modal_frequency_uncertainty", "--drift-percent"},
     {"goal", "--goal"}};
 
 WallRecommendation recommended(const Device& device, const RecommendationOptions& options, const std::string& file) {
@@ -65,7 +65,8 @@ void add_recommend_options(CLI::App& command, RecommendArguments& arguments) {
   const char* group = "Recommendation";
   command.add_flag("--recommend", arguments.wanted, "The wall to render: K, B, velocity filter, notch, for any user")
       ->group(group);
-  command.add_option("--ripple", arguments.ripple, "Greatest force per encoder count of that wall, N or N m")
+  command
+      .add_option("--ripple", arguments.quantisation_force, "Greatest force per encoder count of that wall, N or N m")
       ->type_name("FORCE")
       ->group(group);
 }

@@ -10,7 +10,7 @@ namespace zwidth::cli {
 /// What `design --recommend` asks for beside the goal and the margins, which it shares with --notch.
 struct RecommendArguments {
   bool wanted = false;
-  std::optional<double> ripple;
+  std::optional<double> quantisation_force;
 };
 
 /// Declares --recommend and --ripple; `arguments` must outlive the parsing.

@@ -6,8 +6,8 @@
 
 #include "cli/input_problem.hpp"
 #include "cli/option_units.hpp"
+#include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/surroundings.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth::cli {

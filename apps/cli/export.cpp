@@ -23,7 +23,7 @@
 #include "results/export_json.hpp"
 #include "results/json.hpp"
 #include "zwidth/design/wall_to_run.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
-#include "cli/surroundings.hpp"
 #include "report/text/text_table.hpp"
 
 namespace zwidth::cli {
@@ -74,7 +74,7 @@ void LiveLine::wipe() {
 }
 
 void LiveLine::show(const rig::LiveState& state) {
-  if (surroundings() != nullptr) return;
+  if (request_context() != nullptr) return;
   const std::string text = text_of(state, units_);
   if (!terminal_) {
     const auto now = std::chrono::steady_clock::now();

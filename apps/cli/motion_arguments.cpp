@@ -13,8 +13,8 @@
 #include "cli/number_text.hpp"
 #include "cli/option_units.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/surroundings.hpp"
 #include "zwidth/io/recording_file.hpp"
 
 namespace zwidth::cli {

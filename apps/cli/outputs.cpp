@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/surroundings.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -54,7 +54,7 @@ void Outputs::add(const OutputArguments& arguments) {
 
 void Outputs::add(const std::string& option, const std::string& path, Ending ending) {
   if (path.empty()) return;
-  if (surroundings() != nullptr)
+  if (request_context() != nullptr)
     throw BadInput(option, "writes a file", "a request is answered with its document alone");
   if (path == "-") throw BadInput(option, "-: is not written to standard output", "name a file");
   Output output{option, path, std::nullopt};

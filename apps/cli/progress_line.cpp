@@ -5,8 +5,8 @@
 
 #include <utility>
 
+#include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
-#include "cli/surroundings.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -30,7 +30,7 @@ void ProgressLine::wipe() {
 }
 
 Progress ProgressLine::progress(double from, double to) {
-  if (const Surroundings* own = surroundings()) {
+  if (const RequestContext* own = request_context()) {
     if (!own->progress) return {};
     return [own, from, to](double fraction) { own->progress(from + fraction * (to - from)); };
   }

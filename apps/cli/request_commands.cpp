@@ -66,7 +66,7 @@ void put_named(std::vector<std::string>& arguments, std::string_view argument, c
 }
 
 /// False where there is one of that name.
-bool put_recording(const CommandRequest::Recorded& recorded, Surroundings& own) {
+bool put_recording(const CommandRequest::Recorded& recorded, RequestContext& own) {
   if (own.recordings.contains(recorded.name) || own.columns.contains(recorded.name)) return false;
   if (const auto* columns = std::get_if<std::shared_ptr<const RecordedColumns>>(&recorded.held)) {
     own.columns.emplace(recorded.name, *columns);
@@ -79,7 +79,7 @@ bool put_recording(const CommandRequest::Recorded& recorded, Surroundings& own) 
 }
 
 /// What a request names is in its surroundings; the arguments name it.
-void put_inputs(const CommandRequest& request, const OfferedCommand& command, Surroundings& own,
+void put_inputs(const CommandRequest& request, const OfferedCommand& command, RequestContext& own,
                 std::vector<std::string>& arguments) {
   if (request.device) {
     if (command.device.empty()) throw Refused{{"device", fmt::format("{} takes none", command.name), "a recording"}};
@@ -147,11 +147,11 @@ auto find_command(std::string_view name) {
   return std::ranges::find(offered_commands, name == recommend ? "design" : name, &OfferedCommand::name);
 }
 
-RequestAnswer answer_in(Surroundings& own) {
+RequestAnswer answer_in(RequestContext& own) {
   return {std::move(own.output), std::move(own.device), std::move(own.series)};
 }
 
-RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offered, Surroundings& own) {
+RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offered, RequestContext& own) {
   CLI::App app("", "zwidth");
   app.require_subcommand(1);
   offered.add(app);
@@ -179,7 +179,7 @@ RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offe
 }
 
 tl::expected<RequestAnswer, Problem> answer_or_problem(const CommandRequest& request, const OfferedCommand& offered,
-                                                       Surroundings& own) {
+                                                       RequestContext& own) {
   try {
     return answered(request, offered, own);
   } catch (const Refused& refused) {
@@ -236,10 +236,10 @@ tl::expected<RequestAnswer, Problem> RequestCommands::answer(const CommandReques
                                                              const Progress& progress) const {
   const auto offered = find_command(request.command);
   if (offered == offered_commands.end()) return tl::unexpected(Problem{"request", "there is no such command", ""});
-  Surroundings own;
+  RequestContext own;
   own.progress = progress;
   own.bounds = bounds_;
-  const InSurroundings inside(own);
+  const InRequestContext inside(own);
   return answer_or_problem(request, *offered, own).map_error([&](Problem&& problem) {
     CLI::App app("", "zwidth");
     offered->add(app);

@@ -6,7 +6,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "cli/surroundings.hpp"
+#include "cli/request_context.hpp"
 #include "server/api/command_request.hpp"
 
 namespace zwidth::cli {

@@ -30,7 +30,7 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/simulation/simulate.hpp"
 #include "zwidth/stability/analysis.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -246,7 +246,7 @@ void run_wall(const Rig& rig) {
   options.controller = wall_controller(rig.device.parameters().wall);
   if (arguments.contact == "unilateral") options.controller.contact = ControllerOptions::Contact::unilateral;
   if (arguments.duration) options.duration = *arguments.duration;
-  if (arguments.amplitude || arguments.driver == "simulated") options.knock = amplitude_of(rig);
+  if (arguments.amplitude || arguments.driver == "simulated") options.impulse = amplitude_of(rig);
   const RigWall result =
       watched(rig, [&](const rig::RigOptions& own) { return rig::render_wall(rig.device, *rig.driver, own, options); });
   answer(rig, result, result.session);
@@ -262,7 +262,7 @@ void run_limit(const Rig& rig) {
   if (arguments.from) options.search.start = *arguments.from;
   if (arguments.ceiling) options.search.ceiling = *arguments.ceiling;
   if (arguments.duration) options.dwell = *arguments.duration;
-  options.knock = amplitude_of(rig);
+  options.impulse = amplitude_of(rig);
   if (options.search.start == 0.0 || options.search.ceiling == 0.0) {
     throw BadInput("", "--from, --ceiling: missing", "no finite limit is predicted to search around");
   }

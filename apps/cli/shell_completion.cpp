@@ -72,8 +72,8 @@ std::string bash_options(const CommandDescription& command, std::string_view oth
 std::string zsh_argument(const OptionDescription& option) {
   const bool is_positional = !option.names.front().starts_with('-');
   std::string action;
-  const bool is_open = !option.words.empty() && option.words.front().ends_with('=');  // a value follows
-  const std::string_view offer = is_open ? "{{compadd -S \"\" - {}}}" : "({})";
+  const bool is_inconclusive = !option.words.empty() && option.words.front().ends_with('=');  // a value follows
+  const std::string_view offer = is_inconclusive ? "{{compadd -S \"\" - {}}}" : "({})";
   if (is_positional || !option.value.empty()) {
     action = fmt::format(":{}:{}", option.value,
                          option.takes_file      ? "_files"

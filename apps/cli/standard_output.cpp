@@ -16,8 +16,8 @@
 #include <optional>
 #include <string>
 
+#include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/surroundings.hpp"
 #include "report/text/text_medium.hpp"
 
 namespace zwidth::cli {
@@ -86,7 +86,7 @@ void prepare_standard_output() {
 }
 
 void write_standard_output(std::string_view text) {
-  if (Surroundings* own = surroundings()) {
+  if (RequestContext* own = request_context()) {
     if (own->output.size() + text.size() > own->bounds.answer) {
       throw BadInput("", fmt::format("the answer is longer than {} bytes", own->bounds.answer),
                      "ask for less, or on the command line");
@@ -102,7 +102,7 @@ void write_standard_output(std::string_view text) {
 void write_text(std::string_view text) { write_standard_output(report::for_medium(text)); }
 
 void write_standard_error(std::string_view text) noexcept {
-  if (surroundings() != nullptr) return;  // what matters of it is in the answer
+  if (request_context() != nullptr) return;  // what matters of it is in the answer
   try {
     write_all(STDERR_FILENO, report::for_medium(text));
   } catch (const std::bad_alloc&) {

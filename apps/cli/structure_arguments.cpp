@@ -8,8 +8,8 @@
 
 #include "cli/input_problem.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/surroundings.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/message_words.hpp"

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "report/text/explanation.hpp"
-#include "report/text/held_wall_text.hpp"
+#include "report/text/holder_limit_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -8,7 +8,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/stability/holding.hpp"
 
 namespace zwidth::report {
@@ -48,7 +48,7 @@ std::string velocity_text(const Wall& wall, Units units) {
 /// Whose critical stiffness there is where some user destabilises every wall.
 std::string basis_without_users(const Device& device) {
   return fmt::format("the critical stiffness with nobody holding{}: there is no limit for any user",
-                     has_operator(device) ? " and with the file's user, the lesser" : "");
+                     device_has_user(device) ? " and with the file's user, the lesser" : "");
 }
 
 std::string interval_text(const SafeWall& ceilings) {

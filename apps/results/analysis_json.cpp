@@ -12,9 +12,9 @@
 namespace zwidth::results {
 namespace {
 
-Json any_user_json(const Analysis& analysis) {
+Json absolute_stability_json(const Analysis& analysis) {
   if (!analysis.any_user) return nullptr;
-  const AnyUserLimit& limit = *analysis.any_user;
+  const AbsoluteStabilityLimit& limit = *analysis.any_user;
   const bool has_frequency = limit.stiffness > 0.0 && std::isfinite(limit.stiffness);
   return {{"critical_stiffness", limit.stiffness},
           {"frequency_rad_s", has_frequency ? std::optional(limit.frequency) : std::nullopt},
@@ -38,7 +38,7 @@ Json range_json(const ValueRange& range) { return Json::array({range.least, rang
 Json user_family_json(const Analysis& analysis) {
   if (!analysis.user_family) return nullptr;
   const UserFamilyAnswer& answer = *analysis.user_family;
-  const Operator& user = answer.worst.user;
+  const User& user = answer.worst.user;
   return {{"mass", range_json(answer.family.mass)},
           {"damping", range_json(answer.family.damping)},
           {"stiffness", range_json(answer.family.stiffness)},
@@ -87,8 +87,8 @@ Json with_margins_json(const WallSummary& walls) {
           {"damping", each.wall.damping},
           {"velocity_filter_hz", each.wall.velocity_filter_hz},
           {"notch", std::move(notch)},
-          {"stable_for", each.any_user_limit ? "any_user" : "nobody"},
-          {"any_user_critical_stiffness", each.any_user_limit},
+          {"stable_for", each.absolute_stability_limit ? "any_user" : "nobody"},
+          {"any_user_critical_stiffness", each.absolute_stability_limit},
           {"gain_margin_db", decibels(each.margins.gain_margin)},
           {"phase_margin_rad", each.margins.phase_margin}};
 }
@@ -123,7 +123,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis, const std::
   json["suspended_rigid_body"] = analysis.suspended_rigid_body;
   json["rigid_approximation"] = analysis.rigid;
   json["q_criterion"] = analysis.q_criterion;
-  json["any_user"] = any_user_json(analysis);
+  json["any_user"] = absolute_stability_json(analysis);
   json["user_family"] = user_family_json(analysis);
   json["virtual_damper"] = virtual_damper_json(device.wall);
   json["wall_filters"] = wall_filters_json(device.wall, device.loop.sampling_period);

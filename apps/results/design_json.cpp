@@ -14,7 +14,7 @@ namespace {
 
 Json stiffness_units(Motion motion) { return {{"stiffness", units_of(motion).stiffness}}; }
 
-std::optional<double> stiffness_of(const std::optional<AnyUserLimit>& limit) {
+std::optional<double> stiffness_of(const std::optional<AbsoluteStabilityLimit>& limit) {
   return limit ? std::optional(limit->stiffness) : std::nullopt;
 }
 
@@ -36,7 +36,7 @@ Json sensitivity_json(const std::string& key, double value, const Device& device
     return each ? Json(each->relative) : Json(nullptr);
   };
   const std::optional<Sensitivity> own = find(design.sensitivities);
-  const std::optional<Sensitivity> any_user = find(design.any_user_sensitivities);
+  const std::optional<Sensitivity> any_user = find(design.absolute_stability_sensitivities);
   return {{"parameter", key},
           {"value", value},
           {"unit", parameter_unit(key, device.parameters().motion)},
@@ -91,8 +91,8 @@ void to_json(Json& json, const SweepPoint& point) {
           {"trust", point.trust}};
 }
 
-void to_json(Json& json, const NotchAtDrift& each) {
-  json = {{"drift", each.drift}, {"without", each.without}, {"with", each.with}};
+void to_json(Json& json, const NotchAtModalShift& each) {
+  json = {{"drift", each.modal_shift}, {"without", each.without}, {"with", each.with}};
 }
 
 void to_json(Json& json, const ComparedDesign& each) {
@@ -113,7 +113,7 @@ Json design_json(const Device& device, const Design& design) {
   for (const Sensitivity& each : design.sensitivities) {
     json["sensitivities"].push_back(sensitivity_json(each.key, each.value, device, design));
   }
-  for (const Sensitivity& each : design.any_user_sensitivities) {
+  for (const Sensitivity& each : design.absolute_stability_sensitivities) {
     if (find_sensitivity(design.sensitivities, each.key) != nullptr) continue;
     json["sensitivities"].push_back(sensitivity_json(each.key, each.value, device, design));
   }
@@ -165,7 +165,7 @@ std::string sweep_csv(const ParameterSweep& sweep) {
 Json comparison_json(const DesignComparison& comparison) {
   const DeviceParameters& device = comparison.designs.front().device.parameters();
   const bool held = comparison.designs.front().held.has_value();
-  const Operator& user = comparison.user;
+  const User& user = comparison.user;
   Json json = document("zwidth.design_comparison/1");
   json["device"] = device.name;
   json["units"] = stiffness_units(device.motion);
@@ -187,7 +187,7 @@ Json notch_json(const Device& device, const NotchOptions& options, const NotchDe
   json["device"] = parameters.name;
   json["units"] = wall_units(parameters.motion);
   json["goal"] = options.goal;
-  json["drift"] = options.drift;
+  json["drift"] = options.modal_frequency_uncertainty;
   json["gain_margin"] = options.gain_margin;
   json["phase_margin_rad"] = options.phase_margin;
   json["notch"] = nullptr;
@@ -200,7 +200,7 @@ Json notch_json(const Device& device, const NotchOptions& options, const NotchDe
   json["stiffness_without"] = design.without;
   json["stiffness_with"] = design.with;
   json["low_frequency_delay_s"] = design.low_frequency_delay;
-  json["over_drift"] = design.over_drift;
+  json["over_drift"] = design.over_modal_shift;
   json["without"] = state_json(design.state_without);
   json["with"] = state_json(design.state_with);
   json["trust"] = design.trust;

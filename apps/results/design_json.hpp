@@ -11,7 +11,7 @@
 namespace zwidth::results {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessGoal, {{StiffnessGoal::critical_stiffness, "critical_stiffness"},
-                                             {StiffnessGoal::any_user_limit, "any_user_limit"}})
+                                             {StiffnessGoal::absolute_stability_limit, "any_user_limit"}})
 
 /// The answer of `design --json`, schema zwidth.design/1 (docs/design.md).
 [[nodiscard]] Json design_json(const Device& device, const Design& design);
@@ -20,7 +20,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessGoal, {{StiffnessGoal::critical_stiffness,
 [[nodiscard]] Json sweep_json(const Device& device, const ParameterSweep& sweep);
 
 /// Every point, a line each: the parameters, K_CR (empty where unbounded), rad/s, mode (0: the rigid body), the
-/// any-user limit where asked for.
+/// absolute stability limit where asked for.
 [[nodiscard]] std::string sweep_csv(const ParameterSweep& sweep);
 
 /// The answer of `design --compare --json`, schema zwidth.design_comparison/1.

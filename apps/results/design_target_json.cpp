@@ -9,14 +9,14 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
   Json json = document("zwidth.design_target/1");
   json["device"] = device.name();
   json["units"] = wall_units(device.parameters().motion);
-  const bool any_user = options.goal == StiffnessGoal::any_user_limit;
+  const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
   const bool is_damper = options.limit_of == WallNumber::damping;
   json["goal"] = is_damper ? (any_user ? "any_user_damping" : "critical_damping")
                            : (any_user ? "any_user_limit" : "critical_stiffness");
   json["target"] = options.times_now ? Json(targets.target) : Json(options.stiffness);
   json["stiffness_now"] = is_damper ? std::nullopt : targets.limit_now;
   json["damping_now"] = is_damper ? targets.limit_now : std::nullopt;
-  json["any_user_now"] = targets.any_user_now;
+  json["any_user_now"] = targets.absolute_stability_limit_now;
   json["trust"] = targets.trust;
   json["remarks"] = targets.remarks;
   json["findings"] = findings_json(targets.trust, targets.remarks);
@@ -26,7 +26,7 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
                                    {"value_now", each.value_now},
                                    {"value_needed", Json(each.value_needed)},
                                    {"why", text(each.why)},
-                                   {"any_user_then", each.any_user_then},
+                                   {"any_user_then", each.absolute_stability_limit_then},
                                    {"safe", each.safe}});
   }
   return json;

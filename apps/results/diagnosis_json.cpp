@@ -36,7 +36,7 @@ static void to_json(Json& json, const DiagnosisChange& change) {
           {"amplitude_now", change.amplitude_now},
           {"amplitude_then", change.amplitude_then},
           {"ends_it", change.ends_it},
-          {"any_user_then", change.any_user_then},
+          {"any_user_then", change.absolute_stability_limit_then},
           {"safe", change.safe}};
 }
 
@@ -52,7 +52,7 @@ Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   json["limit_of"] = diagnosis.limit_of == WallNumber::stiffness ? "stiffness" : "damping";
   json["cause"] = diagnosis.cause;
   json["nearest"] = diagnosis.nearest;
-  json["any_user_now"] = diagnosis.any_user_now;
+  json["any_user_now"] = diagnosis.absolute_stability_limit_now;
   json["candidates"] = diagnosis.candidates;
   json["changes"] = diagnosis.changes;
   json["trust"] = diagnosis.trust;

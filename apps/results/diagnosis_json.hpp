@@ -6,7 +6,7 @@
 namespace zwidth::results {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(OscillationCause, {{OscillationCause::device, "device"},
-                                                {OscillationCause::with_operator, "operator"},
+                                                {OscillationCause::with_user, "operator"},
                                                 {OscillationCause::passive_user, "passive_user"},
                                                 {OscillationCause::quantisation, "quantisation"},
                                                 {OscillationCause::friction, "friction"}})

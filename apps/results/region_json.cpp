@@ -22,7 +22,7 @@ static void to_json(Json& json, const BoundaryPoint& point) {
           {"limited_by", point.limited_by}};
 }
 
-static void to_json(Json& json, const AnyUserPoint& point) {
+static void to_json(Json& json, const AbsoluteStabilityPoint& point) {
   json = {{"stiffness", point.stiffness},
           {"damping", point.damping},
           {"frequency_rad_s", point.stiffness > 0.0 ? std::optional(point.frequency) : std::nullopt}};
@@ -35,7 +35,7 @@ static void to_json(Json& json, const StableComponent& component) {
       {"area", component.area}, {"reaches_zero_stiffness", component.from_zero}, {"outline", component.outline.arcs}};
 }
 
-static void to_json(Json& json, const AnyUserRegion& region) {
+static void to_json(Json& json, const AbsoluteStabilityRegion& region) {
   json = {{"stiffest", region.stiffest},
           {"most_damped", region.most_damped},
           {"area", region.area},

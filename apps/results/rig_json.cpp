@@ -186,7 +186,7 @@ Json rig_json(const Device& device, const RigLimit& limit) {
   if (measured.stiffness && limit.predicted.status == StiffnessStatus::finite) {
     json["measured_over_predicted"] = *measured.stiffness / limit.predicted.stiffness;
   }
-  json["knock"] = limit.knock;
+  json["knock"] = limit.impulse;
   json["trials"] = measured.trials;
   json["trust"] = limit.trust;
   json["remarks"] = limit.remarks;

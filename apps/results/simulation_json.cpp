@@ -15,10 +15,10 @@ static void to_json(Json& json, const Oscillation& oscillation) {
           {"amplitude", oscillation.amplitude}};
 }
 
-static void to_json(Json& json, const ForceRipple& ripple) {
-  json = {{"amplitude", ripple.amplitude},
-          {"frequency_rad_s", ripple.frequency},
-          {"frequency_hz", hertz(ripple.frequency)}};
+static void to_json(Json& json, const QuantisationForce& quantisation_force) {
+  json = {{"amplitude", quantisation_force.amplitude},
+          {"frequency_rad_s", quantisation_force.frequency},
+          {"frequency_hz", hertz(quantisation_force.frequency)}};
 }
 
 static void to_json(Json& json, const Faults& faults) {
@@ -133,7 +133,7 @@ Json simulation_json(const Device& device, const Simulation& result, PointsInJso
   json["peak_penetration"] = has_wall ? Json(result.peak_penetration) : Json(nullptr);
   json["generated_energy"] = result.generated_energy;
   json["peak_generated_energy"] = has_wall ? Json(result.peak_generated_energy) : Json(nullptr);
-  json["force_ripple"] = result.force_ripple;
+  json["force_ripple"] = result.quantisation_force;
   json["encoder_chatters"] = result.encoder_chatters;
   json["stick_slip_instants"] = result.friction_events;
   json["nonlinear_parts"] = result.nonlinear_parts;

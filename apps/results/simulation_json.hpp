@@ -14,7 +14,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(LoopVerdict, {{LoopVerdict::undecided, "undecided"}
                                            {LoopVerdict::unstable, "unstable"},
                                            {LoopVerdict::drifts, "drifts"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(NonlinearPart, {{NonlinearPart::coulomb_friction, "coulomb_friction"},
-                                             {NonlinearPart::encoder_step, "encoder_step"},
+                                             {NonlinearPart::quantisation_step, "encoder_step"},
                                              {NonlinearPart::force_limit, "force_limit"},
                                              {NonlinearPart::leaving_wall, "leaving_wall"},
                                              {NonlinearPart::lost_samples, "lost_samples"},

@@ -2,8 +2,8 @@
 
 #include "results/json.hpp"
 #include "zwidth/model/modal_form.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
-#include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/worst_user.hpp"
 
 namespace zwidth::results {

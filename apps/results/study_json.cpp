@@ -135,9 +135,9 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["yield"] = study.yield ? std::optional(study.yield->value) : std::nullopt;
   json["yield_interval"] = study.yield ? Json{study.yield->lower, study.yield->upper} : Json(nullptr);
   json["yields"] = {{"critical_stiffness", yield_json(study.critical_stiffness_yield)},
-                    {"any_user", yield_json(study.any_user_yield)}};
+                    {"any_user", yield_json(study.absolute_stability_yield)}};
   json["quantiles"] = quantiles_json(study.quantiles);
-  json["any_user_quantiles"] = options.any_user ? quantiles_json(study.any_user_quantiles) : Json(nullptr);
+  json["any_user_quantiles"] = options.any_user ? quantiles_json(study.absolute_stability_quantiles) : Json(nullptr);
   json["reached_by_95_percent"] = study.reached_by_95_percent;
   json["histogram"] = {
       {"edges", study.histogram.edges}, {"counts", study.histogram.counts}, {"yields", study.histogram.yields}};

@@ -13,10 +13,10 @@ Json margins_json(const RecommendedWall& each) {
   Json json = each.margins;
   json.erase("stiffness");  // they stand in `wall`
   json.erase("damping");
-  json["any_user_critical_stiffness"] = each.any_user_limit;
+  json["any_user_critical_stiffness"] = each.absolute_stability_limit;
   json["any_user_stiffness_margin_db"] =
-      each.any_user_stiffness_margin ? Json(decibels(*each.any_user_stiffness_margin)) : Json(nullptr);
-  json["any_user_critical_damping"] = each.any_user_damping_limit;
+      each.absolute_stability_margin ? Json(decibels(*each.absolute_stability_margin)) : Json(nullptr);
+  json["any_user_critical_damping"] = each.absolute_stability_damping_limit;
   json["contact_damping_ratio"] = each.contact_damping_ratio;
   return json;
 }
@@ -46,9 +46,9 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
   json["goal"] = options.goal;
   json["asked"] = {{"gain_margin_db", decibels(options.gain_margin)},
                    {"phase_margin_rad", options.phase_margin},
-                   {"ripple", options.ripple},
-                   {"drift", options.drift}};
-  json["drifts_checked"] = recommendation.drifts_checked;
+                   {"ripple", options.quantisation_force},
+                   {"drift", options.modal_frequency_uncertainty}};
+  json["drifts_checked"] = recommendation.modal_shifts_checked;
   json["status"] = recommendation.status;
   json["reason"] = recommendation.reason ? Json(text(*recommendation.reason)) : Json(nullptr);
   if (recommendation.wall) {

@@ -13,10 +13,10 @@ NLOHMANN_JSON_SERIALIZE_ENUM(WallBound, {{WallBound::none, "none"},
                                          {WallBound::any_user, "any_user"},
                                          {WallBound::gain_margin, "gain_margin"},
                                          {WallBound::phase_margin, "phase_margin"},
-                                         {WallBound::ripple, "ripple"},
+                                         {WallBound::quantisation_force, "ripple"},
                                          {WallBound::contact_damping, "contact_damping"},
                                          {WallBound::uncertainty, "uncertainty"},
-                                         {WallBound::drift, "drift"}})
+                                         {WallBound::modal_frequency_uncertainty, "drift"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(WallRecommendation::Status, {{WallRecommendation::Status::found, "found"},
                                                           {WallRecommendation::Status::none, "none"},
                                                           {WallRecommendation::Status::unbounded, "unbounded"},

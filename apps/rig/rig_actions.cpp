@@ -7,20 +7,20 @@
 #include <utility>
 
 #include "rig/action_steps.hpp"
-#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/rig/wall_verdict.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
-#include "zwidth/stability/any_user.hpp"
 
 namespace zwidth::rig {
 namespace {
 
-constexpr double swing = 1e-3;  // m or rad, of a knock or a relay at the predicted limit
+constexpr double swing = 1e-3;  // m or rad, of an impulse or a relay at the predicted limit
 constexpr double share_of_force = 1.0 / 3.0;
 constexpr double above_friction = 3.0;
-constexpr double dwell_cycles = 40.0;  // of it, after each knock
+constexpr double dwell_cycles = 40.0;  // of it, after each impulse
 constexpr double band_below = 5.0;     // of the limiting crossover
 constexpr double band_above = 8.0;
 constexpr double highest_of_nyquist = 0.8;
@@ -28,10 +28,10 @@ constexpr double cycles_of_lowest = 8.0;  // in each period of the multisine
 constexpr std::size_t measured_periods = 8;
 constexpr std::size_t transient_periods = 4;  // at most: those in which it dies out are skipped
 constexpr double shortest_dwell = 0.5;        // s
-constexpr int holds_before_smaller = 3;       // and one before each knock
+constexpr int holds_before_smaller = 3;       // and one before each impulse
 
 /// Half a period of a sine at the frequency of the limit.
-std::vector<double> knock_at(double frequency, double force, double period) {
+std::vector<double> impulse_at(double frequency, double force, double period) {
   const auto length = static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / (frequency * period))));
   std::vector<double> samples(length);
   for (std::size_t k = 0; k < length; ++k) {
@@ -67,8 +67,8 @@ void predict(const Device& device, RigWall& wall) {
 
 /// Where the device that nobody holds may oscillate, beside where the file's user makes it.
 void add_frequencies(const Device& device, std::vector<double>& frequencies) {
-  if (!has_operator(device)) return;
-  for (const Crossover& each : critical_stiffness(without_operator(device)).crossovers) {
+  if (!device_has_user(device)) return;
+  for (const Crossover& each : critical_stiffness(device_without_user(device)).crossovers) {
     frequencies.push_back(each.frequency);
   }
 }
@@ -135,8 +135,8 @@ MeasureOptions default_measurement(const Device& device) {
 LimitOptions default_limit(const Device& device) {
   const CriticalStiffness predicted = critical_stiffness(device);
   std::optional<double> any_user;
-  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
-    any_user = any_user_limit(device, virtual_damper(device)).stiffness;
+  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability) {
+    any_user = absolute_stability_limit(device, virtual_damper(device)).stiffness;
   }
   LimitOptions options;
   if (auto search = limit_search_options(device, predicted, any_user)) {
@@ -148,9 +148,10 @@ LimitOptions default_limit(const Device& device) {
   }
   add_frequencies(device, options.search.frequencies);
   double slowest = frequency_of(predicted);
-  if (has_operator(device)) slowest = std::min(slowest, frequency_of(critical_stiffness(without_operator(device))));
+  if (device_has_user(device))
+    slowest = std::min(slowest, frequency_of(critical_stiffness(device_without_user(device))));
   options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / slowest);
-  options.knock = default_force(device);
+  options.impulse = default_force(device);
   return options;
 }
 
@@ -234,10 +235,10 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
   const std::size_t ramped = std::min(segment.cycles, cycles_of(options.limits.ramp, device));
   segment.cut_from = ramped;
   std::size_t after = 0;
-  if (wall.knock != 0.0) {
+  if (wall.impulse != 0.0) {
     segment.force.assign(ramped, 0.0);
-    const std::vector<double> knock = knock_at(frequency, wall.knock, period);
-    segment.force.insert(segment.force.end(), knock.begin(), knock.end());
+    const std::vector<double> impulse = impulse_at(frequency, wall.impulse, period);
+    segment.force.insert(segment.force.end(), impulse.begin(), impulse.end());
     after = segment.cut_from = segment.watch_from = std::min(segment.cycles, segment.force.size());
   }
   RigRun run(driver, options.limits, period, options.watcher);
@@ -260,14 +261,14 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
                        const Progress& progress) {
   RigLimit result;
   result.predicted = critical_stiffness(device);
-  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
-    result.any_user = any_user_limit(device, virtual_damper(device));
+  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability) {
+    result.any_user = absolute_stability_limit(device, virtual_damper(device));
   }
   result.limits = limits_beside(device, result);
-  result.knock = limit.knock;
+  result.impulse = limit.impulse;
   const double period = device.loop().sampling_period;
   LimitSearch search(limit.search);
-  const std::vector<double> knock = knock_at(frequency_of(result.predicted), limit.knock, period);
+  const std::vector<double> impulse = impulse_at(frequency_of(result.predicted), limit.impulse, period);
   RigRun run(driver, options.limits, period, options.watcher);
   Segment holding;
   holding.controller = wall_of(device, limit.search.start);
@@ -275,35 +276,35 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   holding.ramps = true;
   holding.watched = limit.search.frequencies;
   holding.watch_floor = 2.0 * limit.search.floor;
-  const auto knocked = [&](double stiffness, double share) {
+  const auto with_impulse = [&](double stiffness, double share) {
     if (stiffness < holding.controller.stiffness) holding.controller.stiffness = stiffness;  // the start was unstable
     (void)run.play(holding);
     holding.ramps = false;
     holding.cycles = cycles_of(0.5 * limit.dwell, device);
     Segment segment;
     segment.controller = wall_of(device, stiffness);
-    segment.force = knock;
+    segment.force = impulse;
     for (double& force : segment.force) force *= share;
-    segment.cycles = knock.size() + cycles_of(limit.dwell, device);
+    segment.cycles = impulse.size() + cycles_of(limit.dwell, device);
     segment.watched = limit.search.frequencies;
     segment.watch_floor = 2.0 * limit.search.floor;
-    segment.cut_from = segment.watch_from = knock.size();
+    segment.cut_from = segment.watch_from = impulse.size();
     return run.play(segment);
   };
-  const auto after_knock = [&](const Played& played) {
-    return std::span(played.position).subspan(std::min(knock.size(), played.position.size()));
+  const auto after_impulse = [&](const Played& played) {
+    return std::span(played.position).subspan(std::min(impulse.size(), played.position.size()));
   };
   std::size_t trials = 0;
   while (const auto stiffness = search.next()) {
-    const Played played = knocked(*stiffness, 1.0);
+    const Played played = with_impulse(*stiffness, 1.0);
     if (run.is_stopped()) break;
-    search.add(*stiffness, after_knock(played), period, played.stop == StopReason::oscillation, played.cut > 0);
+    search.add(*stiffness, after_impulse(played), period, played.stop == StopReason::oscillation, played.cut > 0);
     report(progress, part(++trials, LimitSearch::most_trials));
   }
   if (const auto stiffness = search.next_smaller(); stiffness && !run.is_stopped()) {
     for (int i = 0; i < holds_before_smaller; ++i) (void)run.play(holding);  // what is left of larger swings dies out
-    const Played played = knocked(*stiffness, LimitSearch::smaller_knock);
-    if (!run.is_stopped()) search.add_smaller(after_knock(played), period);
+    const Played played = with_impulse(*stiffness, LimitSearch::smaller_impulse);
+    if (!run.is_stopped()) search.add_smaller(after_impulse(played), period);
   }
   result.session = ended(run, options);
   result.measured = search.measurement(device);

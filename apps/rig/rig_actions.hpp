@@ -37,13 +37,13 @@ struct RelayTrialsOptions {
 struct WallOptions {
   ControllerOptions controller;
   double duration = 10.0;  ///< s
-  double knock = 0.0;      ///< N or N m; 0: none
+  double impulse = 0.0;    ///< N or N m; 0: none
 };
 
 struct LimitOptions {
   LimitSearchOptions search;
-  double dwell = 0.0;  ///< s, of each trial
-  double knock = 0.0;  ///< N or N m
+  double dwell = 0.0;    ///< s, of each trial
+  double impulse = 0.0;  ///< N or N m
 };
 
 /// Zero force for a while: link, rate, latency; before that, the firmware's watchdog by silence.
@@ -60,7 +60,7 @@ struct LimitOptions {
 /// Renders a wall, until its end or until an oscillation grows.
 [[nodiscard]] RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options,
                                   const WallOptions& wall);
-/// Raises the stiffness, knock by knock, until an oscillation grows. Between trials the softest wall of the search holds
+/// Raises the stiffness, impulse by impulse, until an oscillation grows. Between trials the softest wall of the search holds
 /// the device.
 [[nodiscard]] RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options,
                                      const LimitOptions& limit, const Progress& progress);

@@ -152,7 +152,7 @@ void write_bytes(const BatchStiffness& answers, std::vector<char>& bytes) {
   writer.put(answers.poles_leaving);
   writer.put(answers.verdict);
   writer.put(answers.any_user);
-  writer.put(answers.any_user_frequency);
+  writer.put(answers.absolute_stability_frequency);
   writer.put(answers.trust);
   writer.put(std::uint64_t{answers.exceptions.size()});
   for (const BatchException& each : answers.exceptions) {
@@ -173,7 +173,7 @@ std::optional<BatchStiffness> answers_of(std::span<const char> bytes) {
   reader.get(answers.poles_leaving);
   reader.get(answers.verdict);
   reader.get(answers.any_user);
-  reader.get(answers.any_user_frequency);
+  reader.get(answers.absolute_stability_frequency);
   reader.get(answers.trust);
   reader.get(answers.exceptions);
   reader.get(answers.scalar_count);

@@ -40,11 +40,13 @@ struct type_caster<zwidth::Device> : zwidth::python::ConstructedCaster<zwidth::D
 template <>
 struct type_caster<zwidth::CriticalStiffness> : zwidth::python::ConstructedCaster<zwidth::CriticalStiffness> {};
 template <>
-struct type_caster<zwidth::AnyUserLimit> : zwidth::python::ConstructedCaster<zwidth::AnyUserLimit> {};
+struct type_caster<zwidth::AbsoluteStabilityLimit> : zwidth::python::ConstructedCaster<zwidth::AbsoluteStabilityLimit> {
+};
 template <>
 struct type_caster<zwidth::CriticalDamping> : zwidth::python::ConstructedCaster<zwidth::CriticalDamping> {};
 template <>
-struct type_caster<zwidth::AnyUserDamping> : zwidth::python::ConstructedCaster<zwidth::AnyUserDamping> {};
+struct type_caster<zwidth::AbsoluteStabilityDamping>
+    : zwidth::python::ConstructedCaster<zwidth::AbsoluteStabilityDamping> {};
 template <>
 struct type_caster<zwidth::python::Answer> : zwidth::python::ConstructedCaster<zwidth::python::Answer> {};
 }  // namespace pybind11::detail

@@ -48,14 +48,15 @@ CriticalStiffness checked_stiffness(const Device& device) {
 }
 
 /// As analyze() states it: the wall's damper closed, trusted no more than the device.
-AnyUserLimit checked_any_user_limit(const Device& device) {
+AbsoluteStabilityLimit checked_absolute_stability_limit(const Device& device) {
   const Analysis analysis = computed([&] { return analyze(device, {.draws = 0}); });
   warn_of(analysis.trust);
   if (!analysis.any_user && !analysis.trust.refused()) {
     raise_input_error("device", "has no limit over all passive users that is known",
                       "a device of bodies, not too many");
   }
-  AnyUserLimit limit = analysis.any_user.value_or(AnyUserLimit{std::numeric_limits<double>::quiet_NaN()});
+  AbsoluteStabilityLimit limit =
+      analysis.any_user.value_or(AbsoluteStabilityLimit{std::numeric_limits<double>::quiet_NaN()});
   limit.trust = analysis.trust;
   return limit;
 }
@@ -89,7 +90,7 @@ Json json_of(const CriticalDamping& critical) {
   return json;
 }
 
-Json json_of(const AnyUserDamping& limit) {
+Json json_of(const AbsoluteStabilityDamping& limit) {
   const bool has_frequency = limit.damping > 0.0 && std::isfinite(limit.damping);
   Json json = Json::object();
   json["critical_damping"] = limit.damping;
@@ -99,7 +100,7 @@ Json json_of(const AnyUserDamping& limit) {
   return json;
 }
 
-Json json_of(const AnyUserLimit& limit) {
+Json json_of(const AbsoluteStabilityLimit& limit) {
   const bool has_frequency = limit.stiffness > 0.0 && std::isfinite(limit.stiffness);
   Json json = Json::object();
   json["critical_stiffness"] = limit.stiffness;
@@ -155,8 +156,9 @@ void bind_critical_stiffness(py::module_& module) {
              "Gil): N/m or N m/rad. Warns with DoubtfulResult where it is not sound.");
 }
 
-void bind_any_user_limit(py::module_& module) {
-  py::class_<AnyUserLimit> bound(module, "AnyUserLimit", "The stiffest wall that is stable whoever holds the device.");
+void bind_absolute_stability_limit(py::module_& module) {
+  py::class_<AbsoluteStabilityLimit> bound(module, "AnyUserLimit",
+                                           "The stiffest wall that is stable whoever holds the device.");
   add_properties(bound,
                  Documented{"critical_stiffness",
                             "N/m or N m/rad; 0: some user destabilises every wall; None: none does, or refused."},
@@ -164,10 +166,10 @@ void bind_any_user_limit(py::module_& module) {
                             "Where the worst user destabilises it, rad/s; 0: towards zero frequency; None: nowhere."},
                  Documented{"truncation", "Relative: what the bounds leave open; it is taken off the limit."},
                  Documented{"trust", "{\"verdict\": ..., \"reasons\": [...]}"});
-  module.def(
-      "any_user_limit", &checked_any_user_limit, py::arg("device"),
-      "The stiffest wall that is stable with every passive user (docs/any_user.md): N/m or N m/rad, as analyze() "
-      "states it. Warns with DoubtfulResult where it is not sound.");
+  module.def("any_user_limit", &checked_absolute_stability_limit, py::arg("device"),
+             "The stiffest wall that is stable with every passive user (docs/absolute_stability.md): N/m or N m/rad, "
+             "as analyze() "
+             "states it. Warns with DoubtfulResult where it is not sound.");
 }
 
 void bind_critical_damping(py::module_& module) {
@@ -198,9 +200,9 @@ void bind_critical_damping(py::module_& module) {
       "N m s/rad. Warns with DoubtfulResult where it is not sound.");
 }
 
-void bind_any_user_damping(py::module_& module) {
-  py::class_<AnyUserDamping> bound(module, "AnyUserDamping",
-                                   "The largest damper without a spring that is stable whoever holds the device.");
+void bind_absolute_stability_damping(py::module_& module) {
+  py::class_<AbsoluteStabilityDamping> bound(
+      module, "AnyUserDamping", "The largest damper without a spring that is stable whoever holds the device.");
   add_properties(
       bound,
       Documented{"critical_damping",
@@ -211,12 +213,13 @@ void bind_any_user_damping(py::module_& module) {
   module.def(
       "any_user_damping",
       [](const Device& device) {
-        AnyUserDamping limit = computed([&] { return any_user_damping(device); });
+        AbsoluteStabilityDamping limit = computed([&] { return absolute_stability_damping(device); });
         warn_of(limit.trust);
         return limit;
       },
       py::arg("device"),
-      "The largest damper without a spring (K = 0) that no passive user destabilises (docs/any_user.md): N s/m or "
+      "The largest damper without a spring (K = 0) that no passive user destabilises (docs/absolute_stability.md): N "
+      "s/m or "
       "N m s/rad. Warns with DoubtfulResult where it is not sound.");
 }
 
@@ -303,9 +306,9 @@ py::dict many(const Device& device, const py::dict& changes, const py::object& p
 
 void bind_limits(py::module_& module) {
   bind_critical_stiffness(module);
-  bind_any_user_limit(module);
+  bind_absolute_stability_limit(module);
   bind_critical_damping(module);
-  bind_any_user_damping(module);
+  bind_absolute_stability_damping(module);
   module.def("critical_stiffness_many", &many);
   module.def("seconds_of_critical_stiffness", &seconds_of_critical_stiffness);
 }

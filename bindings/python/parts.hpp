@@ -6,7 +6,7 @@
 
 namespace zwidth::python {
 
-/// Device, critical_stiffness, any_user_limit, critical_damping, any_user_damping, critical_stiffness_many.
+/// Device, critical_stiffness, absolute_stability_limit, critical_damping, absolute_stability_damping, critical_stiffness_many.
 void bind_device(pybind11::module_& module);
 void bind_limits(pybind11::module_& module);
 

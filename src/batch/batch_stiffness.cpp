@@ -18,7 +18,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {
 namespace {
@@ -44,7 +44,7 @@ BatchStiffness columns_of(std::size_t count, bool any_user) {
   columns.verdict.assign(count, Trust::Verdict::refused);
   if (any_user) {
     columns.any_user.assign(count, none);
-    columns.any_user_frequency.assign(count, none);
+    columns.absolute_stability_frequency.assign(count, none);
   }
   return columns;
 }
@@ -79,7 +79,7 @@ class Devices {
       const Device device(std::move(parameters));
       const CriticalStiffness critical = critical_stiffness(device);
       said.trust = critical.trust;
-      if (options_.any_user && !said.trust.refused()) said.trust.inherit(ask_any_user(device, i, columns));
+      if (options_.any_user && !said.trust.refused()) said.trust.inherit(ask_absolute_stability(device, i, columns));
       columns.status[i] = critical.status;
       columns.stiffness[i] = critical.stiffness;
       if (critical.limit) {
@@ -93,11 +93,11 @@ class Devices {
     return said;
   }
 
-  /// The any-user limit alone.
-  [[nodiscard]] BatchException ask_any_user(std::size_t i, BatchStiffness& columns) const {
+  /// The absolute stability limit alone.
+  [[nodiscard]] BatchException ask_absolute_stability(std::size_t i, BatchStiffness& columns) const {
     BatchException said{i, {}, {}};
     try {
-      said.trust = ask_any_user(Device(at(i)), i, columns);
+      said.trust = ask_absolute_stability(Device(at(i)), i, columns);
     } catch (const Error& error) {
       said.failure = error.what();
     }
@@ -105,10 +105,10 @@ class Devices {
   }
 
  private:
-  [[nodiscard]] static Trust ask_any_user(const Device& device, std::size_t i, BatchStiffness& columns) {
-    AnyUserLimit limit = any_user_limit(device, virtual_damper(device));
+  [[nodiscard]] static Trust ask_absolute_stability(const Device& device, std::size_t i, BatchStiffness& columns) {
+    AbsoluteStabilityLimit limit = absolute_stability_limit(device, virtual_damper(device));
     columns.any_user[i] = limit.stiffness;
-    columns.any_user_frequency[i] = limit.frequency;
+    columns.absolute_stability_frequency[i] = limit.frequency;
     return std::move(limit.trust);
   }
 
@@ -204,7 +204,7 @@ BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterVa
         continue;
       }
       if (!certain) ++alone[block];
-      BatchException one = certain ? devices.ask_any_user(i, columns) : devices.ask(i, columns);
+      BatchException one = certain ? devices.ask_absolute_stability(i, columns) : devices.ask(i, columns);
       if (!one.failure.empty()) withdraw(i, columns);
       columns.verdict[i] =
           one.failure.empty() ? std::max(one.trust.verdict, columns.trust.verdict) : Trust::Verdict::refused;

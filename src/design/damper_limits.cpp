@@ -6,13 +6,13 @@
 #include <numbers>
 #include <utility>
 
-#include "design/any_user_judge.hpp"
+#include "design/absolute_stability_check.hpp"
 #include "design/number_limit.hpp"
 #include "design/wall_limits.hpp"
 #include "infinity.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -47,11 +47,12 @@ bool comes_to_rest(const Device& device) {
 
 double DamperLimits::limit(double velocity_filter_hz, bool& of_users) const {
   const Device filtered = with_wall(device_, 0.0, {0.0, velocity_filter_hz});
-  double least =
-      std::min(found_damping(critical_damping(filtered)), found_damping(critical_damping(without_operator(filtered))));
+  double least = std::min(found_damping(critical_damping(filtered)),
+                          found_damping(critical_damping(device_without_user(filtered))));
   of_users = false;
   if (!can_be_held(device_)) return least;
-  const AnyUserJudge::Limit users = any_user_limit_of(filtered, WallNumber::damping, options_.progress);
+  const AbsoluteStabilityCheck::Limit users =
+      absolute_stability_limit_of(filtered, WallNumber::damping, options_.progress);
   if (users.trust.refused()) throw Error(ErrorCode::did_not_converge, users.trust.reasons.front());
   of_users = users.value <= least;
   return std::min(least, users.value);
@@ -64,7 +65,7 @@ bool DamperLimits::keeps_phase(VirtualDamper damper) const {
     return has.phase_margin.value_or(std::numbers::pi) >= options_.phase_margin * (1.0 - margin_rounding);
   };
   const Device walled = with_wall(device_, 0.0, damper);
-  return keeps(walled) && (!has_operator(walled) || keeps(without_operator(walled)));
+  return keeps(walled) && (!device_has_user(walled) || keeps(device_without_user(walled)));
 }
 
 bool DamperLimits::keeps(VirtualDamper damper) const {
@@ -79,11 +80,11 @@ DamperLimits::Strongest DamperLimits::strongest(double velocity_filter_hz) const
   const double most = limit(velocity_filter_hz, of_users) / options_.gain_margin;
   Strongest strongest{most * (1.0 - damper_shaved), of_users ? WallBound::any_user : WallBound::gain_margin};
   const double resolution = device_.parameters().sensor.resolution;
-  if (options_.ripple && resolution > 0.0) {
+  if (options_.quantisation_force && resolution > 0.0) {
     const Wall wall = with_wall(device_, 0.0, {0.0, velocity_filter_hz}).parameters().wall;
-    const double quiet =
-        *options_.ripple / force_per_count_rates(wall, device_.loop().sampling_period, resolution).per_damping;
-    if (quiet < strongest.damping) strongest = {quiet * (1.0 - damper_shaved), WallBound::ripple};
+    const double quiet = *options_.quantisation_force /
+                         force_per_count_rates(wall, device_.loop().sampling_period, resolution).per_damping;
+    if (quiet < strongest.damping) strongest = {quiet * (1.0 - damper_shaved), WallBound::quantisation_force};
   }
   if (!std::isfinite(strongest.damping)) return {infinity, WallBound::none};
   if (strongest.damping == 0.0 || keeps_phase({strongest.damping, velocity_filter_hz})) return strongest;

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "design/damper_limits.hpp"
-#include "design/lower_end.hpp"
 #include "design/wall_limits.hpp"
+#include "design/worst_case_screening.hpp"
 #include "stability/damper_response.hpp"
 #include "zwidth/quantity.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::internal {
@@ -82,7 +82,7 @@ class DamperRecommendation {
         best = found;
       }
     }
-    if (options_.drift > 0.0) result.drifts_checked = drifts_held;
+    if (options_.modal_frequency_uncertainty > 0.0) result.modal_shifts_checked = modal_shifts_held;
     if (best) lower(*best, result);
     if (!best || !(best->damper.damping > 0.0)) {
       if (!result.reason) result.reason = why_no_damper();
@@ -101,7 +101,7 @@ class DamperRecommendation {
   }
 
  private:
-  /// What uncertainty and drift leave of it.
+  /// What uncertainty and modal shifts leave of it.
   void lower(Damper& found, WallRecommendation& result) const {
     const auto take = [&](const std::vector<Device>& devices, double may_fail, WallBound by) {
       const double least = borne(devices, found.damper.velocity_filter_hz, may_fail, options_);
@@ -112,8 +112,9 @@ class DamperRecommendation {
       take(drawn(device_, options_), tail_of_dampers, WallBound::uncertainty);
       if (!(found.damper.damping > 0.0)) result.reason = Finding{.code = FindingCode::uncertainty_leaves_no_damper};
     }
-    if (options_.drift > 0.0 && found.damper.damping > 0.0) {
-      take(with_drifts(device_, options_.drift), 0.0, WallBound::drift);
+    if (options_.modal_frequency_uncertainty > 0.0 && found.damper.damping > 0.0) {
+      take(with_modal_shifts(device_, options_.modal_frequency_uncertainty), 0.0,
+           WallBound::modal_frequency_uncertainty);
       if (!(found.damper.damping > 0.0)) result.reason = Finding{.code = FindingCode::drift_leaves_no_damper};
     }
   }
@@ -132,8 +133,8 @@ class DamperRecommendation {
     wall.bounded_by.damping = found.bound;
     wall.margins = wall_margins(walled);
     if (can_be_held(device_)) {
-      wall.any_user_limit = any_user_limit(walled, found.damper, options_.progress).stiffness;
-      wall.any_user_damping_limit = any_user_damping(walled, options_.progress).damping;
+      wall.absolute_stability_limit = absolute_stability_limit(walled, found.damper, options_.progress).stiffness;
+      wall.absolute_stability_damping_limit = absolute_stability_damping(walled, options_.progress).damping;
     }
     wall.force_per_count = force_per_count(walled);
     return wall;
@@ -154,7 +155,7 @@ class DamperRecommendation {
   }
 
   void remark_on_bounds(WallRecommendation& result) const {
-    if (options_.ripple && !(device_.parameters().sensor.resolution > 0.0)) {
+    if (options_.quantisation_force && !(device_.parameters().sensor.resolution > 0.0)) {
       result.remarks.push_back(warning({.code = FindingCode::force_per_count_unknown,
                                         .subjects = {{"what", "the damper"}},
                                         .key = "sensor.resolution"}));

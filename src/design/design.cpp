@@ -32,7 +32,7 @@ Design design(const Device& device, const DesignOptions& options) {
   design.sensitivities = stiffness_sensitivities(device, design.analysis.critical);
   stages.next(0.2);
   if (design.analysis.any_user) {
-    design.any_user_sensitivities = any_user_sensitivities(device, *design.analysis.any_user);
+    design.absolute_stability_sensitivities = absolute_stability_sensitivities(device, *design.analysis.any_user);
   }
   stages.next(1.0);
   if (!options.branch_switches) return design;

@@ -6,7 +6,7 @@
 
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
@@ -15,15 +15,15 @@ namespace {
 
 constexpr double as_good = 1e-3;  // relative difference that is none
 
-bool is_present(const Operator& user) { return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0; }
+bool is_present(const User& user) { return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0; }
 
-ComparedDesign judged(const DeviceVariant& variant, const Operator& user, Trust& trust) {
-  const Device free = without_operator(variant.device);
+ComparedDesign judged(const DeviceVariant& variant, const User& user, Trust& trust) {
+  const Device free = device_without_user(variant.device);
   Analysis analysis = analyze(free, {.any_user = true, .draws = 0});
   trust.inherit(analysis.trust);
   ComparedDesign design{variant.value, free, std::move(analysis.critical), std::move(analysis.any_user), std::nullopt};
   if (is_present(user)) {
-    design.held = critical_stiffness(with_operator(variant.device, user));
+    design.held = critical_stiffness(device_with_user(variant.device, user));
     trust.inherit(design.held->trust);
   }
   return design;
@@ -50,7 +50,7 @@ std::optional<double> stiffness_of(const CriticalStiffness& critical) {
 
 }  // namespace
 
-std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const std::optional<Operator>& user) {
+std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const std::optional<User>& user) {
   if (variants.variants.empty()) return option_problem("variants", {.code = ProblemCode::no_designs});
   if (!user) return std::nullopt;
   for (const DeviceVariant& each : variants.variants) {
@@ -69,7 +69,7 @@ std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const 
   return std::nullopt;
 }
 
-DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<Operator>& user,
+DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<User>& user,
                                  const Progress& progress) {
   require_valid(find_problem(variants, user));
   const std::vector<DeviceVariant>& all = variants.variants;

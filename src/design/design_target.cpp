@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "design/any_user_judge.hpp"
+#include "design/absolute_stability_check.hpp"
 #include "design/design_parameter.hpp"
 #include "design/followed_numbers.hpp"
-#include "design/moved_limit.hpp"
+#include "design/limit_along_parameter.hpp"
 #include "design/number_limit.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
@@ -28,7 +28,7 @@ using namespace internal;
 namespace {
 
 constexpr double steps_per_decade = 12.0;
-constexpr double steps_per_decade_any_user = 6.0;
+constexpr double steps_per_decade_absolute_stability = 6.0;
 constexpr std::uintmax_t max_refinements = 200;
 constexpr double reached = 1e-10;      // relative difference of the limit to the target
 constexpr double jump_width = 1e-9;    // relative, of the bracket of a jump: closer by, a touch takes seconds to prove
@@ -65,13 +65,13 @@ double natural_size(const Device& device, const DesignParameter& parameter, doub
 
 class Search {
  public:
-  Search(const Device& device, const DesignTargetOptions& options, double limit_now, const AnyUserJudge& users,
-         SharedProgress& progress)
+  Search(const Device& device, const DesignTargetOptions& options, double limit_now,
+         const AbsoluteStabilityCheck& users, SharedProgress& progress)
       : device_(device), options_(options), limit_now_(limit_now), users_(users), progress_(progress) {}
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
     DesignTarget target{parameter.key, parameter.value, std::nullopt, {}, {}, {}};
-    MovedLimit moved(device_, parameter, options_.goal, options_.limit_of);
+    LimitAlongParameter moved(device_, parameter, options_.goal, options_.limit_of);
     const Point now{parameter.value, limit_now_};
     std::vector<Walk> walks;
     if (parameter.value > 0.0) {
@@ -95,8 +95,8 @@ class Search {
       target.why = {.code = FindingCode::limit_refused_at_value, .subjects = {{"reason", there.trust.reasons.front()}}};
     } else {
       target.why = reason_there(there, limit_at(moved, *target.value_needed, 2.0 * options_.stiffness).value_or(0.0));
-      const AnyUserJudge::Judgement judgement = users_.of(changed);
-      target.any_user_then = judgement.then;
+      const AbsoluteStabilityCheck::Judgement judgement = users_.of(changed);
+      target.absolute_stability_limit_then = judgement.then;
       target.safe = judgement.safe;
     }
     return target;
@@ -116,19 +116,19 @@ class Search {
     std::vector<Point> bounds;  // below the target, of limits that were not asked for
   };
 
-  [[nodiscard]] std::optional<double> limit_at(MovedLimit& moved, double value, double most) const {
+  [[nodiscard]] std::optional<double> limit_at(LimitAlongParameter& moved, double value, double most) const {
     const auto limit = look_at(moved, value, {.most = most});
     return limit ? std::optional(limit->stiffness) : std::nullopt;
   }
 
-  [[nodiscard]] std::optional<MovedLimit::Limit> look_at(MovedLimit& moved, double value,
-                                                         const MovedLimit::Interest& interest) const {
+  [[nodiscard]] std::optional<LimitAlongParameter::Limit> look_at(LimitAlongParameter& moved, double value,
+                                                                  const LimitAlongParameter::Interest& interest) const {
     progress_.go_on();
     return moved.at(value, interest);
   }
 
   // Asks for those limits that may be the highest.
-  void find_most(MovedLimit& moved, Extremes& extremes) const {
+  void find_most(LimitAlongParameter& moved, Extremes& extremes) const {
     std::ranges::sort(extremes.bounds, std::greater{}, &Point::limit);
     for (const Point& bound : extremes.bounds) {
       if (bound.limit <= extremes.most) return;
@@ -149,17 +149,19 @@ class Search {
 
   // The value nearest to today's at which the limit passes the target: the walks go side by side, so that the first to
   // get there has it.
-  [[nodiscard]] std::optional<double> first_crossing(const DesignParameter& parameter, MovedLimit& moved,
+  [[nodiscard]] std::optional<double> first_crossing(const DesignParameter& parameter, LimitAlongParameter& moved,
                                                      std::vector<Walk> walks, Extremes& extremes) const {
-    const double density =
-        options_.goal == StiffnessGoal::any_user_limit ? steps_per_decade_any_user : steps_per_decade;
+    const double density = options_.goal == StiffnessGoal::absolute_stability_limit
+                               ? steps_per_decade_absolute_stability
+                               : steps_per_decade;
     std::optional<double> nearest;
     while (!nearest && !walks.empty()) {
       for (Walk& walk : walks) {
         const int steps = static_cast<int>(std::ceil(density * std::abs(std::log10(walk.end / walk.start))));
         const double value = walk.start * std::pow(walk.end / walk.start, static_cast<double>(walk.step) / steps);
         // Of limits above the target the least counts.
-        const MovedLimit::Interest interest{options_.stiffness, beyond * std::max(options_.stiffness, extremes.least)};
+        const LimitAlongParameter::Interest interest{options_.stiffness,
+                                                     beyond * std::max(options_.stiffness, extremes.least)};
         const auto limit = walk.step <= steps ? look_at(moved, value, interest) : std::nullopt;
         walk.step = limit ? walk.step + 1 : ended;
         if (!limit) continue;
@@ -188,7 +190,7 @@ class Search {
 
   // Between two values on either side of the target: where the limit is the target; at a jump the side that has it.
   // A bound in place of a limit is on the same side.
-  [[nodiscard]] std::optional<double> refined(MovedLimit& moved, Point a, Point b) const {
+  [[nodiscard]] std::optional<double> refined(LimitAlongParameter& moved, Point a, Point b) const {
     bool lost = false;
     double nearest = 1.0;      // of the limits found to the target, relative
     std::vector<Point> found;  // differences: the ends are asked for again
@@ -230,7 +232,7 @@ class Search {
   [[nodiscard]] Finding reason_there(const NumberLimit& there, double limit) const {
     using enum FindingCode;
     if (std::abs(excess(limit)) > reached * options_.stiffness) return {.code = limit_jumps_across_target};
-    if (options_.goal == StiffnessGoal::any_user_limit) return {.code = any_user_limit_at_target};
+    if (options_.goal == StiffnessGoal::absolute_stability_limit) return {.code = any_user_limit_at_target};
     if (there.at->limited_by.kind == Mechanism::Kind::rigid_body) return {.code = rigid_body_limit_at_target};
     return {.code = mode_limit_at_target, .evidence = {counted("mode", there.at->limited_by.mode)}};
   }
@@ -253,7 +255,7 @@ class Search {
   const Device& device_;
   const DesignTargetOptions& options_;
   double limit_now_;
-  const AnyUserJudge& users_;
+  const AbsoluteStabilityCheck& users_;
   SharedProgress& progress_;
 };
 
@@ -286,14 +288,14 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
   if (!(options.factor > 1.0) || !(options.factor <= 1e6)) {
     return option_problem("factor", {.code = ProblemCode::no_factor, .evidence = {{"value", options.factor}}});
   }
-  if (options.goal == StiffnessGoal::any_user_limit) {
+  if (options.goal == StiffnessGoal::absolute_stability_limit) {
     if (!device.has_bodies()) {
       return option_problem("goal", {.code = ProblemCode::any_user_goal_of_transfer_function});
     }
-    if (device.bodies().size() > most_bodies_for_any_user) {
-      return option_problem(
-          "goal", {.code = ProblemCode::any_user_goal_of_many_bodies,
-                   .evidence = {counted("bodies", device.bodies().size()), counted("most", most_bodies_for_any_user)}});
+    if (device.bodies().size() > most_bodies_for_absolute_stability) {
+      return option_problem("goal", {.code = ProblemCode::any_user_goal_of_many_bodies,
+                                     .evidence = {counted("bodies", device.bodies().size()),
+                                                  counted("most", most_bodies_for_absolute_stability)}});
     }
   }
   return std::nullopt;
@@ -314,13 +316,13 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   });
   SharedProgress progress(options.progress, parameters.size());
   const Progress while_judging = [&progress](double) { progress.go_on(); };
-  const AnyUserJudge users(device, options.limit_of, while_judging);
-  result.any_user_now = users.now();
+  const AbsoluteStabilityCheck users(device, options.limit_of, while_judging);
+  result.absolute_stability_limit_now = users.now();
   double limit = own.value;
-  if (options.goal == StiffnessGoal::any_user_limit) {
+  if (options.goal == StiffnessGoal::absolute_stability_limit) {
     // Where it is not found, this says why.
-    const AnyUserJudge::Limit any_user =
-        users.limit_now() ? *users.limit_now() : any_user_limit_of(device, options.limit_of, while_judging);
+    const AbsoluteStabilityCheck::Limit any_user =
+        users.limit_now() ? *users.limit_now() : absolute_stability_limit_of(device, options.limit_of, while_judging);
     result.trust.inherit(any_user.trust);
     if (result.trust.refused()) return result;
     limit = std::min(limit, any_user.value);
@@ -339,7 +341,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   DesignTargetOptions asked = options;
   asked.stiffness = *result.target;
   std::vector<DesignParameter> left_out;
-  if (options.goal == StiffnessGoal::any_user_limit && users.limit_now()) {
+  if (options.goal == StiffnessGoal::absolute_stability_limit && users.limit_now()) {
     const std::size_t all = parameters.size();
     left_out = take_out_least(device, options.limit_of, users.limit_now()->frequency, while_judging, parameters);
     if (!left_out.empty()) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "design/any_user_judge.hpp"
+#include "design/absolute_stability_check.hpp"
 #include "design/diagnosis_changes.hpp"
 #include "design/number_limit.hpp"
 #include "design/oscillation_causes.hpp"
@@ -15,8 +15,8 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
 
 namespace zwidth {
@@ -59,7 +59,7 @@ double mismatch(const OscillationCandidate& candidate, const ObservedLoop& loop)
   const double apart = apart_from(candidate, loop);
   switch (candidate.cause) {
     case OscillationCause::device:
-    case OscillationCause::with_operator:
+    case OscillationCause::with_user:
       if (!loop.stiffness) return of_a_crossover * apart;
       return apart <= of_linear_loop ? apart - 1.0 : apart;  // unstable with this wall: nothing else is needed
     case OscillationCause::passive_user:
@@ -89,9 +89,9 @@ void compare_with_nobody(OscillationCandidate& held, const OscillationCandidate&
 
 void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
   std::vector<OscillationCandidate>& candidates = diagnosis.candidates;
-  if (has_operator(loop.device)) {
-    candidates.push_back(linear_candidate(loop, OscillationCause::device, without_operator(loop.device)));
-    candidates.push_back(linear_candidate(loop, OscillationCause::with_operator, loop.device));
+  if (device_has_user(loop.device)) {
+    candidates.push_back(linear_candidate(loop, OscillationCause::device, device_without_user(loop.device)));
+    candidates.push_back(linear_candidate(loop, OscillationCause::with_user, loop.device));
     compare_with_nobody(candidates[1], candidates[0]);
     if (loop.stiffness && is_stable(loop.device) && candidates[0].fits) {
       candidates[0].why.evidence.push_back({"user_stabilises", 1.0});
@@ -117,8 +117,7 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
     diagnosis.trust.doubt({.code = FindingCode::no_cause_fits});
   }
   if (!diagnosis.cause) return;
-  const bool is_linear =
-      diagnosis.cause == OscillationCause::device || diagnosis.cause == OscillationCause::with_operator;
+  const bool is_linear = diagnosis.cause == OscillationCause::device || diagnosis.cause == OscillationCause::with_user;
   if (is_linear && loop.stiffness && apart_from(candidates[0], loop) > of_linear_loop) {
     diagnosis.trust.doubt(
         {.code = FindingCode::grows_at_another_frequency,
@@ -229,8 +228,8 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
     const OscillationCandidate& first = diagnosis.candidates.front();
     if (first.fits) diagnosis.cause = first.cause;
     diagnosis.nearest = first.cause;
-    const AnyUserJudge users(loop.device, loop.number, loop.progress);
-    diagnosis.any_user_now = users.now();
+    const AbsoluteStabilityCheck users(loop.device, loop.number, loop.progress);
+    diagnosis.absolute_stability_limit_now = users.now();
     diagnosis.changes = changes_of(loop, first, users);
   }
   remark_on(loop, diagnosis);

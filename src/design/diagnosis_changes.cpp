@@ -12,7 +12,7 @@
 
 #include "design/number_limit.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -30,11 +30,11 @@ constexpr std::size_t shares_looked_at = 4;  // every fourth share of friction
 double limit_of(OscillationCause cause, const Device& device, WallNumber number, const Progress& progress) {
   switch (cause) {
     case OscillationCause::device:
-      return number_limit(without_operator(device), number).value;
-    case OscillationCause::with_operator:
+      return number_limit(device_without_user(device), number).value;
+    case OscillationCause::with_user:
       return number_limit(device, number).value;
     case OscillationCause::passive_user:
-      return any_user_limit_of(device, number, progress).value;
+      return absolute_stability_limit_of(device, number, progress).value;
     case OscillationCause::friction: {
       double least = number_limit(device, number).value;
       const std::vector<double> shares = friction_shares(device);
@@ -58,7 +58,7 @@ double gain_of(const Device& device, WallNumber number) {
 
 class Changes {
  public:
-  Changes(const ObservedLoop& loop, const OscillationCandidate& cause, const AnyUserJudge& users)
+  Changes(const ObservedLoop& loop, const OscillationCandidate& cause, const AbsoluteStabilityCheck& users)
       : loop_(loop), cause_(cause), users_(users), off_(cause.otherwise ? cause.otherwise->limit : 1.0) {
     if (is_quantisation()) return;
     const bool is_known = cause.cause == OscillationCause::passive_user && users.now();
@@ -124,7 +124,7 @@ class Changes {
   /// The change, recomputed but not judged; nothing where it makes no device, or is worse than a cycle. `search`: of the
   /// changed device, where it is known.
   template <typename Change>
-  std::optional<Recomputed> recomputed(DiagnosisChange result, const Change& change, AnyUserSearch* search) {
+  std::optional<Recomputed> recomputed(DiagnosisChange result, const Change& change, AbsoluteStabilitySearch* search) {
     tell(loop_.progress, std::min(1.0, static_cast<double>(changes_.size()) / usual_changes));
     DeviceParameters parameters = loop_.device.parameters();
     change(parameters);
@@ -140,7 +140,7 @@ class Changes {
     }
     made.change.limit_now = limit_;
     if (cause_.cause == OscillationCause::passive_user) judge(made, search);
-    const std::optional<double>& any_user = made.change.any_user_then;
+    const std::optional<double>& any_user = made.change.absolute_stability_limit_then;
     made.change.limit_then = cause_.cause == OscillationCause::passive_user && any_user
                                  ? *any_user
                                  : limit_of(cause_.cause, made.device, loop_.number, loop_.progress);
@@ -149,10 +149,10 @@ class Changes {
     return made;
   }
 
-  void judge(Recomputed& made, AnyUserSearch* search) const {
+  void judge(Recomputed& made, AbsoluteStabilitySearch* search) const {
     if (made.change.safe) return;
     const auto judgement = search != nullptr ? users_.of(made.device, *search) : users_.of(made.device);
-    made.change.any_user_then = judgement.then;
+    made.change.absolute_stability_limit_then = judgement.then;
     made.change.safe = judgement.safe;
   }
 
@@ -192,9 +192,9 @@ class Changes {
       if (unit == 0.0) unit = 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
       if (!(unit > 0.0)) return;
     }
-    std::optional<AnyUserSearch> search;  // what users do does not depend on the damper
+    std::optional<AbsoluteStabilitySearch> search;  // what users do does not depend on the damper
     if (users_.now()) search.emplace(loop_.device, loop_.progress);
-    AnyUserSearch* const users = search ? &*search : nullptr;
+    AbsoluteStabilitySearch* const users = search ? &*search : nullptr;
     std::vector<Recomputed> ladder;
     for (const double factor : dampers) {
       auto made = recomputed(
@@ -228,7 +228,7 @@ class Changes {
 
   const ObservedLoop& loop_;
   const OscillationCandidate& cause_;
-  const AnyUserJudge& users_;
+  const AbsoluteStabilityCheck& users_;
   double off_;  // the real limit of a cause that does not fit, of the one that the device's numbers give
   double limit_ = 0.0;
   std::vector<DiagnosisChange> changes_;
@@ -237,7 +237,7 @@ class Changes {
 }  // namespace
 
 std::vector<DiagnosisChange> changes_of(const ObservedLoop& loop, const OscillationCandidate& cause,
-                                        const AnyUserJudge& users) {
+                                        const AbsoluteStabilityCheck& users) {
   return Changes(loop, cause, users).all();
 }
 

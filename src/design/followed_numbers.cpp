@@ -11,7 +11,7 @@
 
 #include "design/number_limit.hpp"
 #include "stability/disc_stiffness.hpp"
-#include "stability/user_discs.hpp"
+#include "stability/termination_circles.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -29,18 +29,18 @@ constexpr double towards_rest = 1e-2;  // rad per sample, where the limit is rea
 
 // How much a number moves what users reach at one frequency: |log(K'/K)| where it is 1 % more. A number that is 0 now has
 // no such step.
-double pull_of(const Device& device, const DesignParameter& parameter, WallNumber number, double frequency) {
+double influence_of(const Device& device, const DesignParameter& parameter, WallNumber number, double frequency) {
   DeviceParameters moved = device.parameters();
   moved.uncertainty.reset();
   set_parameter(moved, parameter.key, little_more * parameter.value);
   if (parameter.value == 0.0 || find_problem(moved)) return 0.0;
   const auto reached_by = [number, frequency](const Device& each) {
     const double at = std::min(frequency, std::numbers::pi / each.loop().sampling_period);
-    return least_gain(UserDiscs(each).at(at), response_of(each, number, at));
+    return least_gain(TerminationCircles(each).at(at), response_of(each, number, at));
   };
   try {
-    const double pull = std::abs(std::log(reached_by(Device(std::move(moved))) / reached_by(device)));
-    return std::isnan(pull) ? 0.0 : pull;
+    const double influence = std::abs(std::log(reached_by(Device(std::move(moved))) / reached_by(device)));
+    return std::isnan(influence) ? 0.0 : influence;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
     return 0.0;
@@ -55,18 +55,18 @@ std::vector<DesignParameter> take_out_least(const Device& device, WallNumber num
   const std::size_t most = std::max(fewest_followed, bodies_times_numbers / bodies);
   if (bodies <= most_bodies_followed_whole || parameters.size() <= most) return {};
   const double frequency = limit_frequency > 0.0 ? limit_frequency : towards_rest / device.loop().sampling_period;
-  struct Pull {
+  struct Influence {
     double size = 0.0;
     std::size_t index = 0;
   };
-  std::vector<Pull> pulls(parameters.size());
+  std::vector<Influence> influences(parameters.size());
   tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
     tell(progress, 0.0);
-    pulls[i] = {pull_of(device, parameters[i], number, frequency), i};
+    influences[i] = {influence_of(device, parameters[i], number, frequency), i};
   });
-  std::ranges::stable_sort(pulls, std::greater{}, &Pull::size);
+  std::ranges::stable_sort(influences, std::greater{}, &Influence::size);
   std::vector<bool> is_followed(parameters.size(), false);
-  for (std::size_t i = 0; i < most; ++i) is_followed[pulls[i].index] = true;
+  for (std::size_t i = 0; i < most; ++i) is_followed[influences[i].index] = true;
   // The virtual damper costs nothing, and from 0 or next to it a small step tells nothing of it.
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].kind == DesignParameter::Kind::wall_damping) is_followed[i] = true;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -37,7 +37,7 @@ std::optional<Uncertainty> without_user(const Uncertainty& given) {
 }  // namespace
 
 std::vector<Device> known_holders(const Device& device) {
-  if (!has_operator(device)) return {device};
+  if (!device_has_user(device)) return {device};
   DeviceParameters parameters = device.parameters();
   parameters.user = {};
   if (parameters.uncertainty) parameters.uncertainty = without_user(*parameters.uncertainty);

@@ -14,7 +14,7 @@
 #include "stability/loops_of_stiffness.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/quantity.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -166,7 +166,7 @@ std::optional<OptionProblem> find_problem(const RequiredMargins& margins) {
 double stiffest_wall(const Device& device, const RequiredMargins& margins) {
   const VirtualDamper damper = virtual_damper(device);
   StiffnessRange range;
-  if (margins.any_user) range.at_most = any_user_limit(device, damper).stiffness / margins.gain;
+  if (margins.any_user) range.at_most = absolute_stability_limit(device, damper).stiffness / margins.gain;
   return range.at_most > 0.0 ? stiffest_wall(filtered_plant(device), damper, margins, range) : 0.0;
 }
 
@@ -211,13 +211,13 @@ bool keeps_margins(const Device& device, double stiffness, const RequiredMargins
   const LoopsOfStiffness loops(plant, damper);
   const double grown = stiffness * margins.gain;
   return loop_keeps(loops, stiffness, margins) && grown < critical_stiffness_of(plant, loops.crossings()).stiffness &&
-         (!margins.any_user || grown < any_user_limit(device, damper).stiffness);
+         (!margins.any_user || grown < absolute_stability_limit(device, damper).stiffness);
 }
 
 LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progress)
     : period_(device.loop().sampling_period), angles_(grid_of(device)) {
   const FilteredPlant plant = filtered_plant(device);
-  std::optional<UserDiscs> users;
+  std::optional<TerminationCircles> users;
   if (with_users) users.emplace(device, progress);
   plant_.reserve(angles_.size());
   damper_.reserve(angles_.size());
@@ -232,7 +232,7 @@ LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progre
     damper_.push_back(damper_response(virtual_damper(device), period_, frequency));
     clear_.push_back(SeenCrossings::is_clear_of_rounding(plant, angle));
     if (!users) continue;
-    // The discs are those behind the wall's own filters (UserDiscs closes them).
+    // The discs are those behind the wall's own filters (TerminationCircles closes them).
     discs_.push_back(users->at(frequency));
   }
 }
@@ -315,7 +315,8 @@ double LoopGrid::any_user(const Response& factor, const Response& damper, double
   double least = infinity;
   for (std::size_t i = 0; i < discs_.size(); ++i) {
     const double size = std::abs(factor[i]);
-    const UserDiscs::Disc seen{discs_[i].centre * factor[i], discs_[i].radius * size, discs_[i].power * size * size};
+    const TerminationCircles::Disc seen{discs_[i].centre * factor[i], discs_[i].radius * size,
+                                        discs_[i].power * size * size};
     least = std::min(least, least_stiffness(seen, scale * damper[i]));
   }
   return least;

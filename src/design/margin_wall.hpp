@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "design/seen_crossings.hpp"
-#include "stability/user_discs.hpp"
+#include "stability/termination_circles.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -77,7 +77,7 @@ class LoopGrid {
   [[nodiscard]] double stiffest(const Response& factor, const RequiredMargins& margins, double enough) const;
   [[nodiscard]] double stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins,
                                 double enough) const;
-  /// The any-user limit behind this factor more; infinite where the grid has no users.
+  /// The absolute stability limit behind this factor more; infinite where the grid has no users.
   [[nodiscard]] double any_user(const Response& factor) const;
   /// With `scale` times this damper.
   [[nodiscard]] double any_user(const Response& factor, const Response& damper, double scale) const;
@@ -95,11 +95,11 @@ class LoopGrid {
 
   double period_ = 0.0;
   std::vector<double> angles_;
-  Response deltas_;                     // z - 1
-  Response plant_;                      // seen through the wall's own filters
-  Response damper_;                     // B v
-  std::vector<bool> clear_;             // of rounding, the plant
-  std::vector<UserDiscs::Disc> discs_;  // behind the wall's own filters
+  Response deltas_;                              // z - 1
+  Response plant_;                               // seen through the wall's own filters
+  Response damper_;                              // B v
+  std::vector<bool> clear_;                      // of rounding, the plant
+  std::vector<TerminationCircles::Disc> discs_;  // behind the wall's own filters
 };
 
 }  // namespace zwidth::internal

@@ -28,7 +28,7 @@ constexpr std::array far_centres_on_grid{0.03, 0.06, 0.12, 0.25, 0.4, 2.5};
 constexpr std::array widths_on_grid{0.03, 0.08, 0.2, 0.5, 0.9};
 constexpr std::array depths_on_grid{0.01, 0.05, 0.15, 0.4, 0.7, 0.9, 0.97};
 constexpr double on_grid_at_most = 1.02;  // a grid may miss a dip, but not invent one
-constexpr double same_on_grid = 2e-3;     // relative, of two any-user limits on a grid of frequencies
+constexpr double same_on_grid = 2e-3;     // relative, of two absolute stability limits on a grid of frequencies
 
 // Pattern search.
 constexpr double coarsest = 0.08;
@@ -49,15 +49,15 @@ std::vector<std::size_t> by_value(const std::vector<double>& values) {
 }  // namespace
 
 RequiredMargins required(const NotchOptions& options) {
-  return {options.gain_margin, options.phase_margin, options.goal == StiffnessGoal::any_user_limit};
+  return {options.gain_margin, options.phase_margin, options.goal == StiffnessGoal::absolute_stability_limit};
 }
 
-std::optional<OptionProblem> find_drift_problem(double drift, const Device& device) {
-  const auto problem = [drift](ProblemCode code) {
-    return option_problem("drift", {.code = code, .evidence = {{"percent", 100.0 * drift}}});
+std::optional<OptionProblem> find_modal_frequency_uncertainty_problem(double uncertainty, const Device& device) {
+  const auto problem = [uncertainty](ProblemCode code) {
+    return option_problem("modal_frequency_uncertainty", {.code = code, .evidence = {{"percent", 100.0 * uncertainty}}});
   };
-  if (!(drift >= 0.0 && drift <= 0.9)) return problem(ProblemCode::drift_out_of_range);
-  if (drift == 0.0 || !device.links().empty()) return std::nullopt;
+  if (!(uncertainty >= 0.0 && uncertainty <= 0.9)) return problem(ProblemCode::drift_out_of_range);
+  if (uncertainty == 0.0 || !device.links().empty()) return std::nullopt;
   return problem(ProblemCode::no_modes_to_drift);
 }
 
@@ -81,21 +81,22 @@ WallFilter NotchSearch::notch_at(const Point& at) {
   return notch;
 }
 
-NotchSearch::NotchSearch(const NotchOptions& options, std::vector<double> modes, double period, bool keep_any_user)
+NotchSearch::NotchSearch(const NotchOptions& options, std::vector<double> modes, double period,
+                         bool keep_absolute_stability_limit)
     : options_(options),
       margins_(required(options)),
       modes_(std::move(modes)),
       nyquist_(pi / period),
-      keep_any_user_(keep_any_user) {}
+      keep_absolute_stability_limit_(keep_absolute_stability_limit) {}
 
 void NotchSearch::add(const Device& device) {
-  add(device, LoopGrid(device, keep_any_user_ || margins_.any_user, options_.progress));
+  add(device, LoopGrid(device, keep_absolute_stability_limit_ || margins_.any_user, options_.progress));
 }
 
 void NotchSearch::add(const Device& device, const LoopGrid& of_device) {
   LoopGrid grid = of_device.with_damper(virtual_damper(device));
   const LoopGrid::Response none(grid.size(), 1.0);
-  const double any_user = keep_any_user_ ? grid.any_user(none) * (1.0 - same_on_grid) : 0.0;
+  const double any_user = keep_absolute_stability_limit_ ? grid.any_user(none) * (1.0 - same_on_grid) : 0.0;
   scenarios_.push_back({filtered_plant(device), virtual_damper(device), std::move(grid), any_user});
 }
 

@@ -13,13 +13,14 @@ namespace zwidth::internal {
 /// The margins that a notch is designed for.
 [[nodiscard]] RequiredMargins required(const NotchOptions& options);
 
-/// What is wrong with a drift of the modes of this device: from 0 to 0.9, and links that have modes.
-[[nodiscard]] std::optional<OptionProblem> find_drift_problem(double drift, const Device& device);
+/// What is wrong with an uncertainty of the modal frequencies of this device: from 0 to 0.9, and links that have modes.
+[[nodiscard]] std::optional<OptionProblem> find_modal_frequency_uncertainty_problem(double uncertainty,
+                                                                                    const Device& device);
 
 /// Where the wall sees the device's vibration modes, rad/s: themselves, or their aliases below Nyquist.
 [[nodiscard]] std::vector<double> seen_modes(const Device& device);
 
-/// Searches the notch that makes the least stiffest wall over some drifts of a device greatest, on grids of
+/// Searches the notch that makes the least stiffest wall over some modal shifts of a device greatest, on grids of
 /// frequencies.
 class NotchSearch {
  public:
@@ -29,9 +30,10 @@ class NotchSearch {
 
   /// `modes`: where the wall sees them, rad/s. `options` must outlive the search, whose work they
   /// are told within a step.
-  NotchSearch(const NotchOptions& options, std::vector<double> modes, double period, bool keep_any_user);
+  NotchSearch(const NotchOptions& options, std::vector<double> modes, double period,
+              bool keep_absolute_stability_limit);
 
-  /// One drift of the device more.
+  /// One modal shift of the device more.
   void add(const Device& device);
   /// `grid`: of the device with whatever virtual damper.
   void add(const Device& device, const LoopGrid& of_device);
@@ -66,7 +68,7 @@ class NotchSearch {
   RequiredMargins margins_;
   std::vector<double> modes_;
   double nyquist_;
-  bool keep_any_user_;
+  bool keep_absolute_stability_limit_;
   double nothing_gained_ = 0.0;
   std::vector<Scenario> scenarios_;
 };

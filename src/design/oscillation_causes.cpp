@@ -12,9 +12,9 @@
 #include "infinity.hpp"
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
-#include "stability/user_discs.hpp"
+#include "stability/termination_circles.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/sampling/filter_section.hpp"
@@ -145,7 +145,7 @@ void take_if_nearer(const ObservedLoop& loop, const NumberLimit::Crossing& cross
 }
 
 /// The frequency at which some user could make it oscillate with the least otherwise, and what that is.
-void look_for_nearest_user(const ObservedLoop& loop, const UserDiscs& discs, OscillationCandidate& candidate) {
+void look_for_nearest_user(const ObservedLoop& loop, const TerminationCircles& discs, OscillationCandidate& candidate) {
   const double period = loop.device.loop().sampling_period;
   const std::optional<double> gain = gain_of(loop);
   for (int i = -users_looked_at; i <= users_looked_at; ++i) {
@@ -287,7 +287,7 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
 }
 
 OscillationCandidate user_candidate(const ObservedLoop& loop) {
-  const UserDiscs discs(loop.device, loop.progress);
+  const TerminationCircles discs(loop.device, loop.progress);
   const double period = loop.device.loop().sampling_period;
   const std::optional<double> gain = gain_of(loop);
   OscillationCandidate candidate;
@@ -308,7 +308,7 @@ OscillationCandidate user_candidate(const ObservedLoop& loop) {
   set_gain(loop, least, candidate);
   candidate.fits = !gain || *gain >= of_user_limit * least;
   candidate.why = by_some_user(loop, least);
-  if (candidate.fits && gain && !is_stable(without_operator(loop.device))) {
+  if (candidate.fits && gain && !is_stable(device_without_user(loop.device))) {
     candidate.fits = false;
     candidate.why.evidence.push_back({"with_nobody", 1.0});
   } else if (!candidate.fits) {

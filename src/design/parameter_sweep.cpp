@@ -112,7 +112,7 @@ SweepPoint point_of(const Device& device, const SweepOptions& options, const Tru
   SweepPoint point{critical.status, critical.stiffness, critical.limit, std::nullopt, {}, std::move(critical.trust)};
   if (point.trust.refused()) return point;
   if (options.any_user) {
-    point.any_user = any_user_limit(device, virtual_damper(device));
+    point.any_user = absolute_stability_limit(device, virtual_damper(device));
     point.trust.inherit(point.any_user->trust);
   }
   if (options.crossovers) point.crossovers = std::move(critical.crossovers);

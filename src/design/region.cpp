@@ -12,8 +12,8 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
 
@@ -125,7 +125,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   if (result.trust.refused()) return result;
   try {
     stages.next(options.any_user && device.has_bodies() ? walls_share : 0.95);
-    const bool is_held = has_operator(device);
+    const bool is_held = device_has_user(device);
     StagedProgress holders(stages.stage());
     holders.next(is_held ? 0.5 : 1.0);
     FoundWalls found = find_walls(device, options.outline, result, holders.stage());
@@ -133,7 +133,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     result.region = std::move(found.region);
     if (is_held && !result.trust.refused()) {
       holders.next(1.0);
-      add_nobody(zwidth::without_operator(device), options.outline, result, holders.stage());
+      add_nobody(zwidth::device_without_user(device), options.outline, result, holders.stage());
     }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
@@ -150,15 +150,15 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   }
   if (options.any_user && device.has_bodies() && result.region.most_damped &&
       result.region.most_damped->damping > 0.0) {
-    if (device.bodies().size() <= most_bodies_for_any_user) {
+    if (device.bodies().size() <= most_bodies_for_absolute_stability) {
       stages.next(0.95);
-      result.any_user = any_user_region(device, result.nobody ? *result.nobody->walls : *result.walls,
-                                        result.region.most_damped->damping, {.progress = stages.stage()});
+      result.any_user = absolute_stability_region(device, result.nobody ? *result.nobody->walls : *result.walls,
+                                                  result.region.most_damped->damping, {.progress = stages.stage()});
       result.trust.inherit(result.any_user->trust);
     } else {
       result.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user_region,
                                      .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
-                                                  {"most", static_cast<double>(most_bodies_for_any_user)}}}));
+                                                  {"most", static_cast<double>(most_bodies_for_absolute_stability)}}}));
     }
   }
   stages.next(1.0);

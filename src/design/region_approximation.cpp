@@ -50,13 +50,14 @@ ApproximationError error_of(const RegionApproximation& approximation, double exa
 }
 
 // The limit at this B, from the polygon.
-double limit_at(const AnyUserRegion& region, double damping) {
+double limit_at(const AbsoluteStabilityRegion& region, double damping) {
   for (const auto& range : region.ranges) {
     if (damping < range.front().damping || damping > range.back().damping) continue;
-    const auto above = std::lower_bound(range.begin(), range.end(), damping,
-                                        [](const AnyUserPoint& point, double b) { return point.damping < b; });
+    const auto above =
+        std::lower_bound(range.begin(), range.end(), damping,
+                         [](const AbsoluteStabilityPoint& point, double b) { return point.damping < b; });
     if (above == range.begin()) return above->stiffness;
-    const AnyUserPoint& below = *(above - 1);
+    const AbsoluteStabilityPoint& below = *(above - 1);
     const double part = (damping - below.damping) / (above->damping - below.damping);
     return below.stiffness + part * (above->stiffness - below.stiffness);
   }
@@ -139,7 +140,8 @@ ApproximationError approximation_error(const RegionApproximation& approximation,
   return error_of(approximation, from_zero ? *undamped.front().upper : 0.0, largest_damping, row_at);
 }
 
-ApproximationError approximation_error(const RegionApproximation& approximation, const AnyUserRegion& region) {
+ApproximationError approximation_error(const RegionApproximation& approximation,
+                                       const AbsoluteStabilityRegion& region) {
   const auto row_at = [&](double damping) {
     const double claimed = stiffness_at(approximation, damping);
     const double exact = limit_at(region, damping);

@@ -10,16 +10,16 @@
 #include "design/known_holders.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
-#include "stability/any_user_search.hpp"
+#include "stability/absolute_stability_search.hpp"
 #include "stability/device_draws.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "stability/pole_count.hpp"
-#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_region.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
-#include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -74,15 +74,16 @@ double boundary_damping(const StableWalls& walls, const StableRegion& region, do
   return holds(high) ? least : last_that_holds(low, high, holds);
 }
 
-/// Least B at which the any-user limit is not above `stiffness`.
-double any_user_damping(const Device& device, const AnyUserRegion& region, double stiffness) {
+/// Least B at which the absolute stability limit is not above `stiffness`.
+double absolute_stability_damping(const Device& device, const AbsoluteStabilityRegion& region, double stiffness) {
   const double filter = device.parameters().wall.velocity_filter_hz;
   if (region.ranges.empty()) return 0.0;
-  const std::vector<AnyUserPoint>& limit = region.ranges.front();  // from B = 0, where the limit is above 0
-  const auto first_below = std::ranges::find_if(limit, [&](const AnyUserPoint& p) { return p.stiffness <= stiffness; });
+  const std::vector<AbsoluteStabilityPoint>& limit = region.ranges.front();  // from B = 0, where the limit is above 0
+  const auto first_below =
+      std::ranges::find_if(limit, [&](const AbsoluteStabilityPoint& p) { return p.stiffness <= stiffness; });
   if (first_below == limit.begin()) return 0.0;
   if (first_below == limit.end()) return limit.back().damping;
-  AnyUserSearch search(device);
+  AbsoluteStabilitySearch search(device);
   return last_that_holds(std::prev(first_below)->damping, first_below->damping, [&](double damping) {
     return search.limit({damping, filter}).stiffness > stiffness;
   });
@@ -142,7 +143,7 @@ bool is_uncertain(const Device& device) {
 bool most_keep(const std::vector<Device>& devices, double stiffness, VirtualDamper damper) {
   std::size_t failed = 0;
   for (const Device& each : devices) {
-    AnyUserSearch search(each);
+    AbsoluteStabilitySearch search(each);
     const bool fails = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double share) {
       return search.limit({share * damper.damping, damper.velocity_filter_hz}).stiffness < stiffness;
     });
@@ -165,16 +166,16 @@ void lower_damping(const Device& device, std::size_t draws, double filter, SafeW
 }
 
 /// A known holder of the device, its damper closed, and the limit that this leaves.
-struct HeldDevice {
+struct KnownHolderLimit {
   Device device;
   CriticalStiffness critical;
 };
 
 /// What the uncertainty leaves of every limit.
-void take_lower_end(const std::vector<HeldDevice>& held, const HeldDevice& least, const SafeWallOptions& options,
-                    SafeWall& wall) {
+void take_lower_bounds(const std::vector<KnownHolderLimit>& held, const KnownHolderLimit& least,
+                       const SafeWallOptions& options, SafeWall& wall) {
   if (!is_uncertain(held.back().device)) return;
-  for (const HeldDevice& each : held) {
+  for (const KnownHolderLimit& each : held) {
     if (each.critical.status != StiffnessStatus::finite || !is_uncertain(each.device)) continue;
     const StiffnessInterval interval = stiffness_interval(each.device, options.draws);
     wall.uncertainty_share =
@@ -182,24 +183,24 @@ void take_lower_end(const std::vector<HeldDevice>& held, const HeldDevice& least
     if (&each == &least) wall.interval = interval;
   }
   if (wall.basis == SafeWall::Basis::any_user) {
-    wall.any_user_interval =
-        any_user_interval(held.back().device, virtual_damper(held.back().device), options.any_user_draws);
-    wall.uncertainty_share = std::min(wall.uncertainty_share, wall.any_user_interval->lower / wall.limit);
+    wall.absolute_stability_interval =
+        absolute_stability_interval(held.back().device, virtual_damper(held.back().device), options.any_user_draws);
+    wall.uncertainty_share = std::min(wall.uncertainty_share, wall.absolute_stability_interval->lower / wall.limit);
   }
   wall.remarks.push_back(
       note({.code = FindingCode::limits_at_lower_end, .evidence = {{"share", wall.uncertainty_share}}}));
 }
 
 /// The limits of all known holders; of each the status decides where there is none.
-std::vector<HeldDevice> limits_of_holders(const std::vector<Device>& holders, bool own, SafeWall& wall) {
-  std::vector<HeldDevice> held;
+std::vector<KnownHolderLimit> limits_of_holders(const std::vector<Device>& holders, bool own, SafeWall& wall) {
+  std::vector<KnownHolderLimit> held;
   for (const Device& each : holders) {
     const Device closed = own ? each : with_damping(each, 0.0);
     held.push_back({closed, critical_stiffness(closed)});
     wall.trust.inherit(held.back().critical.trust);
   }
   const auto has = [&](StiffnessStatus status) {
-    return [status](const HeldDevice& each) { return each.critical.status == status; };
+    return [status](const KnownHolderLimit& each) { return each.critical.status == status; };
   };
   if (std::ranges::any_of(held, has(StiffnessStatus::none_stable))) {
     wall.status = SafeWall::Status::none_stable;
@@ -221,7 +222,8 @@ double damping_limit(const std::vector<Device>& holders, double filter, SafeWall
       return 0.0;
     }
     if (wall.basis == SafeWall::Basis::any_user) {  // nobody is among them, and the first
-      return any_user_damping(each, any_user_region(each, walls, region.most_damped->damping), wall.stiffness);
+      return absolute_stability_damping(each, absolute_stability_region(each, walls, region.most_damped->damping),
+                                        wall.stiffness);
     }
     least = std::min(least, boundary_damping(walls, region, wall.stiffness));
   }
@@ -233,13 +235,13 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
   const double filter = device.parameters().wall.velocity_filter_hz;
   wall.damping = own ? device.parameters().wall.damping : 0.0;
   const std::vector<Device> holders = known_holders(device);
-  const std::vector<HeldDevice> held = limits_of_holders(holders, own, wall);
+  const std::vector<KnownHolderLimit> held = limits_of_holders(holders, own, wall);
   if (wall.trust.refused() || wall.status != SafeWall::Status::chosen) return;
-  const HeldDevice& least =
-      *std::ranges::min_element(held, {}, [](const HeldDevice& each) { return each.critical.stiffness; });
+  const KnownHolderLimit& least =
+      *std::ranges::min_element(held, {}, [](const KnownHolderLimit& each) { return each.critical.stiffness; });
   wall.limit = least.critical.stiffness;
-  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
-    const double any_user = any_user_limit(device, {wall.damping, filter}).stiffness;
+  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability) {
+    const double any_user = absolute_stability_limit(device, {wall.damping, filter}).stiffness;
     if (any_user > 0.0 && std::isfinite(any_user)) {
       wall.basis = SafeWall::Basis::any_user;
       wall.limit = any_user;
@@ -248,14 +250,14 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
   if (wall.basis == SafeWall::Basis::device && device.has_bodies()) {
     wall.remarks.push_back(note({.code = FindingCode::no_any_user_limit_to_share}));
   }
-  take_lower_end(held, least, options, wall);
+  take_lower_bounds(held, least, options, wall);
   const double share = options.safety_factor * wall.uncertainty_share;
   wall.stiffness = share * wall.limit;
   if (!own && wall.stiffness > 0.0) {
     wall.damping_limit = damping_limit(holders, filter, wall);
     if (wall.trust.refused()) return;
     wall.damping = share * *wall.damping_limit;
-    if (wall.any_user_interval) lower_damping(device, options.any_user_draws, filter, wall);
+    if (wall.absolute_stability_interval) lower_damping(device, options.any_user_draws, filter, wall);
   }
   if (!(wall.stiffness > 0.0)) {
     wall.trust.refuse({.code = FindingCode::uncertainty_leaves_no_wall});

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "design/controller_slopes.hpp"
+#include "design/controller_sensitivity.hpp"
 #include "design/design_parameter.hpp"
-#include "design/plant_slopes.hpp"
+#include "design/plant_sensitivity.hpp"
 #include "stability/gain_locus.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/error.hpp"
@@ -23,9 +23,9 @@ std::vector<Sensitivity> at_crossover(const Device& device, const SampledPlant& 
   const bool is_real = limit.frequency == 0.0 || limit.frequency >= nyquist;  // z = 1 or -1: the angle stays
   const double angle = limit.frequency >= nyquist ? std::numbers::pi : limit.frequency * device.loop().sampling_period;
   const std::vector<DesignParameter> parameters = design_parameters(device);
-  const PlantSlopes plant = plant_slopes(device, angle, parameters, response(unfiltered, limit.frequency));
-  const FilterSlopes filters = filter_slopes(device, angle, parameters);
-  const DamperSlopes damper = damper_slopes(device, angle, parameters);
+  const PlantSensitivity plant = plant_sensitivity(device, angle, parameters, response(unfiltered, limit.frequency));
+  const FilterSensitivity filters = filter_sensitivity(device, angle, parameters);
+  const DamperSensitivity damper = damper_sensitivity(device, angle, parameters);
   // L = -1/(F P) - B v
   const Complex open = -1.0 / (filters.value * plant.value);
   const Complex stiffness = open - damper.value;

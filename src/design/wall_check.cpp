@@ -15,7 +15,7 @@
 #include "stability/guarded_stiffness.hpp"
 #include "stability/pole_count.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -131,8 +131,8 @@ void check_wall(const Device& walled, const RecommendationOptions& options, bool
     if (any_user) check_users(each, options.progress, trust);
   }
   if (!trust.refused()) check_phase(walled, options.phase_margin, options.progress, trust);
-  if (!has_operator(walled)) return;
-  const Device alone = without_operator(walled);
+  if (!device_has_user(walled)) return;
+  const Device alone = device_without_user(walled);
   check_stable(alone, options.progress, trust);
   if (!trust.refused()) check_phase(alone, options.phase_margin, options.progress, trust);
 }

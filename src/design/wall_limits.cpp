@@ -8,7 +8,7 @@
 #include "design/margin_wall.hpp"
 #include "infinity.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -37,7 +37,7 @@ Wall wall_of(const Device& device, double stiffness, VirtualDamper damper) {
 
 /// Least damping ratio of the poles up to twice sqrt((K + k)/m); nothing where there are none.
 std::optional<double> least_ratio(const Device& device, const DiscreteStateSpace& system, const Wall& wall) {
-  const Operator& user = device.parameters().user;
+  const User& user = device.parameters().user;
   double mass = user.mass;
   double stiffness = *wall.stiffness + user.stiffness;
   for (const Body& body : device.bodies()) {
@@ -73,7 +73,7 @@ Device with_filter(const Device& device, const WallFilter& filter) {
 }
 
 bool can_be_held(const Device& device) {
-  return device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user;
+  return device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability;
 }
 
 WallLimits::WallLimits(const Device& device, const RecommendationOptions& options)
@@ -82,8 +82,8 @@ WallLimits::WallLimits(const Device& device, const RecommendationOptions& option
       plants_{filtered_plant(device)},
       system_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})) {
   tell(options.progress, 0.0);
-  if (has_operator(device)) plants_.push_back(filtered_plant(without_operator(device)));
-  if (can_be_held(device)) users_ = std::make_unique<AnyUserSearch>(device, options.progress);
+  if (device_has_user(device)) plants_.push_back(filtered_plant(device_without_user(device)));
+  if (can_be_held(device)) users_ = std::make_unique<AbsoluteStabilitySearch>(device, options.progress);
 }
 
 double WallLimits::limit(VirtualDamper damper) {
@@ -127,9 +127,10 @@ WallLimits::Stiffest WallLimits::stiffest(VirtualDamper damper, WallGoal goal) {
     }
   }
   const double resolution = device_.parameters().sensor.resolution;
-  if (options_.ripple && resolution > 0.0) {
+  if (options_.quantisation_force && resolution > 0.0) {
     const ForcePerCountRates rates = force_per_count_rates(wall_of(device_, 0.0, damper), system_.period, resolution);
-    take(std::max(0.0, *options_.ripple - damper.damping * rates.per_damping) / rates.per_stiffness, WallBound::ripple);
+    take(std::max(0.0, *options_.quantisation_force - damper.damping * rates.per_damping) / rates.per_stiffness,
+         WallBound::quantisation_force);
   }
   if (!(least.stiffness > 0.0) || !std::isfinite(least.stiffness)) return least;
   least.stiffness *= 1.0 - shaved;

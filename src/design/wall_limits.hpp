@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "stability/any_user_search.hpp"
+#include "stability/absolute_stability_search.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -54,7 +54,7 @@ class WallLimits {
   RecommendationOptions options_;
   std::vector<FilteredPlant> plants_;  // with the file's user, and with nobody holding where there is one
   DiscreteStateSpace system_;
-  std::unique_ptr<AnyUserSearch> users_;
+  std::unique_ptr<AbsoluteStabilitySearch> users_;
 };
 
 }  // namespace zwidth::internal

@@ -26,7 +26,7 @@ constexpr std::size_t searched_exactly = 3;  // velocity filters, the most promi
 constexpr double worth_a_damper = 1e-3;      // relative gain of the goal
 constexpr double worth_a_filter = 0.02;
 constexpr double worth_a_notch = 0.05;
-constexpr double same_limit = 1e-9;      // relative, of two any-user limits
+constexpr double same_limit = 1e-9;      // relative, of two absolute stability limits
 constexpr double more_damping = 1.05;    // where the bound of B is looked for
 constexpr double first_damping = 1e-3;   // times K/w, where B is 0
 constexpr double faster = 1.25;          // where the bound of the velocity filter is
@@ -65,7 +65,7 @@ class Recommendation {
     stages_.next(0.6);
     if (options_.notch) best = with_notch(best);
     stages_.next(0.7);
-    if (options_.drift > 0.0) result.drifts_checked = drifts_held;
+    if (options_.modal_frequency_uncertainty > 0.0) result.modal_shifts_checked = modal_shifts_held;
     if (best) best = kept(*best, *plain, result);
     if (best && limits_.has_users()) {
       result.reason =
@@ -87,7 +87,7 @@ class Recommendation {
     if (options_.alternatives) wall.bounded_by = bounds_of(*best);
     result.status = WallRecommendation::Status::found;
     result.wall = std::move(wall);
-    if (!options_.ripple && result.wall->force_per_count) {
+    if (!options_.quantisation_force && result.wall->force_per_count) {
       result.remarks.push_back(note({.code = FindingCode::no_ripple_asked,
                                      .evidence = {{"force_per_count", result.wall->force_per_count->largest,
                                                    units_of(device_.parameters().motion).force}}}));
@@ -147,14 +147,15 @@ class Recommendation {
     const std::vector<double> modes = seen_modes(device_);
     if (modes.empty() || device_.parameters().wall.filters.size() >= max_wall_filters) return best;
     const NotchOptions notch_options{
-        .goal = limits_.has_users() ? StiffnessGoal::any_user_limit : StiffnessGoal::critical_stiffness,
+        .goal = limits_.has_users() ? StiffnessGoal::absolute_stability_limit : StiffnessGoal::critical_stiffness,
         .gain_margin = options_.gain_margin,
         .phase_margin = options_.phase_margin,
         .progress = options_.progress};
     NotchSearch search(notch_options, modes, device_.loop().sampling_period, limits_.has_users());
     search.add(with_wall(device_, best->stiffest.stiffness, best->damper), search_.grid());
-    for (const double drift : {-options_.drift, options_.drift}) {
-      if (drift != 0.0) search.add(with_wall(drifted(device_, drift), best->stiffest.stiffness, best->damper));
+    for (const double modal_shift : {-options_.modal_frequency_uncertainty, options_.modal_frequency_uncertainty}) {
+      if (modal_shift != 0.0)
+        search.add(with_wall(with_modal_shift(device_, modal_shift), best->stiffest.stiffness, best->damper));
     }
     std::pair<double, NotchSearch::Point> found{0.0, {}};
     for (const NotchSearch::Point& start : search.candidates(options_.progress)) {
@@ -164,13 +165,14 @@ class Recommendation {
     const WallFilter notch = NotchSearch::notch_at(found.second);
     const Candidate candidate =
         exact(search_of(notch).best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
-    const bool lower_any_user = limits_.has_users() && limits_of(notch).limit(candidate.damper) <
-                                                           limits_.limit(candidate.damper) * (1.0 - same_limit);
-    if (lower_any_user || !(candidate.value > best->value * (1.0 + worth_a_notch))) return best;
+    const bool lower_absolute_stability_limit =
+        limits_.has_users() &&
+        limits_of(notch).limit(candidate.damper) < limits_.limit(candidate.damper) * (1.0 - same_limit);
+    if (lower_absolute_stability_limit || !(candidate.value > best->value * (1.0 + worth_a_notch))) return best;
     return candidate;
   }
 
-  /// What uncertainty and drift leave of it.
+  /// What uncertainty and modal shifts leave of it.
   [[nodiscard]] std::optional<Candidate> lowered(Candidate candidate, WallRecommendation& result) {
     const WallLowering::Kept kept =
         lowering_.lowered(candidate.stiffest.stiffness, candidate.damper, candidate.notch, options_.goal);
@@ -190,11 +192,11 @@ class Recommendation {
     return candidate;
   }
 
-  /// The same of the best; where the modes drift a notch must be worth it there too.
+  /// The same of the best; where the modal frequencies are uncertain a notch must be worth it there too.
   [[nodiscard]] std::optional<Candidate> kept(const Candidate& best, const Candidate& plain,
                                               WallRecommendation& result) {
     std::optional<Candidate> notched = lowered(best, result);
-    if (!best.notch || !(options_.drift > 0.0)) return notched;
+    if (!best.notch || !(options_.modal_frequency_uncertainty > 0.0)) return notched;
     WallRecommendation without;
     std::optional<Candidate> unnotched = lowered(plain, without);
     if (!unnotched || (notched && notched->value > unnotched->value * (1.0 + worth_a_notch))) return notched;
@@ -245,8 +247,8 @@ class Recommendation {
     wall.margins = wall_margins(walled);
     tell(options_.progress, 0.0);
     if (limits.has_users()) {
-      wall.any_user_limit = limits.limit(damper);
-      wall.any_user_stiffness_margin = *wall.any_user_limit / *wall.wall.stiffness;
+      wall.absolute_stability_limit = limits.limit(damper);
+      wall.absolute_stability_margin = *wall.absolute_stability_limit / *wall.wall.stiffness;
     }
     wall.contact_damping_ratio = contact_damping_ratio(walled);
     wall.force_per_count = force_per_count(walled);
@@ -316,7 +318,7 @@ class Recommendation {
       Finding finding{.code = FindingCode::force_per_count_unknown,
                       .subjects = {{"what", "stiffness and damping"}},
                       .key = "sensor.resolution"};
-      result.remarks.push_back(options_.ripple ? warning(std::move(finding)) : note(std::move(finding)));
+      result.remarks.push_back(options_.quantisation_force ? warning(std::move(finding)) : note(std::move(finding)));
     }
     if (!limits_.has_users()) {
       result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
@@ -355,12 +357,14 @@ WallRecommendation refused(Trust trust) {
 
 std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device) {
   if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
-  if (options.ripple && !(*options.ripple > 0.0 && std::isfinite(*options.ripple))) {
-    return option_problem("ripple", {.code = ProblemCode::no_positive_quantity,
-                                     .evidence = {{"value", *options.ripple}},
+  if (options.quantisation_force &&
+      !(*options.quantisation_force > 0.0 && std::isfinite(*options.quantisation_force))) {
+    return option_problem("quantisation_force", {.code = ProblemCode::no_positive_quantity,
+                                     .evidence = {{"value", *options.quantisation_force}},
                                      .subjects = {{"what", "force"}}});
   }
-  if (auto problem = find_drift_problem(options.drift, device)) return problem;
+  if (auto problem = find_modal_frequency_uncertainty_problem(options.modal_frequency_uncertainty, device))
+    return problem;
   if (options.draws == 0) return option_problem("draws", {.code = ProblemCode::none_asked});
   if (options.goal == WallGoal::critical_damping && !device.has_bodies()) {
     return option_problem("goal", {.code = ProblemCode::critical_damping_without_mass});

@@ -8,7 +8,7 @@
 
 #include "infinity.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -44,7 +44,7 @@ std::optional<Crossover> softest_crossover(const FilteredPlant& plant) {
 /// The loop that is searched: what damps a user damps the wall too, so that nobody holding is the harder case as a rule. What
 /// is proposed keeps its margins with both (WallLimits).
 Device searched(const WallLimits& limits) {
-  return has_operator(limits.device()) ? without_operator(limits.device()) : limits.device();
+  return device_has_user(limits.device()) ? device_without_user(limits.device()) : limits.device();
 }
 
 }  // namespace
@@ -100,8 +100,8 @@ double WallSearch::value(const Filtered& filtered, double damping, WallGoal goal
   for (std::complex<double>& each : damper) each *= damping;
   const double gain = options_.gain_margin;
   double stiffness = infinity;
-  if (options_.ripple && filtered.rates.per_stiffness > 0.0) {
-    stiffness = (*options_.ripple - damping * filtered.rates.per_damping) / filtered.rates.per_stiffness;
+  if (options_.quantisation_force && filtered.rates.per_stiffness > 0.0) {
+    stiffness = (*options_.quantisation_force - damping * filtered.rates.per_damping) / filtered.rates.per_stiffness;
   }
   if (!(value_of(goal, stiffness, damping) > enough)) return 0.0;
   stiffness = std::min(stiffness, grid_->stiffest(factor_, damper, {gain, 0.0, limits_.has_users()}, 0.0));

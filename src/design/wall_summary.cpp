@@ -12,7 +12,7 @@
 
 #include "counted.hpp"
 #include "infinity.hpp"
-#include "stability/any_user_search.hpp"
+#include "stability/absolute_stability_search.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
@@ -33,7 +33,7 @@ class LimitOverDamping {
   LimitOverDamping(const Device& device, const Progress& progress)
       : velocity_filter_hz_(device.parameters().wall.velocity_filter_hz),
         plant_(filtered_plant(device)),
-        users_(device.has_bodies() ? std::make_unique<AnyUserSearch>(device, progress) : nullptr),
+        users_(device.has_bodies() ? std::make_unique<AbsoluteStabilitySearch>(device, progress) : nullptr),
         progress_(progress) {}
 
   [[nodiscard]] Holder holder() const { return users_ ? Holder::any_user : Holder::nobody; }
@@ -43,7 +43,7 @@ class LimitOverDamping {
     const VirtualDamper damper{damping, velocity_filter_hz_};
     StiffestDampedWall wall{0.0, damping, damping > 0.0 ? velocity_filter_hz_ : 0.0, holder(), {}};
     if (users_) {
-      AnyUserLimit limit = users_->limit(damper, progress_);
+      AbsoluteStabilityLimit limit = users_->limit(damper, progress_);
       wall.stiffness = limit.stiffness;
       wall.trust = std::move(limit.trust);
     } else {
@@ -55,7 +55,7 @@ class LimitOverDamping {
  private:
   double velocity_filter_hz_;
   FilteredPlant plant_;
-  std::unique_ptr<AnyUserSearch> users_;  // none for a transfer function
+  std::unique_ptr<AbsoluteStabilitySearch> users_;  // none for a transfer function
   const Progress& progress_;
 };
 
@@ -93,7 +93,7 @@ std::optional<double> largest_damper(const Device& device, const Analysis& analy
   if (analysis.limits.any_user && analysis.limits.any_user->critical_damping) {
     return analysis.limits.any_user->critical_damping;
   }
-  const AnyUserDamping damping = any_user_damping(device, progress);
+  const AbsoluteStabilityDamping damping = absolute_stability_damping(device, progress);
   return damping.trust.sound() ? std::optional(damping.damping) : std::nullopt;
 }
 

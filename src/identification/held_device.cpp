@@ -18,7 +18,7 @@ bool is_on_springs(const DeviceParameters& device) {
 }
 
 std::optional<Remark> remark_of_operator(const Device& structure) {
-  const Operator& user = structure.parameters().user;
+  const User& user = structure.parameters().user;
   if (user.mass == 0.0 && user.damping == 0.0 && user.stiffness == 0.0) return std::nullopt;
   return warning({.code = FindingCode::operator_taken_to_hold, .key = "operator"});
 }

@@ -45,7 +45,7 @@ std::optional<Finding> doubt_of_interval(const Identification& result) {
     if (!knows_noise) return std::nullopt;
     return Finding{.code = FindingCode::no_interval};
   }
-  if (is_open(*interval)) return interval_left_open(*interval);
+  if (is_inconclusive(*interval)) return interval_left_open(*interval);
   constexpr double wide = 1.4;
   constexpr double clear = 0.95;
   const auto& limit = result.analysis.critical.limit;
@@ -68,7 +68,7 @@ void narrow_interval(Identification& result) {
       std::ranges::count_if(result.fit.unidentifiable, [](const auto& each) { return each.parameters.size() > 1; });
   const auto is_wide = [&](const StiffnessInterval& interval) {
     constexpr double wide = 1.05;
-    return is_open(interval) || (combinations > 0 && interval.upper > wide * interval.lower);
+    return is_inconclusive(interval) || (combinations > 0 && interval.upper > wide * interval.lower);
   };
   Device device = result.fit.device;
   Analysis analysis = result.analysis;
@@ -82,7 +82,7 @@ void narrow_interval(Identification& result) {
   }
   const StiffnessInterval& narrow = *analysis.interval;
   const StiffnessInterval& wide = *result.analysis.interval;
-  if (is_open(narrow) || (narrow.lower <= wide.lower && narrow.upper >= wide.upper)) return;
+  if (is_inconclusive(narrow) || (narrow.lower <= wide.lower && narrow.upper >= wide.upper)) return;
   result.fit.device = std::move(device);
   result.analysis = std::move(analysis);
 }

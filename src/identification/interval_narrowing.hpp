@@ -7,7 +7,7 @@
 
 namespace zwidth::internal {
 
-/// Why no critical stiffness is sound where its interval is open (zwidth::is_open()), with the remedy.
+/// Why no critical stiffness is sound where its interval is open (zwidth::is_inconclusive()), with the remedy.
 [[nodiscard]] Finding interval_left_open(const StiffnessInterval& interval);
 
 /// Why an answer's interval says that it is not to be relied on: there is none, as where a fit ran away and no number's

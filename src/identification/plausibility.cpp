@@ -254,7 +254,7 @@ std::vector<Remark> implausible_device(const Device& fitted, const Device* known
       remarks.push_back(warning(std::move(found)));
     }
   }
-  if (const auto remark = implausible_lateness(fitted, recorded_period.value_or(period))) {
+  if (const auto remark = implausible_actuation_delay(fitted, recorded_period.value_or(period))) {
     Finding found = remark->finding.value();
     found.code = FindingCode::fitted_late_beyond_drives;
     remarks.push_back(warning(std::move(found)));

@@ -55,7 +55,7 @@ class ChangingDynamics {
     const auto [whole, whole_slopes] = exponential(instants.with_new + instants.with_old);
     const bool is_fractional = instants.with_old > 0.0;
     const auto [first, first_slopes] =
-        is_fractional ? exponential(instants.with_new) : ExponentialWithSlopes{whole, whole_slopes};
+        is_fractional ? exponential(instants.with_new) : ExponentialWithDerivatives{whole, whole_slopes};
     std::vector<Dynamics> all = {of_sampled(whole, first)};
     // u[k - l] acts for so much less: e^{At} B = B + A Gamma(t)
     const Eigen::VectorXd late = input(generator_) + generator_.topLeftCorner(n_, n_) * input(first);
@@ -72,11 +72,11 @@ class ChangingDynamics {
     return scales_.cwiseInverse().asDiagonal() * matrix * scales_.asDiagonal();
   }
   [[nodiscard]] Eigen::VectorXd input(const Eigen::MatrixXd& matrix) const { return matrix.topRightCorner(n_, 1); }
-  [[nodiscard]] ExponentialWithSlopes exponential(double time) const {
+  [[nodiscard]] ExponentialWithDerivatives exponential(double time) const {
     std::vector<Eigen::MatrixXd> slopes;
     slopes.reserve(slopes_.size());
     for (const Eigen::MatrixXd& each : slopes_) slopes.emplace_back(time * each);
-    return exponential_with_slopes(time * generator_, slopes);
+    return exponential_with_derivatives(time * generator_, slopes);
   }
   [[nodiscard]] Dynamics of_continuous(const Eigen::MatrixXd& matrix) const {
     return {matrix.topLeftCorner(n_, n_), input(matrix), Eigen::VectorXd::Zero(n_)};

@@ -134,7 +134,7 @@ void judge_limit(RigidBodyIdentification& identified) {
     if (critical.limit->frequency > highest) identified.device = with_shared_lateness(identified.device);
   }
   const auto interval = analyze(identified.device, {.any_user = false}).interval;
-  if (!interval || !is_open(*interval)) return;
+  if (!interval || !is_inconclusive(*interval)) return;
   Finding open = interval_left_open(*interval);
   const Loop& loop = identified.device.parameters().loop;
   const auto deviation = identified.fit.delay.standard_deviation;

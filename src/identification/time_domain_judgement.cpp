@@ -108,7 +108,7 @@ class Judge {
     judge_what_was_given();
     const std::vector<std::string> open = open_numbers();
     const auto& interval = fit_.analysis.interval;
-    if (knows_nothing(fit_.estimates) && (!interval || is_open(*interval) || !(interval->upper > 0.0))) {
+    if (knows_nothing(fit_.estimates) && (!interval || is_inconclusive(*interval) || !(interval->upper > 0.0))) {
       trust_.refuse(nothing_determined());
     }
     if (!open.empty()) {
@@ -252,7 +252,7 @@ class Judge {
 
   void judge_interval() {
     const auto& interval = fit_.analysis.interval;
-    if (interval && is_open(*interval)) trust_.doubt(interval_left_open(*interval));
+    if (interval && is_inconclusive(*interval)) trust_.doubt(interval_left_open(*interval));
     // Friction makes a linear fit's too high, never too low: a second route, on the safe side.
     const auto& linear = judged_.linear;
     if (!linear || !interval) return;

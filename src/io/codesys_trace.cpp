@@ -86,7 +86,7 @@ class TraceReader {
     ExportedColumn& column = exported_.columns.back();
     constexpr std::size_t cells = 3;  // nothing, time, value
     const bool has_cells = line.cells.size() == cells || (line.cells.size() == cells + 1 && line.cells.back().empty());
-    if (!has_cells && line.is_open && line.cells.size() < cells) return leave_out(line);
+    if (!has_cells && line.may_be_cut_off && line.cells.size() < cells) return leave_out(line);
     if (!has_cells) {
       return tl::unexpected(
           lines_.refused(line, fmt::format("has {} cells", line.cells.size()), "must be a sample: \"; time; value\""));
@@ -96,7 +96,7 @@ class TraceReader {
       return tl::unexpected(lines_.no_number(line, 1, "time of " + column.name));
     }
     const NumberCell value = lines_.number(line.cells[2]);
-    if (value.kind == NumberCell::Kind::missing && line.is_open) return leave_out(line);
+    if (value.kind == NumberCell::Kind::missing && line.may_be_cut_off) return leave_out(line);
     if (value.kind == NumberCell::Kind::text && !column.unreadable) {
       column.unreadable = lines_.no_number(line, 2, column.name);
     }

@@ -134,7 +134,7 @@ class DeskReader {
     std::size_t size = line.cells.size();
     while (size > cells_ && line.cells[size - 1].empty()) --size;
     if (size != cells_) {
-      if (line.is_open && size < cells_) {
+      if (line.may_be_cut_off && size < cells_) {
         exported_.remarks.push_back(warning(
             {.code = FindingCode::last_line_cut_off,
              .evidence = {counted("line", line.line.number), counted("cells", size), counted("expected", cells_)},

@@ -35,7 +35,7 @@ class DeviceReader {
     read_links();
     read_transfer_function();
     read_loop();
-    read_surroundings();
+    read_loop_parts();
     read_driver();
     read_uncertainty();
     return std::move(device_);
@@ -120,7 +120,7 @@ class DeviceReader {
     read_members(reader, DeviceTable::loop, device_.loop);
   }
 
-  void read_surroundings() {
+  void read_loop_parts() {
     read_table(root_, DeviceTable::actuator, device_.actuator);
     read_table(root_, DeviceTable::sensor, device_.sensor);
     if (auto wall = read_table(root_, DeviceTable::wall, device_.wall)) {

@@ -18,7 +18,7 @@ namespace zwidth::internal {
 struct ExportLine {
   TextLine line;
   std::span<const std::string_view> cells;  ///< valid until the next line
-  bool is_open = false;                     ///< the file's last and without an end: it may be cut off
+  bool may_be_cut_off = false;              ///< the file's last and without an end
 
   [[nodiscard]] bool is_empty() const;  ///< no cell has anything in it
   /// The cell, or nothing where the line ends before.

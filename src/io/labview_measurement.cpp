@@ -277,7 +277,7 @@ class LvmReader {
       return take_segment_tag(first, line);
     }
     if (is_text) return tl::unexpected(lines_.no_number(line, 0, exported_.columns[0].name));
-    if (line.is_open && line.cells.size() < std::min(widest_, names_.size())) {
+    if (line.may_be_cut_off && line.cells.size() < std::min(widest_, names_.size())) {
       exported_.remarks.push_back(
           warning({.code = FindingCode::last_line_cut_off,
                    .evidence = {counted("line", line.line.number), counted("cells", line.cells.size()),

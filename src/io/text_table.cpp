@@ -71,8 +71,8 @@ std::optional<InputError> refused_as_text(std::string_view first_bytes, const st
   return std::nullopt;
 }
 
-TextTable::TextTable(TextLines lines, TextLayout layout, std::string comment, double line_length)
-    : lines_(std::move(lines)), layout_(std::move(layout)), comment_(std::move(comment)), line_length_(line_length) {}
+TextTable::TextTable(TextLines lines, CsvDialect dialect, std::string comment, double line_length)
+    : lines_(std::move(lines)), dialect_(std::move(dialect)), comment_(std::move(comment)), line_length_(line_length) {}
 
 tl::expected<TextTable, InputError> TextTable::open(TextLines lines, const RecordingOptions& options) {
   if (auto refused = refused_as_text(lines.buffered(), lines.file().source())) {
@@ -88,11 +88,11 @@ tl::expected<TextTable, InputError> TextTable::open(TextLines lines, const Recor
                                      "must be fewer (`skip_rows`)"});
   }
   const auto head = head_of(lines.buffered(), lines.buffered_to_the_end(), options.comment, options.skip_rows);
-  auto layout = detect_layout(head, options, lines.file().source());
-  if (!layout) return tl::unexpected(std::move(layout.error()));
+  auto dialect = detect_csv_dialect(head, options, lines.file().source());
+  if (!dialect) return tl::unexpected(std::move(dialect.error()));
   const auto length = head.back().text.data() + head.back().text.size() - head.front().text.data();
   const double mean_length = static_cast<double>(length) / static_cast<double>(head.size()) + 1.0;
-  return TextTable(std::move(lines), std::move(*layout), options.comment, mean_length);
+  return TextTable(std::move(lines), std::move(*dialect), options.comment, mean_length);
 }
 
 tl::expected<TextTable, InputError> TextTable::open(const std::string& path, const RecordingOptions& options) {
@@ -104,7 +104,7 @@ tl::expected<TextTable, InputError> TextTable::open(const std::string& path, con
 }
 
 std::vector<std::string> TextTable::names() const {
-  if (has_header()) return layout_.names;
+  if (has_header()) return dialect_.names;
   std::vector<std::string> numbers;
   numbers.reserve(columns());
   for (std::size_t c = 1; c <= columns(); ++c) numbers.push_back(std::to_string(c));
@@ -117,7 +117,7 @@ std::size_t TextTable::likely_rows() const {
 }
 
 tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, const Progress& progress) {
-  CellSplitter splitter(layout_.delimiter);
+  CellSplitter splitter(dialect_.delimiter);
   std::size_t rows = 0;
   std::size_t empty_lines = 0;          // since the last row
   std::size_t empty_lines_in_rows = 0;  // with rows on both sides
@@ -126,8 +126,8 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
     if (!next) return tl::unexpected(next.error());
     if (!*next) break;
     const TextLine& line = **next;
-    if (line.number < layout_.first_row) continue;
-    const bool empty_cells = layout_.delimiter == '\t' && line.text.find('\t') != std::string_view::npos;
+    if (line.number < dialect_.first_row) continue;
+    const bool empty_cells = dialect_.delimiter == '\t' && line.text.find('\t') != std::string_view::npos;
     if (is_empty_line(line.text) && !empty_cells) {
       ++empty_lines;
       continue;
@@ -139,7 +139,7 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
       if (cells.size() > columns() || !lines_.last_line_is_open() || rows == 0) {
         return tl::unexpected(wrong_cells(line, cells.size(), rows));
       }
-      layout_.remarks.push_back(warning(
+      dialect_.remarks.push_back(warning(
           {.code = FindingCode::last_line_cut_off,
            .evidence = {counted("line", line.number), counted("cells", cells.size()), counted("expected", columns())},
            .subjects = {{"document", "recording"}}}));
@@ -150,7 +150,7 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
     if (auto visited = visit({line, cells}); !visited) return visited;
   }
   if (empty_lines_in_rows > 0) {
-    layout_.remarks.push_back(
+    dialect_.remarks.push_back(
         warning({.code = FindingCode::empty_lines_in_rows, .evidence = {counted("lines", empty_lines_in_rows)}}));
   }
   if (progress) progress(1.0);
@@ -158,12 +158,12 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
 }
 
 NumberCell TextTable::number(std::string_view cell) {
-  if (!layout_.decimal_mark) layout_.decimal_mark = decimal_mark_in(cell);
-  return read_number(cell, layout_.decimal_mark.value_or('.'));
+  if (!dialect_.decimal_mark) dialect_.decimal_mark = decimal_mark_in(cell);
+  return read_number(cell, dialect_.decimal_mark.value_or('.'));
 }
 
 std::optional<std::complex<double>> TextTable::complex_number(std::string_view cell) const {
-  return read_complex(cell, layout_.decimal_mark.value_or('.'));
+  return read_complex(cell, dialect_.decimal_mark.value_or('.'));
 }
 
 InputError TextTable::no_number(const TextRow& row, std::size_t column) const {
@@ -173,8 +173,8 @@ InputError TextTable::no_number(const TextRow& row, std::size_t column) const {
           row.line.number,
           place,
           shortened(names()[column]),
-          why_no_number(cell, layout_.decimal_mark.value_or('.')),
-          fmt::format("must be a number such as {}", layout_.decimal_mark == ',' ? "-1,5e-3" : "-1.5e-3")};
+          why_no_number(cell, dialect_.decimal_mark.value_or('.')),
+          fmt::format("must be a number such as {}", dialect_.decimal_mark == ',' ? "-1,5e-3" : "-1.5e-3")};
 }
 
 InputError TextTable::wrong_cells(const TextLine& line, std::size_t cells, std::size_t rows_above) const {

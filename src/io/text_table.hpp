@@ -7,8 +7,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "io/csv_dialect.hpp"
 #include "io/number_cell.hpp"
-#include "io/text_layout.hpp"
 #include "io/text_lines.hpp"
 #include "zwidth/io/recording_file.hpp"
 
@@ -29,8 +29,8 @@ class TextTable {
                                                                 const RecordingOptions& options);
 
   [[nodiscard]] const std::string& source() const { return lines_.file().source(); }
-  [[nodiscard]] std::size_t columns() const { return layout_.columns; }
-  [[nodiscard]] bool has_header() const { return !layout_.names.empty(); }
+  [[nodiscard]] std::size_t columns() const { return dialect_.columns; }
+  [[nodiscard]] bool has_header() const { return !dialect_.names.empty(); }
   /// The header's names; without a header the columns' numbers from 1.
   [[nodiscard]] std::vector<std::string> names() const;
   /// How many rows the file is likely to have, from its size and its first lines; 0 where its size is not known.
@@ -47,14 +47,14 @@ class TextTable {
   [[nodiscard]] InputError no_number(const TextRow& row, std::size_t column) const;
 
   /// What was detected and, after each_row(), what was passed over.
-  [[nodiscard]] const std::vector<Remark>& remarks() const { return layout_.remarks; }
+  [[nodiscard]] const std::vector<Remark>& remarks() const { return dialect_.remarks; }
 
  private:
-  TextTable(TextLines lines, TextLayout layout, std::string comment, double line_length);
+  TextTable(TextLines lines, CsvDialect dialect, std::string comment, double line_length);
   [[nodiscard]] InputError wrong_cells(const TextLine& line, std::size_t cells, std::size_t rows_above) const;
 
   TextLines lines_;
-  TextLayout layout_;
+  CsvDialect dialect_;
   std::string comment_;
   double line_length_;  ///< mean, bytes
 };

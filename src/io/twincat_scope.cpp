@@ -185,7 +185,7 @@ class ScopeReader {
   Read add_row(const ExportLine& line) {
     std::size_t size = line.cells.size();
     if (size == exported_.columns.size() + 1 && line.cells.back().empty()) --size;
-    if (line.is_open && size < widest_) {
+    if (line.may_be_cut_off && size < widest_) {
       exported_.remarks.push_back(warning(
           {.code = FindingCode::last_line_without_end,
            .evidence = {counted("line", line.line.number), counted("cells", size), counted("expected", widest_)}}));

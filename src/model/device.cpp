@@ -195,7 +195,7 @@ void check_transfer_function(const DeviceParameters& parameters, Checks& checks)
   if (loop.actuated != 0 || loop.sensed != 0 || loop.held != 0) {
     checks.refuse("loop", "names a body beside a transfer function", "a transfer function has no bodies");
   }
-  const Operator& user = parameters.user;
+  const User& user = parameters.user;
   if (user.mass != 0.0 || user.damping != 0.0 || user.stiffness != 0.0) {
     checks.refuse("operator", "stands beside a transfer function", "an operator needs bodies: leave it out");
   }
@@ -249,7 +249,7 @@ void check_driver(const DeviceParameters& parameters, Checks& checks) {
   if (!is_letter) checks.refuse("driver.command", "is no letter", "must be one letter, such as \"M\"");
 }
 
-void check_surroundings(const DeviceParameters& parameters, Checks& checks) {
+void check_loop_parts(const DeviceParameters& parameters, Checks& checks) {
   checks.numbers(DeviceTable::actuator, "actuator", parameters.actuator);
   checks.numbers(DeviceTable::sensor, "sensor", parameters.sensor);
   checks.numbers(DeviceTable::wall, "wall", parameters.wall);
@@ -274,7 +274,7 @@ std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameter
     check_links(parameters, checks);
   }
   check_loop(parameters, checks);
-  check_surroundings(parameters, checks);
+  check_loop_parts(parameters, checks);
   return std::move(checks).problems();
 }
 

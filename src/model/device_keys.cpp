@@ -122,10 +122,10 @@ constexpr auto made_rows() {
         "2 or 3, the first not 0, poles stable; each 0 or 1e-100 to 1e100 in magnitude; of the same two",
         "Denominator by falling powers of s or z."}},
 
-      {{user, "mass", number, mass, from_0, "0", "", "Mass of the user's hand."}, &Operator::mass},
+      {{user, "mass", number, mass, from_0, "0", "", "Mass of the user's hand."}, &User::mass},
       {{user, "inertia", number, mass, from_0, "`mass`", "of rotary motion", "The same.", "mass"}},
-      {{user, "damping", number, damping, from_0, "0", "", "Damping of the user's hand."}, &Operator::damping},
-      {{user, "stiffness", number, stiffness, from_0, "0", "", "Stiffness of the user's hand."}, &Operator::stiffness},
+      {{user, "damping", number, damping, from_0, "0", "", "Damping of the user's hand."}, &User::damping},
+      {{user, "stiffness", number, stiffness, from_0, "0", "", "Stiffness of the user's hand."}, &User::stiffness},
 
       {{transfer_function, "numerator", numbers, none, none, needed_key,
         "of lower degree than the denominator, not all 0, no longer than it; each 0 or 1e-100 to 1e100 in magnitude",

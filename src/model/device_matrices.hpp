@@ -20,7 +20,7 @@ struct DeviceMatrices {
 template <typename Real>
 DeviceMatrices<Real> device_matrices(const Device& device) {
   const std::size_t n = device.bodies().size();
-  const Operator& user = device.parameters().user;
+  const User& user = device.parameters().user;
   DeviceMatrices<Real> matrices{std::vector<Real>(n, Real(0.0)), std::vector<Real>(n * n, Real(0.0)),
                                 std::vector<Real>(n * n, Real(0.0))};
   for (std::size_t i = 0; i < n; ++i) {

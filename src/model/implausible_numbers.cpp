@@ -39,7 +39,7 @@ std::optional<Remark> implausible_period(double period, const std::string& whose
                   .key = "loop.sampling_period"});
 }
 
-std::optional<Remark> implausible_lateness(const Device& device, double period) {
+std::optional<Remark> implausible_actuation_delay(const Device& device, double period) {
   const double late = device.loop().delay + device.parameters().actuator.time_constant;
   if (late <= many_periods * period) return std::nullopt;
   const Unit unit = likely_unit(late, many_periods * period);
@@ -69,7 +69,7 @@ std::vector<Remark> implausible_numbers(const Device& device) {
   std::vector<Remark> remarks;
   const double period = device.loop().sampling_period;
   if (auto remark = implausible_period(period, "the sampling period")) remarks.push_back(*std::move(remark));
-  if (auto remark = implausible_lateness(device, period)) remarks.push_back(*std::move(remark));
+  if (auto remark = implausible_actuation_delay(device, period)) remarks.push_back(*std::move(remark));
   const double heaviest = device.parameters().motion == Motion::rotary ? 10.0 : 1000.0;
   for (Remark& remark : implausible_masses(device, heaviest)) remarks.push_back(std::move(remark));
   return remarks;

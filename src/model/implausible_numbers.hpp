@@ -18,7 +18,7 @@ constexpr double many_periods = 20.0;  ///< of delay or lag: few drives are as s
 [[nodiscard]] std::optional<Remark> implausible_period(double period, const std::string& whose);
 
 /// Delay and lag beside a period: the device's own, or the recording's.
-[[nodiscard]] std::optional<Remark> implausible_lateness(const Device& device, double period);
+[[nodiscard]] std::optional<Remark> implausible_actuation_delay(const Device& device, double period);
 
 /// Bodies of more than `heaviest`, kg or kg m^2.
 [[nodiscard]] std::vector<Remark> implausible_masses(const Device& device, double heaviest);

@@ -23,7 +23,7 @@ TwoMassFactors two_mass_factors(const TwoMass& device) {
 }
 
 std::optional<TwoMass> as_two_mass(const Device& device) {
-  const Operator& user = device.parameters().user;
+  const User& user = device.parameters().user;
   if (device.bodies().size() != 2 || device.links().size() != 1 || user.stiffness > 0.0) return std::nullopt;
   for (const Body& body : device.bodies())
     if (body.stiffness > 0.0) return std::nullopt;

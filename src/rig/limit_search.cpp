@@ -28,7 +28,7 @@ constexpr double sure_deviations = 3.0;     // of a growth rate; its windows ove
 constexpr double far_below = 0.95;          // of a stiffness
 constexpr double size_margin = 2.0;         // of the error by the size of the swing
 constexpr double least_difference = 0.2;    // of two swings, relative
-constexpr double most_difference = 1.0;     // the same: of one knock and of half of it
+constexpr double most_difference = 1.0;     // the same: of one impulse and of half of it
 constexpr double most_error = 0.02;         // relative: what a measured limit may be off by
 
 bool swing_alike(const LimitTrial& low, const LimitTrial& high) {
@@ -97,7 +97,7 @@ std::optional<double> sure_to_grow(const LimitTrial& trial, double step) {
   return trial.stiffness * (1.0 + std::min(encoder_error(step, swing), 1.0));
 }
 
-/// By how much the limit of another size of swing may differ, from the growth after a knock and after half of it.
+/// By how much the limit of another size of swing may differ, from the growth after an impulse and after half of it.
 ///
 /// Dry friction takes c/A from the growth rate of a swing A, c constant, so that of two swings
 ///
@@ -106,7 +106,7 @@ std::optional<double> sure_to_grow(const LimitTrial& trial, double step) {
 /// and the slope of the growth rate makes a stiffness of it. Twice that is allowed for: the swings fall while they are
 /// read, and the slope is that of trials with their friction.
 double size_error(const RingDown& whole, const RingDown& smaller, const PoleMotion& motion) {
-  // At their ends: one that decays fast seems to have been smaller than the knock made it.
+  // At their ends: one that decays fast seems to have been smaller than the impulse made it.
   const double larger_by =
       std::clamp(std::abs(whole.amplitude / smaller.amplitude - 1.0), least_difference, most_difference);
   return size_margin * std::abs(whole.growth_rate - smaller.growth_rate) / larger_by / motion.growth;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "zwidth/quantity.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth {
 namespace {

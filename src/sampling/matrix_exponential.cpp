@@ -8,11 +8,11 @@
 namespace zwidth::internal {
 
 Eigen::MatrixXd exponential_minus_one(const Eigen::MatrixXd& matrix) {
-  return exponential_with_slopes(matrix, {}).minus_one;
+  return exponential_with_derivatives(matrix, {}).minus_one;
 }
 
-ExponentialWithSlopes exponential_with_slopes(const Eigen::MatrixXd& matrix,
-                                              const std::vector<Eigen::MatrixXd>& slopes) {
+ExponentialWithDerivatives exponential_with_derivatives(const Eigen::MatrixXd& matrix,
+                                                        const std::vector<Eigen::MatrixXd>& derivatives) {
   const Eigen::VectorXd scales = balancing_scales(matrix);
   Eigen::MatrixXd m = scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();
   const double norm = m.cwiseAbs().rowwise().sum().maxCoeff();
@@ -27,8 +27,8 @@ ExponentialWithSlopes exponential_with_slopes(const Eigen::MatrixXd& matrix,
   std::vector<Eigen::MatrixXd> sums = {sum};  // before each doubling, and the last
   for (int i = 0; i < halvings; ++i) sums.emplace_back(2.0 * sums.back() + sums.back().lazyProduct(sums.back()));
 
-  ExponentialWithSlopes result;
-  for (const Eigen::MatrixXd& each : slopes) {
+  ExponentialWithDerivatives result;
+  for (const Eigen::MatrixXd& each : derivatives) {
     const Eigen::MatrixXd slope = part * (scales.cwiseInverse().asDiagonal() * each * scales.asDiagonal());
     Eigen::MatrixXd of_power = slope;
     Eigen::MatrixXd of_sum = slope;
@@ -46,7 +46,7 @@ ExponentialWithSlopes exponential_with_slopes(const Eigen::MatrixXd& matrix,
       next += before.lazyProduct(of_sum);
       std::swap(of_sum, next);
     }
-    result.slopes.emplace_back(scales.asDiagonal() * of_sum * scales.cwiseInverse().asDiagonal());
+    result.derivatives.emplace_back(scales.asDiagonal() * of_sum * scales.cwiseInverse().asDiagonal());
   }
   result.minus_one = scales.asDiagonal() * sums.back() * scales.cwiseInverse().asDiagonal();
   return result;

@@ -89,13 +89,13 @@ class FrictionBalance {
     for (int i = 0; i < max_newton_steps; ++i) {
       tell(progress_, 0.0);
       const Eigen::VectorXd at = excess(unknowns, share);
-      Eigen::MatrixXd slopes(at.size(), at.size());
+      Eigen::MatrixXd jacobian(at.size(), at.size());
       for (Eigen::Index k = 0; k < at.size(); ++k) {
         Eigen::VectorXd moved = unknowns;
         moved[k] -= difference_step;  // downwards: never past Nyquist
-        slopes.col(k) = (at - excess(moved, share)) / difference_step;
+        jacobian.col(k) = (at - excess(moved, share)) / difference_step;
       }
-      const Eigen::VectorXd step = slopes.fullPivLu().solve(-at);
+      const Eigen::VectorXd step = jacobian.fullPivLu().solve(-at);
       if (!step.allFinite()) return std::nullopt;
       unknowns += step;
       const Eigen::VectorXd moved = (unknowns - start).cwiseAbs();

@@ -7,8 +7,8 @@
 
 #include "require_valid.hpp"
 #include "signal/fitted_sine.hpp"
-#include "simulation/force_ripple.hpp"
 #include "simulation/loop_judgement.hpp"
+#include "simulation/quantisation_force.hpp"
 #include "simulation/simulation_remarks.hpp"
 #include "simulation/simulation_setup.hpp"
 #include "zwidth/error.hpp"
@@ -171,7 +171,7 @@ std::vector<double> run(Simulation& result, HybridLoop& loop, const Device& devi
                         const Progress& progress) {
   const auto samples = static_cast<std::size_t>(std::round(result.duration / device.loop().sampling_period));
   TrajectoryKeeper keeper(device, samples, samples_per_point(options, samples));
-  RippleObserver ripple(device, result.loop, samples);
+  QuantisationForceObserver quantisation_force(device, result.loop, samples);
   const ControllerOptions& wall = result.loop.controller;
   const bool has_wall = wall.kind == ControllerOptions::Kind::wall;
   std::vector<double> sensed;
@@ -188,7 +188,7 @@ std::vector<double> run(Simulation& result, HybridLoop& loop, const Device& devi
     keeper.note_motion(loop);
     loop.step();
     keeper.note_control(loop);
-    ripple.note(sensed.back(), loop.command());
+    quantisation_force.note(sensed.back(), loop.command());
     const double position = loop.sensed_position();
     sensed.push_back(position);
     result.diverged = !(std::abs(position - start) <= options.divergence);
@@ -202,7 +202,7 @@ std::vector<double> run(Simulation& result, HybridLoop& loop, const Device& devi
   result.friction_events = loop.friction_events();
   result.overloaded_steps = loop.overloaded_steps();
   result.final_position = sensed.back();
-  result.force_ripple = ripple.found();
+  result.quantisation_force = quantisation_force.found();
   result.trajectory = keeper.take();
   return sensed;
 }

@@ -30,7 +30,7 @@ std::vector<NonlinearPart> nonlinear_parts(const Simulation& result, const Devic
     if (acts) parts.push_back(part);
   };
   add(whole_friction(device) > 0.0, NonlinearPart::coulomb_friction);
-  add(parameters.sensor.resolution > 0.0, NonlinearPart::encoder_step);
+  add(parameters.sensor.resolution > 0.0, NonlinearPart::quantisation_step);
   add(parameters.actuator.force_limit.has_value(), NonlinearPart::force_limit);
   add(result.loop.controller.contact == ControllerOptions::Contact::unilateral, NonlinearPart::leaving_wall);
   add(faults.lost_sample_probability > 0.0, NonlinearPart::lost_samples);
@@ -42,7 +42,7 @@ std::vector<NonlinearPart> nonlinear_parts(const Simulation& result, const Devic
 /// Linear analysis finds a pole outside the unit circle, and nothing in the loop could hold its oscillation down: an
 /// encoder's step does not.
 bool must_grow(const Simulation& result) {
-  const auto is_encoder = [](NonlinearPart part) { return part == NonlinearPart::encoder_step; };
+  const auto is_encoder = [](NonlinearPart part) { return part == NonlinearPart::quantisation_step; };
   return has_wall(result) && result.loop.controller.stiffness > 0.0 && result.linear.spectral_radius &&
          *result.linear.spectral_radius > 1.0 &&
          std::all_of(result.nonlinear_parts.begin(), result.nonlinear_parts.end(), is_encoder);
@@ -50,7 +50,7 @@ bool must_grow(const Simulation& result) {
 
 /// Whether the motion at the end is so small, or so steady a drift, that the encoder's steps are what moves the force.
 bool chatters(const Simulation& result, const Device& device, std::span<const double> sensed) {
-  if (!result.force_ripple) return false;
+  if (!result.quantisation_force) return false;
   if (result.verdict == LoopVerdict::drifts) return true;
   if (result.verdict != LoopVerdict::settles && result.verdict != LoopVerdict::limit_cycle) return false;
   const auto end = sensed.last(sensed.size() / 4);
@@ -118,15 +118,15 @@ void remark_idle_wall(std::vector<Remark>& remarks, const Simulation& result, co
 void remark_encoder(std::vector<Remark>& remarks, const Simulation& result, const Device& device) {
   if (!result.encoder_chatters) return;
   const Units units = units_of(device.parameters().motion);
-  const ForceRipple& ripple = *result.force_ripple;
+  const QuantisationForce& quantisation_force = *result.quantisation_force;
   const bool is_damped = result.loop.controller.damping > 0.0;
   const bool drifts = result.verdict == LoopVerdict::drifts;
   using enum FindingCode;
   remarks.push_back(warning({.code = drifts ? (is_damped ? encoder_ripple_of_damper_in_drift : encoder_ripple_in_drift)
                                             : (is_damped ? encoder_ripple_of_damper : encoder_ripple),
                              .evidence = {{"resolution", device.parameters().sensor.resolution, units.length},
-                                          {"force_amplitude", ripple.amplitude, units.force},
-                                          {"frequency", hertz(ripple.frequency), "Hz"}},
+                                          {"force_amplitude", quantisation_force.amplitude, units.force},
+                                          {"frequency", hertz(quantisation_force.frequency), "Hz"}},
                              .key = "sensor.resolution"}));
 }
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 #include "zwidth/stability/wall_margins.hpp"
 
 namespace zwidth {
@@ -214,8 +214,8 @@ LinearAnswer linear_answer(const Device& device, const SimulationOptions& option
   const Wall& wall = linear.parameters().wall;
   LinearAnswer answer;
   answer.critical = critical_stiffness(linear);
-  const bool is_held = has_operator(linear);
-  const Device alone = is_held ? without_operator(linear) : linear;
+  const bool is_held = device_has_user(linear);
+  const Device alone = is_held ? device_without_user(linear) : linear;
   const CriticalStiffness of_alone = is_held ? critical_stiffness(alone) : answer.critical;
   answer.limits.nobody = limit_of_holder(of_alone);
   if (is_held) answer.limits.user = limit_of_holder(answer.critical);

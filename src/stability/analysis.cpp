@@ -8,16 +8,16 @@
 #include "counted.hpp"
 #include "model/implausible_numbers.hpp"
 #include "require_valid.hpp"
-#include "stability/any_user_search.hpp"
+#include "stability/absolute_stability_search.hpp"
 #include "stability/confirmed_margins.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/critical_damping.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -31,7 +31,7 @@ RigidApproximation::Error rigid_error(double rigid, double exact) {
 }
 
 RigidApproximation rigid_approximation(const Device& device, const CriticalStiffness& of_device) {
-  const Operator& user = device.parameters().user;
+  const User& user = device.parameters().user;
   RigidApproximation rigid{.mass = user.mass, .damping = user.damping, .stiffness = user.stiffness, .critical = {}};
   for (const Body& body : device.bodies()) {
     rigid.mass += body.mass;
@@ -155,14 +155,14 @@ void add_critical_damping(const Device& device, HolderLimit& limit, Analysis& an
 
 /// The same device and wall with nobody holding, and with the file's user.
 void judge_holders(const Device& device, const AnalysisOptions& options, Analysis& analysis) {
-  const bool is_held = has_operator(device);
+  const bool is_held = device_has_user(device);
   if (analysis.wall) analysis.wall_stable_for = StableFor{.nobody = analysis.wall->stable};
   if (!is_held) {
     analysis.limits.nobody = limit_of_holder(analysis.critical);
     if (options.critical_damping) add_critical_damping(device, analysis.limits.nobody, analysis);
     return;
   }
-  const Device free = without_operator(device);
+  const Device free = device_without_user(device);
   Analysis alone = analyze(free, {.any_user = false, .critical_damping = options.critical_damping, .draws = 0});
   for (const std::string& reason : alone.trust.reasons) {
     if (std::ranges::count(analysis.trust.reasons, reason) > 0) continue;
@@ -185,7 +185,7 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
 }
 
 /// Whether any passive user leaves the wall stable, with the damper alone where it has no spring.
-void judge_wall_for_any_user(Analysis& analysis) {
+void judge_absolute_stability(Analysis& analysis) {
   if (!analysis.wall_stable_for || !analysis.limits.any_user) return;
   const HolderLimit& limit = *analysis.limits.any_user;
   StableFor& wall = *analysis.wall_stable_for;
@@ -209,22 +209,25 @@ void judge_wall_for_any_user(Analysis& analysis) {
 }
 
 /// The limit over all passive users, of the stiffness and of the damper alone.
-void answer_any_user(const Device& device, const AnalysisOptions& options, StagedProgress& stages, Analysis& analysis) {
+void answer_absolute_stability(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
+                               Analysis& analysis) {
   const VirtualDamper damper = virtual_damper(device);
-  if (device.bodies().size() > most_bodies_for_any_user) {
+  if (device.bodies().size() > most_bodies_for_absolute_stability) {
     analysis.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user,
                                      .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
-                                                  {"most", static_cast<double>(most_bodies_for_any_user)}}}));
+                                                  {"most", static_cast<double>(most_bodies_for_absolute_stability)}}}));
     return;
   }
   // That limit rests on the critical stiffness of the device that nobody holds.
   if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
-  AnyUserSearch search(device, stages.stage());
+  AbsoluteStabilitySearch search(device, stages.stage());
   analysis.any_user = search.limit(damper, stages.stage());
   stages.next(0.4);
-  AnyUserLimit& any_user = *analysis.any_user;
-  if (analysis.interval && options.any_user_draws > 0 && device.bodies().size() <= most_bodies_for_any_user_interval) {
-    any_user.interval = any_user_interval(device, damper, options.any_user_draws, usual_draws_seed, stages.stage());
+  AbsoluteStabilityLimit& any_user = *analysis.any_user;
+  if (analysis.interval && options.any_user_draws > 0 &&
+      device.bodies().size() <= most_bodies_for_absolute_stability_interval) {
+    any_user.interval =
+        absolute_stability_interval(device, damper, options.any_user_draws, usual_draws_seed, stages.stage());
     stages.next(0.4);
   }
   any_user.trust.inherit(analysis.trust);
@@ -233,7 +236,7 @@ void answer_any_user(const Device& device, const AnalysisOptions& options, Stage
   limit.critical_stiffness = any_user.stiffness;
   if (any_user.stiffness > 0.0 && std::isfinite(any_user.stiffness)) limit.frequency = any_user.frequency;
   if (options.critical_damping) {
-    const AnyUserLimit of_damper = search.damping_limit(damper.velocity_filter_hz, stages.stage());
+    const AbsoluteStabilityLimit of_damper = search.damping_limit(damper.velocity_filter_hz, stages.stage());
     if (of_damper.trust.sound()) limit.critical_damping = of_damper.stiffness;
     if (of_damper.stiffness > 0.0 && std::isfinite(of_damper.stiffness)) limit.damping_frequency = of_damper.frequency;
   }
@@ -243,15 +246,15 @@ void answer_any_user(const Device& device, const AnalysisOptions& options, Stage
 /// The users: what is asked for and can be answered.
 void answer_about_users(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                         Analysis& analysis) {
-  if (options.any_user && device.has_bodies()) answer_any_user(device, options, stages, analysis);
-  judge_wall_for_any_user(analysis);
+  if (options.any_user && device.has_bodies()) answer_absolute_stability(device, options, stages, analysis);
+  judge_absolute_stability(analysis);
   if (!options.family) return;
   stages.next(1.0);
   const UserFamily family = user_family(*options.family, device.parameters().user);
   UserFamilyAnswer answer{family, worst_of_family(device, family, virtual_damper(device), stages.stage()),
-                          critical_stiffness(without_operator(device))};
+                          critical_stiffness(device_without_user(device))};
   if (stands(answer.free, "the family of users", analysis) &&
-      stands(critical_stiffness(with_operator(device, answer.worst.user)), "the family of users", analysis)) {
+      stands(critical_stiffness(device_with_user(device, answer.worst.user)), "the family of users", analysis)) {
     analysis.user_family = std::move(answer);
   }
 }
@@ -285,10 +288,10 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
   if (!device.has_bodies()) {
     return option_problem(asked, {.code = ProblemCode::no_body_to_hold});
   }
-  if (options.worst_user && device.bodies().size() > most_bodies_for_any_user) {
+  if (options.worst_user && device.bodies().size() > most_bodies_for_absolute_stability) {
     return option_problem("worst_user", {.code = ProblemCode::too_many_bodies,
                                          .evidence = {counted("bodies", device.bodies().size()),
-                                                      counted("most", most_bodies_for_any_user)}});
+                                                      counted("most", most_bodies_for_absolute_stability)}});
   }
   return std::nullopt;
 }
@@ -321,7 +324,7 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (uncertainty && !uncertainty->parameters.empty() && options.draws > 0) {
     analysis.interval = stiffness_interval(device, options.draws, usual_draws_seed, stages.stage());
-    if (is_open(*analysis.interval)) {
+    if (is_inconclusive(*analysis.interval)) {
       analysis.trust.doubt({.code = FindingCode::interval_open,
                             .evidence = {{"lower", analysis.interval->lower}, {"upper", analysis.interval->upper}}});
     }

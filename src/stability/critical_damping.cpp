@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "stability/any_user_search.hpp"
+#include "stability/absolute_stability_search.hpp"
 #include "stability/gain_crossings.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "zwidth/error.hpp"
@@ -89,9 +89,9 @@ CriticalDamping critical_damping(const Device& device) {
   return result;
 }
 
-AnyUserDamping any_user_damping(const Device& device, const Progress& progress) {
-  AnyUserSearch search(device, progress);
-  AnyUserLimit limit = search.damping_limit(device.parameters().wall.velocity_filter_hz, progress);
+AbsoluteStabilityDamping absolute_stability_damping(const Device& device, const Progress& progress) {
+  AbsoluteStabilitySearch search(device, progress);
+  AbsoluteStabilityLimit limit = search.damping_limit(device.parameters().wall.velocity_filter_hz, progress);
   return {limit.stiffness, limit.frequency, limit.truncation, limit.needs_no_user, std::move(limit.trust)};
 }
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "stability/interval_polynomial.hpp"
-#include "stability/user_discs.hpp"
+#include "stability/termination_circles.hpp"
 
 namespace zwidth::internal {
 
-/// UserDiscs::other_aliases() on (0, pi/T], interpolated.
+/// TerminationCircles::other_aliases() on (0, pi/T], interpolated.
 class AliasSums {
  public:
   struct Singularity {
@@ -22,10 +22,10 @@ class AliasSums {
   };
 
   AliasSums() = default;
-  AliasSums(const UserDiscs& discs, double period, const std::vector<Singularity>& images);
+  AliasSums(const TerminationCircles& discs, double period, const std::vector<Singularity>& images);
 
   struct Value {
-    UserDiscs::OtherAliases sums;
+    TerminationCircles::OtherAliases sums;
     double error = 0.0;  // of either sum
   };
   [[nodiscard]] Value at(double frequency) const;
@@ -46,21 +46,21 @@ class AliasSums {
   static const Piece& piece_at(const Pieces& pieces, double frequency);
   static void add(const Piece& piece, double frequency, Value& value);
 
-  Pieces near_;  // UserDiscs::near_aliases()
-  Pieces far_;   // UserDiscs::far_aliases()
+  Pieces near_;  // TerminationCircles::near_aliases()
+  Pieces far_;   // TerminationCircles::far_aliases()
 };
 
 /// The discs on pieces of (0, pi/T], made when they are first asked for and kept: they do not depend on the damper.
 class DiscPieces {
  public:
   DiscPieces() = default;
-  DiscPieces(const UserDiscs& discs, const Device& device);
+  DiscPieces(const TerminationCircles& discs, const Device& device);
 
   struct Node {
     double frequency = 0.0;
-    UserDiscs::Disc disc;  // scaled
-    double factor = 0.0;   // see UserDiscs::SplitDisc
-    double error = 0.0;    // of centre and radius each, over the disc's `one`
+    TerminationCircles::Disc disc;  // scaled
+    double factor = 0.0;            // see TerminationCircles::SplitDisc
+    double error = 0.0;             // of centre and radius each, over the disc's `one`
   };
   struct Piece {
     double base = 0.0;  // rad/s; 0, or the image of a sharp zero, from which what vanishes there keeps its digits
@@ -77,7 +77,7 @@ class DiscPieces {
     [[nodiscard]] bool begins_at_rest() const { return base == 0.0 && begin == 0.0; }
     [[nodiscard]] bool begins_at_zero_of_dissipation() const { return base != 0.0 && begin == 0.0; }
     /// A place of the piece, from -1 <= x <= 1 in which it is interpolated.
-    [[nodiscard]] UserDiscs::Place place_at(double x) const;
+    [[nodiscard]] TerminationCircles::Place place_at(double x) const;
     [[nodiscard]] double lowest() const { return side > 0.0 ? base + begin : base - end; }
     [[nodiscard]] double highest() const { return side > 0.0 ? base + end : base - begin; }
   };
@@ -94,14 +94,14 @@ class DiscPieces {
   [[nodiscard]] bool is_clear_of_poles(std::size_t index, double further) const;
 
   /// The disc from the interpolated sums, scaled.
-  [[nodiscard]] UserDiscs::Disc at(const UserDiscs::Place& place) const;
+  [[nodiscard]] TerminationCircles::Disc at(const TerminationCircles::Place& place) const;
 
  private:
   void add_first(double begin, double end, double base = 0.0, double side = 1.0);
   void add_between(double begin, double end);
   double most_width_ = 0.0;  // of a piece, for the delay
 
-  const UserDiscs* discs_ = nullptr;
+  const TerminationCircles* discs_ = nullptr;
   double period_ = 0.0;
   AliasSums sums_;
   std::vector<AliasSums::Singularity> singularities_;  // of the filters and of the images

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where passive users' discs grow without bound, or nearly so: the zeros of Re Y = w² q^H Dmp q.
+// Where passive termination circles grow without bound, or nearly so: the zeros of Re Y = w² q^H Dmp q.
 
 #include <cstddef>
 #include <vector>

@@ -1,4 +1,4 @@
-// The aliases of passive users' discs in which a zero of Re Y lies on the axis of frequencies or nearly so.
+// The aliases of passive termination circles in which a zero of Re Y lies on the axis of frequencies or nearly so.
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "stability/user_discs.hpp"
+#include "stability/termination_circles.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -16,7 +16,7 @@ constexpr double beside_range = 0.05;  // of Nyquist: images so near to 0..pi/T 
 }  // namespace
 
 /// A zero at w0 is seen by the alias in which it lies, and beside 0 and pi/T by its neighbours.
-void UserDiscs::find_sharp_images() {
+void TerminationCircles::find_sharp_images() {
   const double nyquist = std::numbers::pi / period_;
   for (std::size_t i = 0; i < zeros_.sharp.size(); ++i) {
     const double w0 = zeros_.sharp[i].frequency;
@@ -36,12 +36,12 @@ void UserDiscs::find_sharp_images() {
   });
 }
 
-bool UserDiscs::is_sharp(double number, double side) const {
+bool TerminationCircles::is_sharp(double number, double side) const {
   return std::any_of(sharp_images_.begin(), sharp_images_.end(),
                      [&](const SharpImage& each) { return each.number == number && each.side == side; });
 }
 
-double UserDiscs::mirrored_measures(double frequency) const {
+double TerminationCircles::mirrored_measures(double frequency) const {
   double measures = 1.0;
   for (const SharpImage& each : sharp_images_) {
     const SharpZero& zero = zeros_.sharp[each.zero];
@@ -53,7 +53,8 @@ double UserDiscs::mirrored_measures(double frequency) const {
   return measures;
 }
 
-UserDiscs::ScaledDensity UserDiscs::scaled_density(const Place& place, double number, double side) const {
+TerminationCircles::ScaledDensity TerminationCircles::scaled_density(const Place& place, double number,
+                                                                     double side) const {
   const double at_alias = number * (2.0 * std::numbers::pi / period_) + side * place.frequency();
   const SharpImage* nearest = nullptr;
   const auto distance = [&](const SharpImage& image) {
@@ -91,8 +92,8 @@ UserDiscs::ScaledDensity UserDiscs::scaled_density(const Place& place, double nu
   return scaled;
 }
 
-UserDiscs::Disc UserDiscs::joined(const Disc& own, double measure, std::complex<double> shared,
-                                  const OtherAliases& others) const {
+TerminationCircles::Disc TerminationCircles::joined(const Disc& own, double measure, std::complex<double> shared,
+                                                    const OtherAliases& others) const {
   const std::complex<double> centre = shared * others.centre;
   const double radius = std::abs(shared) * others.radius;
   return {own.centre + measure * centre, own.radius + measure * radius,
@@ -102,7 +103,7 @@ UserDiscs::Disc UserDiscs::joined(const Disc& own, double measure, std::complex<
 }
 
 /// Sums of discs, each over its own measure.
-void UserDiscs::add_sharp_aliases(const Place& place, Disc& disc) const {
+void TerminationCircles::add_sharp_aliases(const Place& place, Disc& disc) const {
   const double spacing = 2.0 * std::numbers::pi / period_;
   const std::complex<double> shared = shared_factor(place.frequency());
   for (std::size_t i = 0; i < sharp_images_.size(); ++i) {

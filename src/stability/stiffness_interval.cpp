@@ -109,7 +109,7 @@ std::optional<Device> with_one_more_known(const Device& device) {
 
 }  // namespace
 
-bool is_open(const StiffnessInterval& interval) {
+bool is_inconclusive(const StiffnessInterval& interval) {
   constexpr double widest = 2.0;  // times the lower end
   return interval.upper > widest * interval.lower;
 }

@@ -44,7 +44,7 @@ class FamilySearch {
   FamilySearch(const Device& device, const UserFamily& family, VirtualDamper damper, const Progress& progress)
       : device_(device), ranges_{family.mass, family.damping, family.stiffness}, damper_(damper), progress_(progress) {}
 
-  [[nodiscard]] Operator user_at(const Place& place) const {
+  [[nodiscard]] User user_at(const Place& place) const {
     const auto value = [&](std::size_t i) {
       const ValueRange& range = ranges_[i];
       // Cubed: the ranges often begin at 0, where a small value makes more difference than a large one.
@@ -65,7 +65,7 @@ class FamilySearch {
   /// Places 0, 1/4, ..., 1 of each range in all combinations; of an empty range only 0.
   [[nodiscard]] std::vector<Found> grid() const {
     std::array<int, 3> counts{};
-    for (std::size_t i = 0; i < 3; ++i) counts[i] = is_open(i) ? levels : 1;
+    for (std::size_t i = 0; i < 3; ++i) counts[i] = is_varied(i) ? levels : 1;
     std::vector<Found> points;
     points.reserve(static_cast<std::size_t>(counts[0] * counts[1] * counts[2]));
     for (int i = 0; i < counts[0]; ++i) {
@@ -93,7 +93,7 @@ class FamilySearch {
     }
     // An end of a range rather than a place that rounding prefers to it.
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!is_open(i)) continue;
+      if (!is_varied(i)) continue;
       for (const double end : {0.0, 1.0}) {
         Found moved = best;
         moved.place[i] = end;
@@ -106,7 +106,7 @@ class FamilySearch {
   }
 
  private:
-  [[nodiscard]] bool is_open(std::size_t i) const { return ranges_[i].greatest > ranges_[i].least; }
+  [[nodiscard]] bool is_varied(std::size_t i) const { return ranges_[i].greatest > ranges_[i].least; }
 
   [[nodiscard]] Found best_neighbour(const Found& from, double step) const {
     static constexpr int directions[][3] = {{1, 0, 0},  {-1, 0, 0},  {0, 1, 0},   {0, -1, 0},  {0, 0, 1},
@@ -116,7 +116,7 @@ class FamilySearch {
     for (const auto& direction : directions) {
       Place place = from.place;
       for (std::size_t i = 0; i < 3; ++i) {
-        if (is_open(i)) place[i] = std::clamp(place[i] + direction[i] * step, 0.0, 1.0);
+        if (is_varied(i)) place[i] = std::clamp(place[i] + direction[i] * step, 0.0, 1.0);
       }
       if (place == from.place) continue;
       const double stiffness = stiffness_at(place);
@@ -152,7 +152,7 @@ std::vector<Found> starts(const std::vector<Found>& grid) {
 
 }  // namespace
 
-UserFamily user_family(const UserRanges& ranges, const Operator& own) {
+UserFamily user_family(const UserRanges& ranges, const User& own) {
   const auto or_own = [](const std::optional<ValueRange>& range, double value) {
     return range.value_or(ValueRange{value, value});
   };

@@ -10,11 +10,11 @@
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/remark.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -50,7 +50,7 @@ class Counter {
     const Specification& wanted = run_.options().specification;
     if (specified_) study_.yield = share(meeting_);
     if (wanted.critical_stiffness) study_.critical_stiffness_yield = share(stiff_);
-    if (wanted.any_user) study_.any_user_yield = share(any_user_stiff_);
+    if (wanted.any_user) study_.absolute_stability_yield = share(any_user_stiff_);
     for (auto& [what, cluster] : clusters_) {
       cluster.share = static_cast<double>(cluster.count) / static_cast<double>(study_.samples - meeting_);
       for (double& score : cluster.mean_scores) score /= static_cast<double>(cluster.count);
@@ -139,7 +139,7 @@ class Counter {
   double largest_ = -infinity;
 };
 
-/// Whether the doubles are the same column of K_CR or of the any-user limit.
+/// Whether the doubles are the same column of K_CR or of the absolute stability limit.
 using Column = std::vector<double> BatchStiffness::*;
 
 struct Quantiles {
@@ -222,8 +222,8 @@ StiffnessHistogram histogram_of(const StudyRun& run, const ChunkSource& chunks, 
 /// What stays without an answer is NaN: the units tell why.
 void add_nominal_limits(const Device& device, Study& study) {
   try {
-    study.limits.nobody = limit_of_holder(critical_stiffness(without_operator(device)));
-    if (has_operator(device)) study.limits.user = limit_of_holder(critical_stiffness(device));
+    study.limits.nobody = limit_of_holder(critical_stiffness(device_without_user(device)));
+    if (device_has_user(device)) study.limits.user = limit_of_holder(critical_stiffness(device));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
@@ -260,7 +260,7 @@ CountedChunks count_chunks(const StudyRun& run, const ChunkSource& chunks, const
   add_nominal_limits(run.device(), study);
   if (study.trust.refused()) {
     study.failed.clear();
-    study.yield = study.critical_stiffness_yield = study.any_user_yield = std::nullopt;
+    study.yield = study.critical_stiffness_yield = study.absolute_stability_yield = std::nullopt;
     study.clusters.clear();
     return counted;
   }
@@ -269,7 +269,7 @@ CountedChunks count_chunks(const StudyRun& run, const ChunkSource& chunks, const
   study.reached_by_95_percent = quantiles.reached_by_95_percent;
   tell(progress, 0.7);
   if (run.options().any_user) {
-    study.any_user_quantiles = quantiles_of(run, chunks, &BatchStiffness::any_user).estimates;
+    study.absolute_stability_quantiles = quantiles_of(run, chunks, &BatchStiffness::any_user).estimates;
   }
   study.histogram = histogram_of(run, chunks, least, largest);
   return counted;

@@ -13,7 +13,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -114,14 +114,14 @@ class Domain {
   }
 
   /// d x / d coordinate, one column per coordinate, at a place.
-  [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::VectorXd& at) const {
-    Eigen::MatrixXd slopes(at.size(), at.size());
+  [[nodiscard]] Eigen::MatrixXd gradients(const Eigen::VectorXd& at) const {
+    Eigen::MatrixXd gradients(at.size(), at.size());
     for (Eigen::Index k = 0; k < at.size(); ++k) {
       const auto moved = static_cast<std::size_t>(k);
       if (has_ends_[moved]) {
         const QuantileFunction& quantile = run_.inputs().quantile(moved);
-        slopes.col(k).setZero();
-        slopes(k, k) = quantile.largest() - quantile.least();
+        gradients.col(k).setZero();
+        gradients(k, k) = quantile.largest() - quantile.least();
         continue;
       }
       Eigen::VectorXd low = at;
@@ -132,10 +132,10 @@ class Domain {
       const std::vector<double> above = values(high);
       for (Eigen::Index i = 0; i < at.size(); ++i) {
         const auto j = static_cast<std::size_t>(i);
-        slopes(i, k) = (above[j] - below[j]) / (2.0 * difference);
+        gradients(i, k) = (above[j] - below[j]) / (2.0 * difference);
       }
     }
-    return slopes;
+    return gradients;
   }
 
  private:
@@ -168,7 +168,7 @@ struct Place {
   Eigen::VectorXd at;
   double limit = std::numeric_limits<double>::quiet_NaN();  // that is searched; where there is no device it stays so
   CriticalStiffness critical = {};                          // where its stiffness is the limit
-  AnyUserLimit any_user = {};                               // where it is that
+  AbsoluteStabilityLimit any_user = {};                     // where it is that
 };
 
 class Search {
@@ -195,7 +195,7 @@ class Search {
     try {
       const Device device(std::move(parameters));
       if (searched_ == SearchedLimit::any_user) {
-        place.any_user = any_user_limit(device, virtual_damper(device), progress_);
+        place.any_user = absolute_stability_limit(device, virtual_damper(device), progress_);
         place.limit = place.any_user.stiffness;
       } else {
         place.critical = critical_stiffness(device);
@@ -210,7 +210,7 @@ class Search {
   [[nodiscard]] Place descend(Place from) {
     for (int step = 0; step < most_steps && from.limit > 0.0; ++step) {
       std::optional<Place> lower;
-      for (const Eigen::VectorXd& slope : slopes(from)) {
+      for (const Eigen::VectorXd& slope : gradients(from)) {
         lower = step_along(from, slope);
         if (lower) break;
       }
@@ -226,25 +226,25 @@ class Search {
 
  private:
   /// By coordinate: of the limiting crossover first, then of the others by rising stiffness.
-  [[nodiscard]] std::vector<Eigen::VectorXd> slopes(const Place& from) {
-    std::vector<Eigen::VectorXd> slopes;
-    if (!std::isfinite(from.limit) || !(from.limit > 0.0)) return slopes;
+  [[nodiscard]] std::vector<Eigen::VectorXd> gradients(const Place& from) {
+    std::vector<Eigen::VectorXd> gradients;
+    if (!std::isfinite(from.limit) || !(from.limit > 0.0)) return gradients;
     const Device device(device_at(from.at));
-    const Eigen::MatrixXd of_values = domain_.slopes(from.at);
+    const Eigen::MatrixXd of_values = domain_.gradients(from.at);
     const auto add = [&](const std::vector<Sensitivity>& sensitivities) {
       Eigen::VectorXd slope = Eigen::VectorXd::Zero(from.at.size());
       for (const Sensitivity& each : sensitivities) {
         const std::size_t j = index_of(each.key);
         if (j < domain_.size()) slope += each.slope * of_values.row(static_cast<Eigen::Index>(j)).transpose();
       }
-      if (slope.allFinite() && slope.squaredNorm() > 0.0) slopes.push_back(std::move(slope));
+      if (slope.allFinite() && slope.squaredNorm() > 0.0) gradients.push_back(std::move(slope));
     };
     if (searched_ == SearchedLimit::any_user) {
       try {
-        add(any_user_sensitivities(device, from.any_user));
+        add(absolute_stability_sensitivities(device, from.any_user));
       } catch (const Error&) {  // steps beside it remain
       }
-      return slopes;
+      return gradients;
     }
     std::vector<Crossover> crossovers = from.critical.crossovers;
     std::ranges::sort(crossovers, {}, &Crossover::stiffness);
@@ -261,7 +261,7 @@ class Search {
         continue;
       }
     }
-    return slopes;
+    return gradients;
   }
 
   [[nodiscard]] std::size_t index_of(const std::string& key) const {
@@ -372,7 +372,7 @@ std::optional<WorstDevice> find_worst(const StudyRun& run, const std::vector<Low
   found.critical = critical_stiffness(device);
   found.trust.inherit(found.critical.trust);
   if (run.options().any_user) {
-    const AnyUserLimit limit = any_user_limit(device, virtual_damper(device), progress);
+    const AbsoluteStabilityLimit limit = absolute_stability_limit(device, virtual_damper(device), progress);
     found.any_user = limit.stiffness;
     found.trust.inherit(limit.trust);
   }

@@ -1,4 +1,4 @@
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth {
 

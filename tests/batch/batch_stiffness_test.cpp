@@ -9,7 +9,7 @@
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {
 namespace {
@@ -30,9 +30,9 @@ TEST(BatchStiffness, HoldsTheAnyUserLimitWhereAsked) {
   ASSERT_EQ(columns.any_user.size(), 3U);
   for (const std::size_t i : {0U, 1U}) {
     const Device one = with(changes, i);
-    const AnyUserLimit limit = any_user_limit(one, virtual_damper(one));
+    const AbsoluteStabilityLimit limit = absolute_stability_limit(one, virtual_damper(one));
     EXPECT_EQ(columns.any_user[i], limit.stiffness);
-    EXPECT_EQ(columns.any_user_frequency[i], limit.frequency);
+    EXPECT_EQ(columns.absolute_stability_frequency[i], limit.frequency);
   }
   EXPECT_TRUE(std::isnan(columns.any_user[2]));
   EXPECT_TRUE(batch_stiffness(device, changes).any_user.empty());

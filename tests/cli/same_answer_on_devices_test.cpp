@@ -123,7 +123,7 @@ Answer diagnosed(const Device& device) {
 }
 
 Answer recommended(const Device& device) {
-  const RecommendationOptions options{.phase_margin = 0.0, .ripple = 0.2};
+  const RecommendationOptions options{.phase_margin = 0.0, .quantisation_force = 0.2};
   const WallRecommendation wall = recommend_wall(device, options);
   return {results::line(results::wall_recommendation_json(device, options, wall))};
 }
@@ -140,7 +140,7 @@ std::string sweep_arguments(const Device& device) {
                      2.0 * device.loop().sampling_period, device.has_bodies() ? " --any-user" : "");
 }
 
-constexpr Operator compared_user{0.5, 6.0, 135.0};
+constexpr User compared_user{0.5, 6.0, 135.0};
 
 Answer compared(const Device& device) {
   DeviceVariants delayed{"loop.delay", {}};

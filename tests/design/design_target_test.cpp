@@ -11,7 +11,7 @@
 #include "property/random_devices.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 #include "zwidth/words/finding_text.hpp"
 
@@ -85,14 +85,14 @@ TEST(DesignTarget, EveryNeededValueIsConfirmed) {
 TEST(DesignTarget, OfTheLimitWithAnyUser) {
   const Device device(test::lhifam_parameters());
   const DesignTargets targets =
-      design_targets(device, {.stiffness = 6500.0, .goal = StiffnessGoal::any_user_limit, .factor = 10.0});
+      design_targets(device, {.stiffness = 6500.0, .goal = StiffnessGoal::absolute_stability_limit, .factor = 10.0});
   EXPECT_NEAR(targets.limit_now.value(), 5776.09, 0.1);
   int found = 0;
   for (const DesignTarget& each : targets.targets) {
     EXPECT_FALSE(each.key.starts_with("operator."));
     if (!each.value_needed) continue;
     const Device changed = with(device, each.key, *each.value_needed);
-    EXPECT_NEAR(any_user_limit(changed, virtual_damper(changed)).stiffness / 6500.0, 1.0, 1e-6) << each.key;
+    EXPECT_NEAR(absolute_stability_limit(changed, virtual_damper(changed)).stiffness / 6500.0, 1.0, 1e-6) << each.key;
     ++found;
   }
   EXPECT_GE(found, 3);
@@ -118,8 +118,9 @@ TEST(DesignTarget, OfManyBodiesThoseThatMoveTheLimitMostAreFollowed) {
   parameters.loop.sampling_period = 1e-3;
   parameters.loop.held = 5;
   const Device device(parameters);
-  const double target = 1.2 * any_user_limit(device).stiffness;
-  const DesignTargets found = design_targets(device, {.stiffness = target, .goal = StiffnessGoal::any_user_limit});
+  const double target = 1.2 * absolute_stability_limit(device).stiffness;
+  const DesignTargets found =
+      design_targets(device, {.stiffness = target, .goal = StiffnessGoal::absolute_stability_limit});
   ASSERT_EQ(found.remarks.size(), 1U);
   std::size_t reached = 0;
   for (const DesignTarget& each : found.targets) {
@@ -131,7 +132,7 @@ TEST(DesignTarget, OfManyBodiesThoseThatMoveTheLimitMostAreFollowed) {
     DeviceParameters moved = parameters;
     set_parameter(moved, each.key, *each.value_needed);
     const Device there(moved);
-    EXPECT_NEAR(any_user_limit(there, virtual_damper(there)).stiffness / target, 1.0, 1e-6) << each.key;
+    EXPECT_NEAR(absolute_stability_limit(there, virtual_damper(there)).stiffness / target, 1.0, 1e-6) << each.key;
   }
   EXPECT_GE(reached, 1U);
   EXPECT_LE(reached, 7U);
@@ -142,9 +143,9 @@ TEST(DesignTarget, OfManyBodiesThoseThatMoveTheLimitMostAreFollowed) {
 TEST(DesignTarget, EachProposalIsJudgedForAnyUserAndWhatLowersThatLimitComesLast) {
   const Device device(two_bodies(0.145, 0.0102, 0.233, 0.268, 50.9e3, 8.79));
   const double nobody = critical_stiffness(device).stiffness;
-  const double any_user = any_user_limit(device).stiffness;
+  const double any_user = absolute_stability_limit(device).stiffness;
   const DesignTargets targets = design_targets(device, {.stiffness = 2.0 * nobody});
-  EXPECT_DOUBLE_EQ(targets.any_user_now.value(), any_user);
+  EXPECT_DOUBLE_EQ(targets.absolute_stability_limit_now.value(), any_user);
   int lowering = 0;
   bool lowers_before = false;
   for (const DesignTarget& each : targets.targets) {
@@ -152,8 +153,8 @@ TEST(DesignTarget, EachProposalIsJudgedForAnyUserAndWhatLowersThatLimitComesLast
     ASSERT_EQ(each.safe.has_value(), each.value_needed.has_value());
     if (!each.value_needed) continue;
     const Device changed = with(device, each.key, *each.value_needed);
-    const AnyUserLimit then = any_user_limit(changed, virtual_damper(changed));
-    EXPECT_NEAR(*each.any_user_then / then.stiffness, 1.0, 1e-9);
+    const AbsoluteStabilityLimit then = absolute_stability_limit(changed, virtual_damper(changed));
+    EXPECT_NEAR(*each.absolute_stability_limit_then / then.stiffness, 1.0, 1e-9);
     EXPECT_EQ(*each.safe, then.stiffness * (1.0 + then.truncation) >= any_user * (1.0 - 1e-9));
     EXPECT_FALSE(lowers_before && *each.safe) << "what lowers it comes last";
     lowers_before = lowers_before || !*each.safe;
@@ -197,23 +198,23 @@ TEST(DesignTarget, AMultipleIsOfTodaysLimit) {
 TEST(DesignTarget, OfTheLargestDamper) {
   const Device device(test::lhifam_parameters());
   const double now = critical_damping(device).damping;
-  const double any_user = any_user_damping(device).damping;
-  for (const StiffnessGoal goal : {StiffnessGoal::critical_stiffness, StiffnessGoal::any_user_limit}) {
+  const double any_user = absolute_stability_damping(device).damping;
+  for (const StiffnessGoal goal : {StiffnessGoal::critical_stiffness, StiffnessGoal::absolute_stability_limit}) {
     const DesignTargets targets =
         design_targets(device, {.goal = goal, .factor = 10.0, .times_now = 1.5, .limit_of = WallNumber::damping});
-    const bool of_users = goal == StiffnessGoal::any_user_limit;
+    const bool of_users = goal == StiffnessGoal::absolute_stability_limit;
     EXPECT_DOUBLE_EQ(targets.limit_now.value(), of_users ? std::min(now, any_user) : now);
-    EXPECT_DOUBLE_EQ(targets.any_user_now.value(), any_user);
+    EXPECT_DOUBLE_EQ(targets.absolute_stability_limit_now.value(), any_user);
     int found = 0;
     for (const DesignTarget& each : targets.targets) {
       SCOPED_TRACE(each.key);
       EXPECT_NE(each.key, "wall.damping");
       if (!each.value_needed || each.why.code == FindingCode::limit_jumps_across_target) continue;
       const Device changed = with(device, each.key, *each.value_needed);
-      const double users_then = any_user_damping(changed).damping;
+      const double users_then = absolute_stability_damping(changed).damping;
       EXPECT_NEAR((of_users ? users_then : critical_damping(changed).damping) / *targets.target, 1.0, 1e-6);
-      EXPECT_NEAR(*each.any_user_then / users_then, 1.0, 1e-9);
-      EXPECT_EQ(each.safe.value(), *each.any_user_then >= any_user * (1.0 - 1e-9));
+      EXPECT_NEAR(*each.absolute_stability_limit_then / users_then, 1.0, 1e-9);
+      EXPECT_EQ(each.safe.value(), *each.absolute_stability_limit_then >= any_user * (1.0 - 1e-9));
       ++found;
     }
     EXPECT_GE(found, 2);
@@ -241,7 +242,8 @@ TEST(DesignTarget, RefusesWhatItCannotDo) {
   EXPECT_FALSE(find_problem(DesignTargetOptions{.times_now = 2.0}, device));
   EXPECT_THROW((void)design_targets(device, {}), Error);
   const Device plant(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0));
-  EXPECT_EQ(find_problem(DesignTargetOptions{.stiffness = 1.0, .goal = StiffnessGoal::any_user_limit}, plant)->member,
+  EXPECT_EQ(find_problem(DesignTargetOptions{.stiffness = 1.0, .goal = StiffnessGoal::absolute_stability_limit}, plant)
+                ->member,
             "goal");
 }
 

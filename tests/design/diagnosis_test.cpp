@@ -12,7 +12,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
@@ -125,24 +125,25 @@ TEST(Diagnosis, NoDamperIsProposedWithWhichSomeUserDestabilisesEveryWall) {
   const Device device(parameters);
   const CriticalStiffness now = critical_stiffness(device);
   parameters.wall.damping = 13.81;
-  EXPECT_EQ(any_user_limit(Device(parameters), {13.81, 0.0}).stiffness, 0.0);
-  const double any_user = any_user_limit(device).stiffness;
+  EXPECT_EQ(absolute_stability_limit(Device(parameters), {13.81, 0.0}).stiffness, 0.0);
+  const double any_user = absolute_stability_limit(device).stiffness;
   const Diagnosis diagnosis = diagnose(device, {.frequency = now.limit->frequency, .stiffness = 1.05 * now.stiffness});
   EXPECT_EQ(diagnosis.cause, OscillationCause::device);
-  EXPECT_DOUBLE_EQ(diagnosis.any_user_now.value(), any_user);
+  EXPECT_DOUBLE_EQ(diagnosis.absolute_stability_limit_now.value(), any_user);
   const auto damper = std::ranges::find(diagnosis.changes, "wall.damping", &DiagnosisChange::key);
   ASSERT_NE(damper, diagnosis.changes.end());
   EXPECT_TRUE(damper->safe.value());
   bool lowers_before = false;
   for (const DiagnosisChange& each : diagnosis.changes) {
     SCOPED_TRACE(each.what);
-    EXPECT_EQ(each.safe.value(), each.any_user_then.value() >= any_user * (1.0 - 1e-9));
+    EXPECT_EQ(each.safe.value(), each.absolute_stability_limit_then.value() >= any_user * (1.0 - 1e-9));
     EXPECT_FALSE(lowers_before && *each.safe) << "what lowers it comes last";
     lowers_before = !*each.safe;
     if (each.key != "wall.damping") continue;
     DeviceParameters then = device.parameters();
     then.wall.damping = each.value_then;
-    EXPECT_DOUBLE_EQ(*each.any_user_then, any_user_limit(Device(then), virtual_damper(Device(then))).stiffness);
+    EXPECT_DOUBLE_EQ(*each.absolute_stability_limit_then,
+                     absolute_stability_limit(Device(then), virtual_damper(Device(then))).stiffness);
   }
 }
 
@@ -190,8 +191,9 @@ TEST(Diagnosis, ADamperAloneIsDiagnosedByItsOwnLimit) {
     }
     EXPECT_EQ(each.ends_it.value(), excess_of(Device(then)) < 0.0);
     EXPECT_NEAR(*each.limit_then / critical_damping(Device(then)).damping, 1.0, 1e-12);
-    EXPECT_NEAR(*each.any_user_then / any_user_damping(Device(then)).damping, 1.0, 1e-9);
-    EXPECT_EQ(each.safe.value(), *each.any_user_then >= *diagnosis.any_user_now * (1.0 - 1e-9));
+    EXPECT_NEAR(*each.absolute_stability_limit_then / absolute_stability_damping(Device(then)).damping, 1.0, 1e-9);
+    EXPECT_EQ(each.safe.value(),
+              *each.absolute_stability_limit_then >= *diagnosis.absolute_stability_limit_now * (1.0 - 1e-9));
     ending += *each.ends_it ? 1 : 0;
   }
   EXPECT_GE(ending, 1);
@@ -226,7 +228,7 @@ TEST(Diagnosis, AGraspThatMakesADamperOscillateIsNamed) {
   parameters.links = {{0, 1, 87.3e3, 2.49}};
   parameters.loop = {0, 0, 1, 1e-3, 1e-3};
   parameters.wall.stiffness = 0.0;
-  const AnyUserDamping any_user = any_user_damping(Device(parameters));
+  const AbsoluteStabilityDamping any_user = absolute_stability_damping(Device(parameters));
   const double alone = critical_damping(Device(parameters)).damping;
   ASSERT_LT(any_user.damping, 0.9 * alone);
   ASSERT_GT(any_user.frequency, 0.0);
@@ -234,7 +236,7 @@ TEST(Diagnosis, AGraspThatMakesADamperOscillateIsNamed) {
   const Diagnosis diagnosis = diagnose(Device(parameters), {.frequency = any_user.frequency});
   EXPECT_EQ(diagnosis.cause, OscillationCause::passive_user);
   EXPECT_NEAR(diagnosis.candidates.front().damping.value() / any_user.damping, 1.0, 1e-3);
-  EXPECT_EQ(diagnosis.any_user_now, any_user.damping);
+  EXPECT_EQ(diagnosis.absolute_stability_limit_now, any_user.damping);
 }
 
 TEST(Diagnosis, ChangesAreWhatTheLibraryComputes) {
@@ -243,11 +245,12 @@ TEST(Diagnosis, ChangesAreWhatTheLibraryComputes) {
   ASSERT_NE(damped, diagnosis.changes.end());
   DeviceParameters parameters = test::lhifam_parameters();
   for (Body& body : parameters.bodies) body.damping *= 1.2;
-  EXPECT_DOUBLE_EQ(*damped->limit_then, any_user_limit(Device(parameters)).stiffness);
+  EXPECT_DOUBLE_EQ(*damped->limit_then, absolute_stability_limit(Device(parameters)).stiffness);
   EXPECT_EQ(*damped->ends_it, *damped->limit_then > 5900.0);
   EXPECT_TRUE(std::ranges::is_sorted(diagnosis.changes, std::greater<>(),
                                      [](const DiagnosisChange& each) { return *each.limit_then; }));
-  for (const DiagnosisChange& each : diagnosis.changes) EXPECT_EQ(each.any_user_then, each.limit_then) << each.what;
+  for (const DiagnosisChange& each : diagnosis.changes)
+    EXPECT_EQ(each.absolute_stability_limit_then, each.limit_then) << each.what;
 }
 
 // A damper of 20 times was the first remedy, which makes the wall half as stiff as leaving the filter out; without the
@@ -266,7 +269,7 @@ TEST(Diagnosis, ASlowVelocityFilterIsAmongWhatMovesIt) {
   const auto unfiltered = std::ranges::find(diagnosis.changes, "wall.velocity_filter_hz", &DiagnosisChange::key);
   ASSERT_NE(unfiltered, diagnosis.changes.end());
   EXPECT_EQ(unfiltered->value_then, 0.0);
-  EXPECT_EQ(unfiltered->any_user_then, 0.0);
+  EXPECT_EQ(unfiltered->absolute_stability_limit_then, 0.0);
   EXPECT_FALSE(unfiltered->safe.value());
   EXPECT_TRUE(diagnosis.changes.front().safe.value());
   const auto faster = std::ranges::find(diagnosis.changes, "actuator.time_constant", &DiagnosisChange::key);

@@ -8,8 +8,8 @@
 
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
-#include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
@@ -32,13 +32,13 @@ Device with_notch(const Device& device, const WallFilter& notch) {
 }
 
 // Stability alone, as far as any notch can raise it.
-NotchOptions without_margins(double drift = 0.0) {
+NotchOptions without_margins(double uncertainty = 0.0) {
   NotchOptions options;
-  options.drift = drift;
+  options.modal_frequency_uncertainty = uncertainty;
   options.gain_margin = 1.0;
   options.phase_margin = 0.0;
   options.far_from_modes = true;
-  options.lower_any_user = true;
+  options.lower_absolute_stability_limit = true;
   return options;
 }
 
@@ -54,12 +54,12 @@ TEST(NotchDesign, RaisesTheWorstWallAndEigenvaluesAgree) {
   const NotchDesign design = design_notch(device, without_margins(0.1));
   ASSERT_TRUE(design.notch);
   EXPECT_GT(design.with, 1.5 * design.without);
-  ASSERT_EQ(design.over_drift.size(), 41u);
+  ASSERT_EQ(design.over_modal_shift.size(), 41u);
   double least = std::numeric_limits<double>::infinity();
-  for (const NotchAtDrift& each : design.over_drift) {
-    const Device notched = with_notch(drifted(device, each.drift), *design.notch);
+  for (const NotchAtModalShift& each : design.over_modal_shift) {
+    const Device notched = with_notch(with_modal_shift(device, each.modal_shift), *design.notch);
     EXPECT_NEAR(critical_stiffness(notched).stiffness / each.with, 1.0, 1e-12);
-    EXPECT_LT(excess(notched, design.with * (1.0 - 1e-6)), 0.0) << each.drift;
+    EXPECT_LT(excess(notched, design.with * (1.0 - 1e-6)), 0.0) << each.modal_shift;
     EXPECT_GE(each.with, design.with);
     least = std::min(least, each.with);
   }
@@ -67,17 +67,17 @@ TEST(NotchDesign, RaisesTheWorstWallAndEigenvaluesAgree) {
   EXPECT_GT(design.with, 0.999 * least);
 }
 
-// Its worst lies between the drifts of the table.
+// Its worst lies between the modal shifts of the table.
 TEST(NotchDesign, KeepsItsPromiseBetweenTheDriftsOfTheTable) {
   const Device device(test::reduced_pretension_parameters());
   const NotchDesign design = design_notch(device, without_margins(0.1));
   ASSERT_TRUE(design.notch);
   for (int i = -400; i <= 400; ++i) {
-    const double drift = 0.1 * i / 400.0;
-    const Device notched = with_notch(drifted(device, drift), *design.notch);
-    ASSERT_GE(critical_stiffness(notched).stiffness, design.with) << drift;
+    const double modal_shift = 0.1 * i / 400.0;
+    const Device notched = with_notch(with_modal_shift(device, modal_shift), *design.notch);
+    ASSERT_GE(critical_stiffness(notched).stiffness, design.with) << modal_shift;
     if (i % 20 == 0) {
-      ASSERT_LT(excess(notched, design.with), 0.0) << drift;
+      ASSERT_LT(excess(notched, design.with), 0.0) << modal_shift;
     }
   }
 }
@@ -107,8 +107,9 @@ TEST(NotchDesign, IsALocalOptimum) {
     if (i / 2 == 1) moved.damping_ratio *= factor;
     if (i / 2 == 2) moved.depth *= factor;
     double least = std::numeric_limits<double>::infinity();
-    for (const NotchAtDrift& each : design.over_drift) {
-      least = std::min(least, critical_stiffness(with_notch(drifted(device, each.drift), moved)).stiffness);
+    for (const NotchAtModalShift& each : design.over_modal_shift) {
+      least =
+          std::min(least, critical_stiffness(with_notch(with_modal_shift(device, each.modal_shift), moved)).stiffness);
     }
     EXPECT_LE(least, design.with * 1.001) << i;
   }
@@ -121,8 +122,8 @@ TEST(NotchDesign, KeepsTheMarginsAskedFor) {
   options.phase_margin = 0.1;
   const NotchDesign design = design_notch(device, options);
   ASSERT_TRUE(design.notch);
-  for (const NotchAtDrift& each : design.over_drift) {
-    DeviceParameters parameters = with_notch(drifted(device, each.drift), *design.notch).parameters();
+  for (const NotchAtModalShift& each : design.over_modal_shift) {
+    DeviceParameters parameters = with_notch(with_modal_shift(device, each.modal_shift), *design.notch).parameters();
     parameters.wall.stiffness = each.with;
     const WallMargins margins = wall_margins(Device(std::move(parameters)));
     EXPECT_TRUE(margins.stable);
@@ -134,11 +135,11 @@ TEST(NotchDesign, KeepsTheMarginsAskedFor) {
 TEST(NotchDesign, RaisesTheAnyUserLimit) {
   const Device device = mode_limited();
   NotchOptions options = without_margins();
-  options.goal = StiffnessGoal::any_user_limit;
+  options.goal = StiffnessGoal::absolute_stability_limit;
   const NotchDesign design = design_notch(device, options);
   EXPECT_GE(design.with, design.without);
   if (design.notch) {
-    EXPECT_NEAR(any_user_limit(with_notch(device, *design.notch)).stiffness / design.with, 1.0, 2e-6);
+    EXPECT_NEAR(absolute_stability_limit(with_notch(device, *design.notch)).stiffness / design.with, 1.0, 2e-6);
   }
 }
 
@@ -160,12 +161,12 @@ TEST(NotchDesign, KeepsTheDefaultMarginsAtEveryDrift) {
   damped.wall.damping = 8.0;
   const Device device(damped);
   NotchOptions options;
-  options.drift = 0.1;
+  options.modal_frequency_uncertainty = 0.1;
   const NotchDesign design = design_notch(device, options);
   EXPECT_TRUE(design.trust.sound());
   ASSERT_GT(design.with, 0.0);
-  for (const NotchAtDrift& each : design.over_drift) {
-    const Device plain = drifted(device, each.drift);
+  for (const NotchAtModalShift& each : design.over_modal_shift) {
+    const Device plain = with_modal_shift(device, each.modal_shift);
     const Device notched = design.notch ? with_notch(plain, *design.notch) : plain;
     EXPECT_LT(excess(notched, design.with), 0.0);
     EXPECT_LT(excess(notched, 2.0 * design.with * (1.0 - 1e-5)), 0.0) << "the stiffness alone, twice";
@@ -175,8 +176,8 @@ TEST(NotchDesign, KeepsTheDefaultMarginsAtEveryDrift) {
     EXPECT_TRUE(margins.stable);
     EXPECT_GE(margins.gain_margin.value(), 2.0 * (1.0 - 1e-5));
     EXPECT_GE(margins.phase_margin.value(), std::numbers::pi / 6.0 * (1.0 - 1e-5));
-    EXPECT_GE(any_user_limit(notched, virtual_damper(notched)).stiffness,
-              any_user_limit(plain, virtual_damper(plain)).stiffness * (1.0 - 1e-9));
+    EXPECT_GE(absolute_stability_limit(notched, virtual_damper(notched)).stiffness,
+              absolute_stability_limit(plain, virtual_damper(plain)).stiffness * (1.0 - 1e-9));
   }
   if (design.notch) {
     const double mode = modal_form(device).modes.at(0).frequency / (2.0 * std::numbers::pi);
@@ -187,15 +188,15 @@ TEST(NotchDesign, KeepsTheDefaultMarginsAtEveryDrift) {
 
 TEST(NotchDesign, NeverLowersTheAnyUserLimitUnasked) {
   const Device device(test::reduced_pretension_parameters());
-  const double free = any_user_limit(device).stiffness;
+  const double free = absolute_stability_limit(device).stiffness;
   NotchOptions options = without_margins(0.1);
   const NotchDesign lowering = design_notch(device, options);
   ASSERT_TRUE(lowering.notch);
-  EXPECT_LT(any_user_limit(with_notch(device, *lowering.notch)).stiffness, free);
-  options.lower_any_user = false;
+  EXPECT_LT(absolute_stability_limit(with_notch(device, *lowering.notch)).stiffness, free);
+  options.lower_absolute_stability_limit = false;
   const NotchDesign keeping = design_notch(device, options);
   if (keeping.notch) {
-    EXPECT_GE(any_user_limit(with_notch(device, *keeping.notch)).stiffness, free * (1.0 - 1e-9));
+    EXPECT_GE(absolute_stability_limit(with_notch(device, *keeping.notch)).stiffness, free * (1.0 - 1e-9));
   }
 }
 
@@ -203,7 +204,7 @@ TEST(NotchDesign, DriftMovesTheModesByItsFactor) {
   DeviceParameters free = test::lhifam_parameters();
   for (Body& body : free.bodies) body.damping = 0.0;
   const double nominal = modal_form(Device(free)).modes.at(0).frequency;
-  const Mode moved = modal_form(drifted(Device(free), 0.2)).modes.at(0);
+  const Mode moved = modal_form(with_modal_shift(Device(free), 0.2)).modes.at(0);
   EXPECT_NEAR(moved.frequency / nominal, 1.2, 1e-12);
   EXPECT_NEAR(moved.damping_ratio, modal_form(Device(free)).modes.at(0).damping_ratio, 1e-12);
 }
@@ -211,9 +212,9 @@ TEST(NotchDesign, DriftMovesTheModesByItsFactor) {
 TEST(NotchDesign, RefusesWhatItCannotDo) {
   const Device device = mode_limited();
   NotchOptions options;
-  options.drift = -0.1;
+  options.modal_frequency_uncertainty = -0.1;
   EXPECT_THROW((void)design_notch(device, options), Error);
-  options.drift = 0.95;
+  options.modal_frequency_uncertainty = 0.95;
   EXPECT_THROW((void)design_notch(device, options), Error);
   options = {};
   options.gain_margin = 0.5;
@@ -222,7 +223,7 @@ TEST(NotchDesign, RefusesWhatItCannotDo) {
   options.phase_margin = std::nan("");
   EXPECT_THROW((void)design_notch(device, options), Error);
   EXPECT_THROW((void)design_notch(Device(test::rigid_parameters()), {}), Error);
-  EXPECT_THROW((void)drifted(Device(test::rigid_parameters()), 0.1), Error);
+  EXPECT_THROW((void)with_modal_shift(Device(test::rigid_parameters()), 0.1), Error);
 }
 
 }  // namespace

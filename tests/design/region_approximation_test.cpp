@@ -34,7 +34,8 @@ TEST(RegionApproximation, ThereAreNoneForATransferFunction) {
 // Where it holds, Colgate & Schenkel is exact.
 TEST(ApproximationError, IsNoneForARigidDeviceWithAnyUser) {
   const Device device(test::rigid_parameters());
-  const AnyUserRegion region = any_user_region(device, StableWalls(filtered_plant(device), 50.0), 100.0);
+  const AbsoluteStabilityRegion region =
+      absolute_stability_region(device, StableWalls(filtered_plant(device), 50.0), 100.0);
   const ApproximationError error = approximation_error(region_approximations(device, 50.0)[0], region);
   EXPECT_NEAR(*error.ratio, 1.0, 1e-5);
   EXPECT_NEAR(*error.unsafe_share, 0.0, 1e-4);
@@ -43,7 +44,7 @@ TEST(ApproximationError, IsNoneForARigidDeviceWithAnyUser) {
 
 // Walls K < 3/2, B < 1 against K = 1 + B, B < 1.
 TEST(ApproximationError, SharesAreAreas) {
-  AnyUserRegion square;
+  AbsoluteStabilityRegion square;
   square.ranges = {{{0.0, 1.5, 1.0}, {1.0, 1.5, 1.0}}};
   square.most_damped = square.ranges[0][1];
   const RegionApproximation formula{Formula::gil_hulin, true, 1.0, 1.0, 1.0};
@@ -58,7 +59,8 @@ TEST(ApproximationError, SharesAreAreas) {
 TEST(ApproximationError, OfTableI) {
   const Device device(test::lhifam_parameters());
   const StableWalls walls(filtered_plant(device));
-  const AnyUserRegion any_user = any_user_region(device, StableWalls(filtered_plant(device)), 600.0);
+  const AbsoluteStabilityRegion any_user =
+      absolute_stability_region(device, StableWalls(filtered_plant(device)), 600.0);
   const auto formulas = region_approximations(device, 0.0);
   EXPECT_NEAR(*approximation_error(formulas[0], any_user).ratio, 7000.0 / 5776.09, 1e-4);
   EXPECT_TRUE(approximation_error(formulas[0], any_user).unsafe);

@@ -15,8 +15,8 @@
 #include "stability/device_draws.hpp"
 #include "zwidth/design/stable_walls.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
-#include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
@@ -52,7 +52,7 @@ std::optional<SafeWall> ceilings_of(const Device& device, double factor) {
   return wall;
 }
 
-Device held_by(const Device& device, Operator user) {
+Device held_by(const Device& device, User user) {
   DeviceParameters parameters = device.parameters();
   parameters.user = user;
   return Device(parameters);
@@ -75,12 +75,12 @@ TEST(SafeWallCeilings, HoldTogetherAndAlone) {
       EXPECT_EQ(ceilings->basis, SafeWall::Basis::any_user);
       EXPECT_EQ(ceilings->stiffness, factor * ceilings->limit);
       EXPECT_EQ(ceilings->damping, factor * *ceilings->damping_limit);
-      EXPECT_EQ(ceilings->limit, any_user_limit(device, {0.0, parameters.wall.velocity_filter_hz}).stiffness);
+      EXPECT_EQ(ceilings->limit, absolute_stability_limit(device, {0.0, parameters.wall.velocity_filter_hz}).stiffness);
       EXPECT_GT(ceilings->damping, 0.0);
       expect_stable_rectangle(device, *ceilings);
       EXPECT_LT(excess(device, 0.0, ceilings->damping), 0.0);  // damping alone
-      for (const Operator& user :
-           {Operator{0.5, 0.0, 0.0}, Operator{2.0, 0.0, 1000.0}, Operator{0.0, 0.0, 3e4}, Operator{0.1, 20.0, 500.0}}) {
+      for (const User& user :
+           {User{0.5, 0.0, 0.0}, User{2.0, 0.0, 1000.0}, User{0.0, 0.0, 3e4}, User{0.1, 20.0, 500.0}}) {
         expect_stable_rectangle(held_by(device, user), *ceilings);
       }
     }
@@ -141,7 +141,7 @@ TEST(SafeWall, IsAShareOfTheAnyUserLimitWithTheOwnDamperClosed) {
   EXPECT_EQ(wall.basis, SafeWall::Basis::any_user);
   EXPECT_EQ(wall.damping, 1.5);
   EXPECT_FALSE(wall.damping_limit.has_value());
-  EXPECT_EQ(wall.stiffness, 0.6 * any_user_limit(device, {1.5, 0.0}).stiffness);
+  EXPECT_EQ(wall.stiffness, 0.6 * absolute_stability_limit(device, {1.5, 0.0}).stiffness);
   EXPECT_TRUE(wall.trust.sound());
 }
 
@@ -149,7 +149,7 @@ TEST(SafeWall, IsAShareOfTheAnyUserLimitWithTheOwnDamperClosed) {
 TEST(SafeWall, IsAShareOfTheLesserLimitOfNobodyAndTheFilesUser) {
   DeviceParameters chain;
   chain.name = "more bodies than the limit for any user is computed of";
-  for (std::size_t i = 0; i <= most_bodies_for_any_user; ++i) {
+  for (std::size_t i = 0; i <= most_bodies_for_absolute_stability; ++i) {
     chain.bodies.push_back({"b" + std::to_string(i), 0.02, 0.05, 0.0, 0.0});
     if (i > 0) chain.links.push_back({i - 1, i, 1e7, 20.0});
   }
@@ -199,14 +199,14 @@ TEST(SafeWall, TakesTheLowerEndOfTheLimitThatItIsAShareOf) {
     const SafeWall wall = safe_wall(device, {.safety_factor = 0.95, .damping = damping});
     ASSERT_EQ(wall.status, SafeWall::Status::chosen);
     ASSERT_EQ(wall.basis, SafeWall::Basis::any_user);
-    ASSERT_TRUE(wall.interval && wall.any_user_interval);
+    ASSERT_TRUE(wall.interval && wall.absolute_stability_interval);
     EXPECT_LT(wall.uncertainty_share, 0.8 * wall.interval->lower / 22e3);
     constexpr std::uint64_t another_seed = 77;
     internal::DeviceDraws drawn(device, another_seed);
     constexpr int draws = 300;
     int failed = 0;
     for (int i = 0; i < draws; ++i) {
-      failed += any_user_limit(drawn.next(), {wall.damping, 0.0}).stiffness < wall.stiffness;
+      failed += absolute_stability_limit(drawn.next(), {wall.damping, 0.0}).stiffness < wall.stiffness;
     }
     EXPECT_LE(failed, draws / 20) << "2.5 % of 300, and what chance adds";
   }

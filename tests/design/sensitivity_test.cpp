@@ -75,7 +75,7 @@ TEST(Sensitivity, CoversEveryParameterThatMatters) {
   EXPECT_EQ(found, expected);
   for (const char* member : {"mass", "damping", "stiffness"}) expected.erase(std::string("operator.") + member);
   found.clear();
-  for (const Sensitivity& each : any_user_sensitivities(Device(device))) found.insert(each.key);
+  for (const Sensitivity& each : absolute_stability_sensitivities(Device(device))) found.insert(each.key);
   EXPECT_EQ(found, expected);
 }
 
@@ -126,11 +126,11 @@ TEST(Sensitivity, OfParametersThatAreZeroIsThatOfTheirGrowth) {
   }
 }
 
-// The any-user limit has a corner at a delay and a lag of 0: the sums over aliases fall like 1/k there.
+// The absolute stability limit has a corner at a delay and a lag of 0: the sums over aliases fall like 1/k there.
 TEST(Sensitivity, OfTheAnyUserLimitFollowsAGrowingDelayAndLag) {
   for (const DeviceParameters& device : {test::lhifam_parameters(), test::handle_sensed(test::lhifam_parameters())}) {
-    const auto sensitivities = any_user_sensitivities(Device(device));
-    const auto limit = [](const Device& moved) { return any_user_limit(moved).stiffness; };
+    const auto sensitivities = absolute_stability_sensitivities(Device(device));
+    const auto limit = [](const Device& moved) { return absolute_stability_limit(moved).stiffness; };
     for (const char* key : {"loop.delay", "actuator.time_constant"}) {
       const double expected = slope_from_zero(device, key, 1e-5, limit);
       EXPECT_NEAR(of(sensitivities, key).slope / expected, 1.0, 1e-3) << key;
@@ -139,8 +139,8 @@ TEST(Sensitivity, OfTheAnyUserLimitFollowsAGrowingDelayAndLag) {
   // Held where it is driven and sensed, every term falls like 1/k².
   DeviceParameters held_at_motor = test::lhifam_parameters();
   held_at_motor.loop.held = 0;
-  const auto sensitivities = any_user_sensitivities(Device(held_at_motor));
-  const auto limit = [](const Device& moved) { return any_user_limit(moved).stiffness; };
+  const auto sensitivities = absolute_stability_sensitivities(Device(held_at_motor));
+  const auto limit = [](const Device& moved) { return absolute_stability_limit(moved).stiffness; };
   for (const char* key : {"loop.delay", "actuator.time_constant"}) {
     const double expected = slope_from_zero(held_at_motor, key, 1e-6, limit);
     EXPECT_NEAR(of(sensitivities, key).slope / expected, 1.0, 1e-3) << key;
@@ -149,7 +149,7 @@ TEST(Sensitivity, OfTheAnyUserLimitFollowsAGrowingDelayAndLag) {
 
 // Colgate & Schenkel: K = 2 b/T of a rigid device whoever holds it.
 TEST(Sensitivity, OfTheAnyUserLimitOfARigidDeviceIsColgateAndSchenkels) {
-  const auto sensitivities = any_user_sensitivities(Device(test::rigid_parameters()));
+  const auto sensitivities = absolute_stability_sensitivities(Device(test::rigid_parameters()));
   EXPECT_NEAR(*of(sensitivities, "body.body.damping").relative, 1.0, 1e-5);
   EXPECT_NEAR(*of(sensitivities, "body.body.mass").relative, 0.0, 1e-5);
   EXPECT_NEAR(*of(sensitivities, "loop.sampling_period").relative, -1.0, 1e-5);
@@ -163,7 +163,7 @@ TEST(Sensitivity, OfTheAnyUserLimitWithALowPassNextToNyquist) {
     device.wall.filters = {{.kind = WallFilter::Kind::low_pass, .frequency_hz = frequency, .order = 1}};
     const double turn = std::numbers::pi * frequency * device.loop.sampling_period;
     const double by_filter = turn / (std::pow(std::sin(turn), 2) * (1.0 + 1.0 / std::tan(turn)));
-    const auto sensitivities = any_user_sensitivities(Device(device));
+    const auto sensitivities = absolute_stability_sensitivities(Device(device));
     EXPECT_NEAR(*of(sensitivities, "body.body.damping").relative, 1.0, 1e-4) << frequency;
     EXPECT_NEAR(*of(sensitivities, "loop.sampling_period").relative, by_filter - 1.0, 1e-4) << frequency;
     EXPECT_NEAR(*of(sensitivities, "wall.filter.0.frequency_hz").relative, by_filter, 1e-4) << frequency;
@@ -188,7 +188,9 @@ TEST(Sensitivity, IsEmptyBesideAModeThatHardlyAnythingDamps) {
 TEST(Sensitivity, IsEmptyWithoutALimit) {
   EXPECT_TRUE(
       stiffness_sensitivities(Device(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0))).empty());
-  EXPECT_THROW((void)any_user_sensitivities(Device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0))), Error);
+  EXPECT_THROW(
+      (void)absolute_stability_sensitivities(Device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0))),
+      Error);
 }
 
 TEST(Sensitivity, RefusesAnotherDevicesAnswer) {

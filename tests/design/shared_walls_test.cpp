@@ -10,7 +10,7 @@
 
 #include "lhifam.hpp"
 #include "zwidth/design/region.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
@@ -28,7 +28,7 @@ Device knob() {
 }
 
 /// Sensed at the handle, so that a user makes some walls worse, some better.
-Device held_lhifam(const Operator& user) {
+Device held_lhifam(const User& user) {
   DeviceParameters device = test::handle_sensed(test::lhifam_parameters());
   device.user = user;
   return Device(device);
@@ -51,7 +51,7 @@ TEST(SharedWalls, OfAUserWhoDampsAreThoseOfNobody) {
   const Device device = knob();
   const WallRegion found = region(device, alone_and_held);
   ASSERT_TRUE(found.nobody && found.shared);
-  const WallRegion alone = region(without_operator(device), alone_and_held);
+  const WallRegion alone = region(device_without_user(device), alone_and_held);
   EXPECT_FALSE(alone.nobody || alone.shared);
   EXPECT_EQ(found.nobody->region.stiffest->stiffness, alone.region.stiffest->stiffness);
   EXPECT_EQ(found.nobody->region.area, alone.region.area);
@@ -67,12 +67,12 @@ TEST(SharedWalls, OfAUserWhoDampsAreThoseOfNobody) {
 
 // Eigenvalues just inside and just outside of the extremes, and a raster, for users whose regions cross that of nobody.
 TEST(SharedWalls, AreStableWithBothAndEndWhereOneIsNot) {
-  const Operator users[] = {{0.0, 500.0, 0.0}, {0.0, 500.0, 1e4}, {0.0, 50.0, 1e4}, {1.0, 500.0, 0.0}};
+  const User users[] = {{0.0, 500.0, 0.0}, {0.0, 500.0, 1e4}, {0.0, 50.0, 1e4}, {1.0, 500.0, 0.0}};
   int crossing = 0;
-  for (const Operator& user : users) {
+  for (const User& user : users) {
     SCOPED_TRACE(testing::Message() << user.mass << " " << user.damping << " " << user.stiffness);
     const Device held = held_lhifam(user);
-    const Device alone = without_operator(held);
+    const Device alone = device_without_user(held);
     const WallRegion found = region(held, alone_and_held);
     ASSERT_EQ(found.status, WallRegion::Status::bounded);
     ASSERT_TRUE(found.nobody && found.shared && found.shared->stiffest && found.shared->most_damped);

@@ -9,7 +9,7 @@
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/state_space.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
@@ -37,10 +37,10 @@ TEST(WallRecommendation, RippleBoundsStiffnessAndDampingTogether) {
   parameters.sensor.resolution = 3.14e-6;
   const Device device(parameters);
   double softer = 0.0;
-  for (const double ripple : {0.003, 0.01, 0.03, 0.1, 0.3}) {
-    const WallRecommendation answer = recommend_wall(device, {.ripple = ripple});
+  for (const double quantisation_force : {0.003, 0.01, 0.03, 0.1, 0.3}) {
+    const WallRecommendation answer = recommend_wall(device, {.quantisation_force = quantisation_force});
     ASSERT_TRUE(answer.wall);
-    EXPECT_LE(answer.wall->force_per_count->largest, ripple * (1.0 + 1e-12));
+    EXPECT_LE(answer.wall->force_per_count->largest, quantisation_force * (1.0 + 1e-12));
     EXPECT_GE(*answer.wall->wall.stiffness, softer);
     softer = *answer.wall->wall.stiffness;
   }
@@ -65,14 +65,14 @@ TEST(WallRecommendation, ADamperAloneOnARigidDeviceIsItsOwnDampingOverTheMargin)
   EXPECT_EQ(answer.wall->bounded_by.damping, WallBound::any_user);
   EXPECT_GT(answer.wall->wall.velocity_filter_hz, 0.0);
   EXPECT_GT(answer.wall->wall.damping, 1.75);
-  EXPECT_NEAR(answer.wall->any_user_damping_limit.value() / answer.wall->wall.damping, 2.0, 1e-4);
+  EXPECT_NEAR(answer.wall->absolute_stability_damping_limit.value() / answer.wall->wall.damping, 2.0, 1e-4);
   EXPECT_TRUE(answer.wall->margins.stable);
   EXPECT_GE(answer.wall->margins.gain_margin.value(), 2.0);
   ASSERT_EQ(answer.alternatives.size(), 1U);
   const RecommendedWall& plain = answer.alternatives.front();
   EXPECT_EQ(plain.wall.velocity_filter_hz, 0.0);
   EXPECT_NEAR(plain.wall.damping, 1.75, 1.75 * 2e-5);
-  EXPECT_NEAR(plain.any_user_damping_limit.value(), 3.5, 3.5 * 2e-5);
+  EXPECT_NEAR(plain.absolute_stability_damping_limit.value(), 3.5, 3.5 * 2e-5);
 }
 
 TEST(WallRecommendation, ADamperAloneKeepsWhatIsAskedByASecondRoute) {
@@ -96,10 +96,11 @@ TEST(WallRecommendation, ADamperAloneKeepsWhatIsAskedByASecondRoute) {
         << held.user.mass << " " << held.user.stiffness;
   }
   // A ripple bounds it.
-  const double ripple = 0.5 * answer.wall->force_per_count->largest;
-  const WallRecommendation quiet = recommend_wall(device, {.goal = WallGoal::damper, .ripple = ripple});
+  const double quantisation_force = 0.5 * answer.wall->force_per_count->largest;
+  const WallRecommendation quiet =
+      recommend_wall(device, {.goal = WallGoal::damper, .quantisation_force = quantisation_force});
   ASSERT_TRUE(quiet.wall);
-  EXPECT_LE(quiet.wall->force_per_count->largest, ripple * (1.0 + 1e-12));
+  EXPECT_LE(quiet.wall->force_per_count->largest, quantisation_force * (1.0 + 1e-12));
 }
 
 TEST(WallRecommendation, NoDamperIsRecommendedWhereSomeUserDestabilisesAny) {
@@ -137,7 +138,7 @@ TEST(WallRecommendation, OfAnUncertainDeviceHoldsAtTheLowerEndProperty) {
     drawn.links[0].damping *= std::abs(normal(engine));
     drawn.wall = wall;
     const Device each(drawn);
-    if (2.0 * *wall.stiffness < any_user_limit(each, virtual_damper(each)).stiffness) ++kept;
+    if (2.0 * *wall.stiffness < absolute_stability_limit(each, virtual_damper(each)).stiffness) ++kept;
   }
   EXPECT_GE(kept, devices * 95 / 100) << "seed 20261122";
 }
@@ -148,7 +149,7 @@ TEST(WallRecommendation, ATransferFunctionIsWarnedAbout) {
   parameters.loop.sampling_period = 1e-3;
   const WallRecommendation answer = recommend_wall(Device(parameters));
   ASSERT_TRUE(answer.wall);
-  EXPECT_FALSE(answer.wall->any_user_limit);
+  EXPECT_FALSE(answer.wall->absolute_stability_limit);
   bool warned = false;
   for (const Remark& each : answer.remarks) {
     warned = warned ||
@@ -169,7 +170,7 @@ TEST(WallRecommendation, NextToNothingIsNoWall) {
   const WallRecommendation found = recommend_wall(device);
   EXPECT_NE(found.status, WallRecommendation::Status::found);
   EXPECT_FALSE(found.wall);
-  EXPECT_LE(any_user_limit(device).stiffness, 31e-9);
+  EXPECT_LE(absolute_stability_limit(device).stiffness, 31e-9);
 }
 
 TEST(WallRecommendation, NamesTheMemberOutsideItsRange) {
@@ -177,7 +178,7 @@ TEST(WallRecommendation, NamesTheMemberOutsideItsRange) {
   EXPECT_EQ(find_problem({.gain_margin = 0.9}, device)->member, "gain_margin");
   EXPECT_EQ(find_problem({.gain_margin = 0.1}, device)->what, "is -20 dB, a factor of 0.1");
   EXPECT_EQ(find_problem({.phase_margin = 2.0}, device)->member, "phase_margin");
-  EXPECT_EQ(find_problem({.ripple = -1.0}, device)->member, "ripple");
+  EXPECT_EQ(find_problem({.quantisation_force = -1.0}, device)->member, "quantisation_force");
   EXPECT_EQ(find_problem(RecommendationOptions{.draws = 0}, device)->member, "draws");
   EXPECT_THROW(static_cast<void>(recommend_wall(device, {.gain_margin = std::nan("")})), Error);
 }
@@ -191,10 +192,11 @@ TEST(WallRecommendation, IsSafeForAUserWhoResonatesWhereTheDampedBodyStandsStill
   const WallRecommendation answer = recommend_wall(Device(device));
   ASSERT_TRUE(answer.wall);
   const Wall& wall = answer.wall->wall;
-  const AnyUserLimit limit = any_user_limit(Device(device), {wall.damping, wall.velocity_filter_hz});
+  const AbsoluteStabilityLimit limit =
+      absolute_stability_limit(Device(device), {wall.damping, wall.velocity_filter_hz});
   EXPECT_TRUE(limit.trust.sound());
   EXPECT_LE(*wall.stiffness * 2.0, limit.stiffness * (1.0 + 1e-9));
-  EXPECT_NEAR(any_user_limit(Device(device)).stiffness, 4.016853, 1e-5);
+  EXPECT_NEAR(absolute_stability_limit(Device(device)).stiffness, 4.016853, 1e-5);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "lhifam.hpp"
-#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_walls.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth {
@@ -26,9 +26,10 @@ TEST(WallSummary, TheStiffestWallIsTheRegions) {
     ASSERT_TRUE(summary.with_damper);
     EXPECT_FALSE(summary.why_no_damper);
     EXPECT_EQ(summary.with_damper->holder, Holder::any_user);
-    EXPECT_EQ(any_user_limit(device, {summary.with_damper->damping, 0.0}).stiffness, summary.with_damper->stiffness);
-    const AnyUserRegion region =
-        any_user_region(device, StableWalls(filtered_plant(device)), critical_damping(device).damping);
+    EXPECT_EQ(absolute_stability_limit(device, {summary.with_damper->damping, 0.0}).stiffness,
+              summary.with_damper->stiffness);
+    const AbsoluteStabilityRegion region =
+        absolute_stability_region(device, StableWalls(filtered_plant(device)), critical_damping(device).damping);
     ASSERT_TRUE(region.stiffest);
     EXPECT_GE(summary.with_damper->stiffness, region.stiffest->stiffness * (1.0 - 1e-4));
     EXPECT_LE(summary.with_damper->stiffness, region.stiffest->stiffness * 1.005);

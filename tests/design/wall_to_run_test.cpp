@@ -5,7 +5,7 @@
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth {
 namespace {

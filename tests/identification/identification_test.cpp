@@ -339,7 +339,7 @@ TEST(Identification, NamesTheMemberOfAnImpossibleOption) {
 }
 
 /// A body and a handle, recorded while somebody holds the handle.
-Recording held_recording(const Operator& hand, std::uint64_t seed) {
+Recording held_recording(const User& hand, std::uint64_t seed) {
   DeviceParameters device;
   device.bodies = {{"motor", 0.4, 0.5, 0.0, 0.0}, {"handle", 0.2, 0.3, 0.0, 0.0}};
   device.links = {{0, 1, 3000.0, 1.0}};
@@ -376,10 +376,10 @@ TEST(Identification, AHandOnTheDeviceIsDoubtfulWhereItTells) {
     EXPECT_THAT(all_reasons(sprung.trust), HasSubstr("from body1 to the ground"));
 
     // An operator of the structure is the hand.
-    DeviceParameters with_operator = known;
-    with_operator.user = {0.3, 3.0, 0.0};
+    DeviceParameters device_with_user = known;
+    device_with_user.user = {0.3, 3.0, 0.0};
     const Identification beside =
-        identify(held_recording(with_operator.user, seed), Device(with_operator), looked_at({}));
+        identify(held_recording(device_with_user.user, seed), Device(device_with_user), looked_at({}));
     EXPECT_TRUE(beside.trust.sound()) << all_reasons(beside.trust);
     EXPECT_THAT(beside.remarks, Contains(Field(&Remark::what, HasSubstr("operator is taken to hold the device"))));
     DeviceParameters let_go = beside.fit.device.parameters();

@@ -14,9 +14,9 @@ namespace zwidth {
 namespace {
 
 TEST(OpenInterval, IsOneOfMoreThanAFactorOfTwo) {
-  EXPECT_FALSE(is_open(StiffnessInterval{.lower = 100.0, .upper = 200.0}));
-  EXPECT_TRUE(is_open(StiffnessInterval{.lower = 100.0, .upper = 201.0}));
-  EXPECT_TRUE(is_open(StiffnessInterval{.lower = 0.0, .upper = 1.0}));
+  EXPECT_FALSE(is_inconclusive(StiffnessInterval{.lower = 100.0, .upper = 200.0}));
+  EXPECT_TRUE(is_inconclusive(StiffnessInterval{.lower = 100.0, .upper = 201.0}));
+  EXPECT_TRUE(is_inconclusive(StiffnessInterval{.lower = 0.0, .upper = 1.0}));
 }
 
 TEST(OpenInterval, IsNamedByItsFactorWhereItHasOne) {

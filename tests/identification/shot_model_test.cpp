@@ -21,7 +21,7 @@ struct Played {
   double lag = 0.0;
   std::size_t sensed = 0;
   std::vector<double> friction;
-  Operator user = {};
+  User user = {};
 };
 
 class ShotModelSlopes : public testing::TestWithParam<Played> {

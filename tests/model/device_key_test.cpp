@@ -46,7 +46,7 @@ TEST(DeviceKey, DefaultsAreThoseOfTheModel) {
   EXPECT_EQ(stated_defaults<Sensor>(DeviceTable::sensor), 1);
   EXPECT_EQ(stated_defaults<Wall>(DeviceTable::wall), 2);
   EXPECT_EQ(stated_defaults<WallFilter>(DeviceTable::filter), 2);
-  EXPECT_EQ(stated_defaults<Operator>(DeviceTable::user), 3);
+  EXPECT_EQ(stated_defaults<User>(DeviceTable::user), 3);
   EXPECT_EQ(stated_defaults<MotorDrive>(DeviceTable::driver), 2);
 }
 

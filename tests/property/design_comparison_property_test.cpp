@@ -35,8 +35,7 @@ std::size_t devices_compared() {
 }
 
 // The design as its own device: what a variant changes is set here again.
-DeviceParameters alone(const DeviceParameters& device, const std::string& key, std::size_t index,
-                       const Operator& user) {
+DeviceParameters alone(const DeviceParameters& device, const std::string& key, std::size_t index, const User& user) {
   DeviceParameters parameters = device;
   if (key == "loop.sensed") parameters.loop.sensed = index;
   if (key == "loop.delay") parameters.loop.delay += 0.6 * static_cast<double>(index) * parameters.loop.sampling_period;
@@ -62,7 +61,8 @@ void expect_limit(const DeviceParameters& parameters, const CriticalStiffness& c
 }
 
 // No user tried destabilises below; the worst one does above.
-void expect_any_user_limit(const DeviceParameters& parameters, const AnyUserLimit& limit, RandomDevices& random) {
+void expect_absolute_stability_limit(const DeviceParameters& parameters, const AbsoluteStabilityLimit& limit,
+                                     RandomDevices& random) {
   const double below = (1.0 - close_to_limit) * limit.stiffness;
   if (below > 0.0) {
     EXPECT_EQ(ExactClosedLoop{Device(parameters)}.poles_outside(below), 0);
@@ -103,8 +103,8 @@ TEST(DesignComparisonProperty, EveryLimitIsThatOfTheDesignAlone) {
     const std::string key = by_delay ? "loop.delay" : "loop.sensed";
     const std::size_t count = by_delay ? 3 : device.bodies.size();
     const double scale = device.motion == Motion::rotary ? 1e-4 : 1.0;
-    const Operator user = {scale * random.log_uniform(0.05, 0.8), scale * random.log_uniform(1.0, 30.0),
-                           scale * random.log_uniform(20.0, 1000.0)};
+    const User user = {scale * random.log_uniform(0.05, 0.8), scale * random.log_uniform(1.0, 30.0),
+                       scale * random.log_uniform(20.0, 1000.0)};
     DeviceVariants variants{key, {}};
     std::vector<DeviceParameters> free;
     for (std::size_t k = 0; k < count; ++k) {
@@ -120,7 +120,7 @@ TEST(DesignComparisonProperty, EveryLimitIsThatOfTheDesignAlone) {
       ASSERT_TRUE(design.held);
       expect_limit(alone(device, key, k, user), *design.held);
       ASSERT_TRUE(design.any_user);
-      expect_any_user_limit(free[k], *design.any_user, random);
+      expect_absolute_stability_limit(free[k], *design.any_user, random);
       limits += 3;
     }
     const auto& designs = comparison.designs;

@@ -28,7 +28,7 @@ std::size_t cases(std::size_t usual) {
 }
 
 double analyzed_limit(const Device& device, StiffnessGoal goal) {
-  const bool any_user = goal == StiffnessGoal::any_user_limit;
+  const bool any_user = goal == StiffnessGoal::absolute_stability_limit;
   const Analysis analysis = analyze(device, {.any_user = any_user, .draws = 0});
   if (analysis.critical.trust.refused()) return std::nan("");
   return any_user ? std::min(analysis.critical.stiffness, analysis.any_user->stiffness) : analysis.critical.stiffness;
@@ -76,7 +76,7 @@ void confirm_random(StiffnessGoal goal, std::size_t devices) {
     RandomDevices random(seed + i);
     const Device device(random.device(kind));
     const double share = random.log_uniform(0.3, 3.0);
-    if (goal == StiffnessGoal::any_user_limit && !device.has_bodies()) continue;
+    if (goal == StiffnessGoal::absolute_stability_limit && !device.has_bodies()) continue;
     const double now = analyzed_limit(device, goal);
     if (!(now > 0.0) || !std::isfinite(now)) continue;
     confirm(device, {.stiffness = share * now, .goal = goal}, count);
@@ -91,15 +91,16 @@ TEST(DesignTargetProperty, AnalyzeConfirmsEveryValueNeeded) {
 }
 
 TEST(DesignTargetProperty, AnalyzeConfirmsEveryValueNeededWithAnyUser) {
-  confirm_random(StiffnessGoal::any_user_limit, cases(10));
+  confirm_random(StiffnessGoal::absolute_stability_limit, cases(10));
 }
 
 // Hardly damped and sampled fast: its discs are thin, and p A hardly above q² on whole intervals.
 TEST(DesignTargetProperty, ThinDiscsHaveATarget) {
   RandomDevices random(seed + 260);
   const Device device(random.device("fast_sampling"));
-  const double wanted = 1.5 * any_user_limit(device, virtual_damper(device)).stiffness;
-  const DesignTargets targets = design_targets(device, {.stiffness = wanted, .goal = StiffnessGoal::any_user_limit});
+  const double wanted = 1.5 * absolute_stability_limit(device, virtual_damper(device)).stiffness;
+  const DesignTargets targets =
+      design_targets(device, {.stiffness = wanted, .goal = StiffnessGoal::absolute_stability_limit});
   EXPECT_TRUE(targets.targets.front().value_needed);
 }
 

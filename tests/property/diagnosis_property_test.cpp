@@ -14,7 +14,7 @@
 #include "property/random_devices.hpp"
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/simulation/simulate.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::test {
@@ -135,7 +135,7 @@ std::size_t cases() {
 // amplitude.
 TEST(DiagnosisProperty, NamesTheMechanismOfSimulatedOscillations) {
   const std::array campaigns{Campaign{OscillationCause::device, "device", of_device},
-                             Campaign{OscillationCause::with_operator, "operator", of_operator},
+                             Campaign{OscillationCause::with_user, "operator", of_operator},
                              Campaign{OscillationCause::passive_user, "user", of_user},
                              Campaign{OscillationCause::quantisation, "quantisation", of_quantisation},
                              Campaign{OscillationCause::friction, "friction", of_friction}};

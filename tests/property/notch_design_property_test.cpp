@@ -1,4 +1,4 @@
-// design --notch on random devices: what it proposes is stable with the margins asked at every drift, by eigenvalues of
+// design --notch on random devices: what it proposes is stable with the margins asked at every modal shift, by eigenvalues of
 // closed loops that are put together here, and lowers no user's limit.
 
 #include <gtest/gtest.h>
@@ -18,14 +18,14 @@
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/filter_section.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::test {
 namespace {
 
 constexpr std::uint64_t seed = 20261124;
 constexpr std::size_t usual_cases = 12;
-constexpr int drifts = 41;
+constexpr int modal_shifts = 41;
 constexpr double rounding = 1e-11;  // of |z| - 1: a heavy user's own pole is as near the circle
 constexpr std::array kinds = {"two_mass",   "three_mass",   "light_damping",    "virtual_damper", "slow_sampling",
                               "grounded",   "user_side",    "fractional_delay", "operator",       "rotary",
@@ -123,12 +123,12 @@ double excess(const Device& device, double stiffness, double spring = 1.0, doubl
   return largest;
 }
 
-// Links as the modes' drift moves them.
-Device moved(const Device& device, double drift) {
+// Links as the modal shift moves them.
+Device moved(const Device& device, double modal_shift) {
   DeviceParameters parameters = device.parameters();
   for (Link& link : parameters.links) {
-    link.stiffness *= (1.0 + drift) * (1.0 + drift);
-    link.damping *= 1.0 + drift;
+    link.stiffness *= (1.0 + modal_shift) * (1.0 + modal_shift);
+    link.damping *= 1.0 + modal_shift;
   }
   return Device(std::move(parameters));
 }
@@ -155,8 +155,8 @@ void expect_margins(const Device& device, double stiffness, const NotchOptions& 
 // Just below the limit that any user leaves without the notch, nobody destabilises the wall behind it.
 void expect_no_user_worse_off(const Device& plain, const Device& with_notch, RandomDevices& random) {
   const VirtualDamper damper = virtual_damper(plain);
-  const double limit = any_user_limit(plain, damper).stiffness;
-  EXPECT_GE(any_user_limit(with_notch, damper).stiffness, limit * (1.0 - 1e-8));
+  const double limit = absolute_stability_limit(plain, damper).stiffness;
+  EXPECT_GE(absolute_stability_limit(with_notch, damper).stiffness, limit * (1.0 - 1e-8));
   if (!(limit > 0.0) || !std::isfinite(limit)) return;
   for (int k = 0; k < 5; ++k) {
     DeviceParameters held = with_notch.parameters();
@@ -177,8 +177,9 @@ TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
     const char* kind = kinds[i % kinds.size()];
     const Device device(random.device(kind));
     const NotchOptions options = random_notch_options(random);
-    SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i << ", drift " << options.drift << ", gain margin "
-                                    << options.gain_margin << ", phase margin " << options.phase_margin);
+    SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i << ", drift "
+                                    << options.modal_frequency_uncertainty << ", gain margin " << options.gain_margin
+                                    << ", phase margin " << options.phase_margin);
     if (find_problem(options, device)) continue;
     const NotchDesign design = design_notch(device, options);
     ++designed;
@@ -191,14 +192,14 @@ TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
     if (design.state_with) {
       EXPECT_EQ(design.state_with->device.parameters().wall.stiffness, design.with);
     }
-    for (int k = 0; k < (options.drift > 0.0 ? drifts : 1); ++k) {
-      const double drift = options.drift * (2.0 * k / (drifts - 1) - 1.0);
-      const Device plain = options.drift > 0.0 ? moved(device, drift) : device;
-      SCOPED_TRACE(testing::Message() << "drift " << (options.drift > 0.0 ? drift : 0.0));
+    for (int k = 0; k < (options.modal_frequency_uncertainty > 0.0 ? modal_shifts : 1); ++k) {
+      const double modal_shift = options.modal_frequency_uncertainty * (2.0 * k / (modal_shifts - 1) - 1.0);
+      const Device plain = options.modal_frequency_uncertainty > 0.0 ? moved(device, modal_shift) : device;
+      SCOPED_TRACE(testing::Message() << "drift " << (options.modal_frequency_uncertainty > 0.0 ? modal_shift : 0.0));
       const Device with_notch = notched(plain, design);
       if (design.with > 0.0 && std::isfinite(design.with)) expect_margins(with_notch, design.with, options);
       if (design.without > 0.0 && std::isfinite(design.without)) expect_margins(plain, design.without, options);
-      if (design.notch && !options.lower_any_user) expect_no_user_worse_off(plain, with_notch, random);
+      if (design.notch && !options.lower_absolute_stability_limit) expect_no_user_worse_off(plain, with_notch, random);
       if (testing::Test::HasFailure()) break;
     }
   }

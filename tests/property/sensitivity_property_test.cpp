@@ -149,7 +149,7 @@ TEST(SensitivityProperty, FollowsAChangeOfUnits) {
 }
 
 TEST(SensitivityProperty, OfTheAnyUserLimitEqualsCentralDifferences) {
-  // A limit reached towards w = 0 is itself good to 2e-6 only (any_user.hpp): its differences and its slopes to 1e-4.
+  // A limit reached towards w = 0 is itself good to 2e-6 only (absolute_stability.hpp): its differences and its slopes to 1e-4.
   constexpr double clear_angle = 3e-3;
   constexpr double of_flat_limits = 1e-4;
   std::size_t compared = 0;
@@ -161,19 +161,20 @@ TEST(SensitivityProperty, OfTheAnyUserLimitEqualsCentralDifferences) {
     const auto kind = test::device_kinds[seed % test::device_kinds.size()];
     if (kind == "transfer_function") continue;
     const DeviceParameters parameters = test::RandomDevices(seed + 300).device(kind);
-    const AnyUserLimit own =
-        any_user_limit(Device(parameters), {parameters.wall.damping, parameters.wall.velocity_filter_hz});
+    const AbsoluteStabilityLimit own =
+        absolute_stability_limit(Device(parameters), {parameters.wall.damping, parameters.wall.velocity_filter_hz});
     if (!(own.stiffness > 0.0) || !std::isfinite(own.stiffness)) continue;
     ++limited;
     const bool is_clear = own.frequency * parameters.loop.sampling_period > clear_angle;
     clear += is_clear ? 1 : 0;
     const double tolerance = is_clear ? 1e-5 : of_flat_limits;
     const auto limit = [&](const DeviceParameters& moved) -> std::optional<double> {
-      const double there = any_user_limit(Device(moved), {moved.wall.damping, moved.wall.velocity_filter_hz}).stiffness;
+      const double there =
+          absolute_stability_limit(Device(moved), {moved.wall.damping, moved.wall.velocity_filter_hz}).stiffness;
       if (!(there > 0.0) || !std::isfinite(there)) return std::nullopt;
       return there;
     };
-    const auto sensitivities = any_user_sensitivities(Device(parameters));
+    const auto sensitivities = absolute_stability_sensitivities(Device(parameters));
     expect_homogeneous(sensitivities, tolerance, std::string(kind) + ", seed " + std::to_string(seed));
     for (const Sensitivity& each : sensitivities) {
       if (!each.relative) continue;

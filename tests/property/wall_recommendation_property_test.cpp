@@ -14,7 +14,7 @@
 #include "zwidth/design/notch_design.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/model/state_space.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/worst_user.hpp"
 
@@ -28,7 +28,7 @@ constexpr std::array kinds = {"rigid",      "two_mass",         "user_side",    
                               "long_delay", "filtered_damper"};
 
 /// The device held by this user, sampled: once for many walls.
-DiscreteStateSpace plant_with(const Device& device, const Operator& user) {
+DiscreteStateSpace plant_with(const Device& device, const User& user) {
   DeviceParameters parameters = device.parameters();
   parameters.user = user;
   const Device held(parameters);
@@ -72,39 +72,42 @@ std::size_t cases() {
 }
 
 // ZWIDTH_CAMPAIGN_DEVICES=300 is the campaign: some minutes.
-std::size_t drifting_cases() {
+std::size_t cases_of_uncertain_modes() {
   if (const char* campaign = std::getenv("ZWIDTH_CAMPAIGN_DEVICES")) return std::strtoul(campaign, nullptr, 10);
   return std::min<std::size_t>(cases(), 3);
 }
 
 TEST(WallRecommendationProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
-  constexpr int drifts = 41;
+  constexpr int modal_shifts = 41;
   std::size_t found = 0;
   std::size_t notches = 0;
   std::size_t asked = 0;
-  for (std::size_t i = 0; i < drifting_cases(); ++i) {
+  for (std::size_t i = 0; i < cases_of_uncertain_modes(); ++i) {
     RandomDevices random(seed + i);
     const char* kind = kinds[i % kinds.size()];
     const Device device(random.device(kind));
-    const RecommendationOptions options{.drift = std::array{0.02, 0.05, 0.1, 0.2}[random.index(4)]};
-    SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i << ", drift " << options.drift);
+    const RecommendationOptions options{.modal_frequency_uncertainty =
+                                            std::array{0.02, 0.05, 0.1, 0.2}[random.index(4)]};
+    SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i << ", drift "
+                                    << options.modal_frequency_uncertainty);
     if (find_problem(options, device)) continue;
     const WallRecommendation answer = recommend_wall(device, options);
-    EXPECT_EQ(answer.drifts_checked, static_cast<std::size_t>(drifts));
+    EXPECT_EQ(answer.modal_shifts_checked, static_cast<std::size_t>(modal_shifts));
     ++asked;
     if (!answer.wall) continue;
     ++found;
     const Wall& wall = answer.wall->wall;
     const double gain = options.gain_margin * (1.0 - 1e-5);
-    for (int k = 0; k < drifts; ++k) {
-      const Device moved = drifted(device, options.drift * (2.0 * k / (drifts - 1) - 1.0));
+    for (int k = 0; k < modal_shifts; ++k) {
+      const Device moved =
+          with_modal_shift(device, options.modal_frequency_uncertainty * (2.0 * k / (modal_shifts - 1) - 1.0));
       SCOPED_TRACE(testing::Message() << "drift " << k);
       const DiscreteStateSpace own = plant_with(moved, device.parameters().user);
       EXPECT_LT(excess(own, wall, 1.0, 1.0), 0.0);
       EXPECT_LT(excess(own, wall, gain, 1.0), 0.0);
       EXPECT_LT(excess(own, wall, gain, gain), 0.0);
       EXPECT_GE(scanned_phase_margin(own, wall), options.phase_margin - 0.02);
-      const Operator user{random.log_uniform(1e-3, 1e3), 0.0, *wall.stiffness * random.log_uniform(1e-3, 1e4)};
+      const User user{random.log_uniform(1e-3, 1e3), 0.0, *wall.stiffness * random.log_uniform(1e-3, 1e4)};
       EXPECT_LT(excess(plant_with(moved, user), wall, gain, gain), 1e-11) << user.mass << " " << user.stiffness;
       if (!answer.wall->notch) continue;
       ++notches;
@@ -112,12 +115,12 @@ TEST(WallRecommendationProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
       notched.wall = wall;
       DeviceParameters plain = notched;
       plain.wall.filters.pop_back();
-      const double with = any_user_limit(Device(notched), virtual_damper(Device(notched))).stiffness;
-      EXPECT_GE(with, any_user_limit(Device(plain), virtual_damper(Device(plain))).stiffness * (1.0 - 1e-8));
+      const double with = absolute_stability_limit(Device(notched), virtual_damper(Device(notched))).stiffness;
+      EXPECT_GE(with, absolute_stability_limit(Device(plain), virtual_damper(Device(plain))).stiffness * (1.0 - 1e-8));
     }
   }
   EXPECT_GE(found, asked / 3);
-  std::printf("%zu devices, %zu walls, %zu with a notch\n", asked, found, notches / drifts);
+  std::printf("%zu devices, %zu walls, %zu with a notch\n", asked, found, notches / modal_shifts);
 }
 
 TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
@@ -134,7 +137,7 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
     const Device device(parameters);
     RecommendationOptions options;
     options.goal = std::array{WallGoal::stiffness, WallGoal::width, WallGoal::critical_damping}[random.index(3)];
-    if (random.chance(0.5)) options.ripple = random.log_uniform(1e-3, 1.0);
+    if (random.chance(0.5)) options.quantisation_force = random.log_uniform(1e-3, 1.0);
     if (random.chance(0.3)) options.gain_margin = random.uniform(1.2, 4.0);
     if (random.chance(0.3)) options.phase_margin = random.uniform(0.0, 1.0);
     const WallRecommendation answer = recommend_wall(device, options);
@@ -162,7 +165,8 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
         const Device plain(without);
         // Not lowered by the notch.
         if (each.what == "recommended") {
-          EXPECT_GE(*each.any_user_limit, any_user_limit(plain, virtual_damper(plain)).stiffness * (1.0 - 1e-6));
+          EXPECT_GE(*each.absolute_stability_limit,
+                    absolute_stability_limit(plain, virtual_damper(plain)).stiffness * (1.0 - 1e-6));
         }
       }
       // Stable by eigenvalues, with the stiffness alone and the whole force grown by the margin.
@@ -172,15 +176,15 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
       EXPECT_LT(excess(own, wall, gain, gain), 0.0);
       EXPECT_LT(excess(own, wall, std::sqrt(gain), std::sqrt(gain)), 0.0);
       EXPECT_GE(scanned_phase_margin(own, wall), options.phase_margin - 0.02);
-      if (options.ripple && device.parameters().sensor.resolution > 0.0) {
+      if (options.quantisation_force && device.parameters().sensor.resolution > 0.0) {
         ASSERT_TRUE(each.force_per_count);
-        EXPECT_LE(each.force_per_count->largest, *options.ripple * (1.0 + 1e-9));
+        EXPECT_LE(each.force_per_count->largest, *options.quantisation_force * (1.0 + 1e-9));
       }
       // Any user: passive ones drawn at random, by eigenvalues, none of them destabilises the grown wall.
       for (int k = 0; k < 20; ++k) {
-        const Operator user{random.chance(0.7) ? random.log_uniform(1e-3, 1e3) : 0.0,
-                            random.chance(0.3) ? random.log_uniform(1e-3, 1e3) : 0.0,
-                            random.chance(0.7) ? *wall.stiffness * random.log_uniform(1e-3, 1e4) : 0.0};
+        const User user{random.chance(0.7) ? random.log_uniform(1e-3, 1e3) : 0.0,
+                        random.chance(0.3) ? random.log_uniform(1e-3, 1e3) : 0.0,
+                        random.chance(0.7) ? *wall.stiffness * random.log_uniform(1e-3, 1e4) : 0.0};
         const DiscreteStateSpace held = plant_with(device, user);
         // A heavy user's own pole is as near the circle as rounding.
         EXPECT_LT(excess(held, wall, gain, gain), 1e-11) << user.mass << " " << user.damping << " " << user.stiffness;

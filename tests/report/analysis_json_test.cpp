@@ -86,7 +86,7 @@ TEST(AnalysisJson, GivesTheNumbersOfAFiniteAnswerWithoutLoss) {
 
 TEST(AnalysisJson, AnyUserLimitHasNullsWhereThereIsNone) {
   AnalysedDevice analysed = lhifam();
-  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 1e-12};
+  analysed.analysis.any_user = AbsoluteStabilityLimit{5776.09, 259.9, 1e-12};
   const auto expected = [](const Json& stiffness, const Json& frequency, double truncation) {
     return Json{{"critical_stiffness", stiffness},
                 {"frequency_rad_s", frequency},
@@ -97,7 +97,7 @@ TEST(AnalysisJson, AnyUserLimitHasNullsWhereThereIsNone) {
   EXPECT_EQ(document_of(analysed)["any_user"], expected(5776.09, 259.9, 1e-12));
   analysed.analysis.any_user->interval = StiffnessInterval{5000.0, 6000.0};
   EXPECT_EQ(document_of(analysed)["any_user"]["critical_stiffness_interval"], (Json{5000.0, 6000.0}));
-  analysed.analysis.any_user = AnyUserLimit{0.0, 0.0, 0.0};
+  analysed.analysis.any_user = AbsoluteStabilityLimit{0.0, 0.0, 0.0};
   EXPECT_EQ(document_of(analysed)["any_user"], expected(0.0, nullptr, 0.0));
   analysed.analysis.any_user->stiffness = std::numeric_limits<double>::infinity();
   EXPECT_EQ(document_of(analysed)["any_user"], expected(nullptr, nullptr, 0.0));
@@ -105,7 +105,7 @@ TEST(AnalysisJson, AnyUserLimitHasNullsWhereThereIsNone) {
 
 TEST(AnalysisJson, UsersAreWrittenAsTheyAre) {
   AnalysedDevice analysed = lhifam();
-  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
+  analysed.analysis.any_user = AbsoluteStabilityLimit{5776.09, 259.9, 0.0};
   analysed.analysis.worst_user = WorstUser{{0.0, 362e3, {{0.1, 5e6}}}, 5776.1, 259.9};
   EXPECT_EQ(document_of(analysed)["any_user"]["worst_user"],
             (Json{{"mass", 0.0},

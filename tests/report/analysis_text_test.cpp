@@ -42,7 +42,7 @@ TEST(AnalysisText, BeginsWithTheAnswer) {
 // One question, which wall, and the answers to it side by side: of every holder, and with a damper and margins.
 TEST(AnalysisText, TheFirstLinesSayWhoHolds) {
   AnalysedDevice analysed = lhifam();
-  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
+  analysed.analysis.any_user = AbsoluteStabilityLimit{5776.09, 259.9, 0.0};
   analysed.analysis.limits.any_user = HolderLimit{.critical_stiffness = 5776.09, .frequency = 259.9};
   analysed.walls.emplace();
   analysed.walls->with_damper = StiffestDampedWall{187.3e3, 230.3};
@@ -269,17 +269,17 @@ TEST(AnalysisText, PromisesSafetyInEveryHandOnlyBelowALimit) {
   const auto promises = HasSubstr("is stable in every hand.");
   EXPECT_THAT(unwrapped(text_of(analysed)), Not(promises));
   for (const double none : {0.0, std::numeric_limits<double>::infinity()}) {
-    analysed.analysis.any_user = AnyUserLimit{none};
+    analysed.analysis.any_user = AbsoluteStabilityLimit{none};
     EXPECT_THAT(unwrapped(text_of(analysed)), Not(promises));
   }
-  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9};
+  analysed.analysis.any_user = AbsoluteStabilityLimit{5776.09, 259.9};
   EXPECT_THAT(unwrapped(text_of(analysed)), promises);
 }
 
 TEST(AnalysisText, SaysThatTheLimitForAnyUserIsNotComputed) {
   AnalysedDevice analysed = lhifam();
   DeviceParameters parameters = analysed.device.parameters();
-  parameters.bodies.resize(most_bodies_for_any_user + 1, parameters.bodies.back());
+  parameters.bodies.resize(most_bodies_for_absolute_stability + 1, parameters.bodies.back());
   for (std::size_t i = 2; i < parameters.bodies.size(); ++i) {
     parameters.bodies[i].name = std::to_string(i);
     parameters.links.push_back({i - 1, i, 79.5e3, 15.0});

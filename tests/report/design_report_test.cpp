@@ -42,7 +42,7 @@ ParameterSweep delay_sweep(SweepOptions options = {}) {
   return parameter_sweep(lhifam(), {{"loop.delay", 0.0, 8e-3, 81}}, options);
 }
 
-DesignComparison both_sensors(const Operator& user) {
+DesignComparison both_sensors(const User& user) {
   const Device motor(test::lhifam_parameters());
   const Device handle(test::handle_sensed(test::lhifam_parameters()));
   return compare_designs({"loop.sensed", {{"motor", motor}, {"handle", handle}}}, user);

@@ -84,7 +84,7 @@ TEST(HtmlReport, JudgesTheWall) {
 TEST(HtmlReport, SaysWhatUsersLeave) {
   AnalysedDevice analysed = lhifam();
   EXPECT_THAT(report_of({analysed}), Not(HasSubstr("Users asked for")));
-  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
+  analysed.analysis.any_user = AbsoluteStabilityLimit{5776.09, 259.9, 0.0};
   analysed.analysis.worst_user = WorstUser{{1.25, 0.0, {}}, 5776.5, 259.9};
   analysed.analysis.user_family =
       UserFamilyAnswer{{{0.0, 2.0}, {0.0, 1.0}, {0.0, 1e3}}, {{0.0, 0.0, 1e3}, 8829.0}, analysed.analysis.critical};

@@ -1,4 +1,4 @@
-// Text, JSON, csv and figure of a region. Computed once: the any-user limit takes most of the time.
+// Text, JSON, csv and figure of a region. Computed once: the absolute stability limit takes most of the time.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

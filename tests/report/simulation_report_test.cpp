@@ -95,7 +95,7 @@ TEST(SimulationText, HasASentenceForEveryVerdict) {
 
 TEST(SimulationText, SaysWhatLinearAnalysisLeavesOutWhereTheTwoDiffer) {
   Example run = example(LoopVerdict::limit_cycle);
-  run.result.nonlinear_parts = {NonlinearPart::coulomb_friction, NonlinearPart::encoder_step,
+  run.result.nonlinear_parts = {NonlinearPart::coulomb_friction, NonlinearPart::quantisation_step,
                                 NonlinearPart::force_limit, NonlinearPart::leaving_wall,
                                 NonlinearPart::sampling_jitter};
   run.result.linear.agrees = false;
@@ -110,7 +110,7 @@ TEST(SimulationText, NamesTheRippleOfTheEncoder) {
   for (const LoopVerdict verdict : {LoopVerdict::drifts, LoopVerdict::settles}) {
     Example run = example(verdict);
     run.result.encoder_chatters = true;
-    run.result.force_ripple = ForceRipple{0.25, 2.0 * std::numbers::pi * 40.0};
+    run.result.quantisation_force = QuantisationForce{0.25, 2.0 * std::numbers::pi * 40.0};
     EXPECT_THAT(unwrapped(simulation_text(run.device, run.result)), HasSubstr("250 mN either way at 40 Hz"));
     EXPECT_EQ(simulation_json(run.device, run.result)["force_ripple"]["amplitude"], 0.25);
   }

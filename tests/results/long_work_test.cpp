@@ -77,7 +77,7 @@ std::vector<Work> works() {
        }},
       {"notch",
        [](const Device& device, const Progress& progress) {
-         const NotchOptions options{.drift = 0.02, .progress = progress};
+         const NotchOptions options{.modal_frequency_uncertainty = 0.02, .progress = progress};
          return notch_json(device, options, design_notch(device, options));
        }},
       {"simulate",

@@ -81,7 +81,7 @@ class PtyEmulator {
   /// Where frames are cut off: any number.
   void set_place(unsigned place) { place_ = place; }
   /// ms, by which answers come late.
-  void set_lateness(int lateness) { lateness_ = lateness; }
+  void set_answer_delay(int answer_delay) { answer_delay_ = answer_delay; }
   void set_fault(Fault fault) {
     motor_.is_not_a_number = fault == Fault::not_a_number;
     fault_ = fault;
@@ -126,7 +126,7 @@ class PtyEmulator {
     if (fault == Fault::lost_answers && ++answers_ % 3 == 0) return;
     if (fault == Fault::wrong_checksum) frame[frame.size() / 2] ^= 1;
     if (fault == Fault::half_frames) frame.resize(place_ % frame.size());
-    if (fault == Fault::late) std::this_thread::sleep_for(std::chrono::milliseconds(lateness_));
+    if (fault == Fault::late) std::this_thread::sleep_for(std::chrono::milliseconds(answer_delay_));
     take_time(frame.size());
     std::size_t sent = 0;
     while (sent < frame.size() && !is_ending_) {
@@ -165,7 +165,7 @@ class PtyEmulator {
   std::atomic<bool> is_ending_ = false;
   std::atomic<Fault> fault_ = Fault::none;
   std::atomic<unsigned> place_ = 5;
-  std::atomic<int> lateness_ = 60;
+  std::atomic<int> answer_delay_ = 60;
   std::thread thread_;
 };
 

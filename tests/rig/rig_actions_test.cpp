@@ -53,7 +53,7 @@ TEST(OnDeviceWithAnEncoder, TheLimitLiesWithinItsInterval) {
 }
 
 // Of a linear device all swings grow alike, and the limit is sure. With dry friction of a thousandth to some hundredths of
-// the knock, of which the file knows nothing, limits of 3 to 48 % too much were called sound.
+// the impulse, of which the file knows nothing, limits of 3 to 48 % too much were called sound.
 TEST_P(OnDevice, ALimitByFrictionThatTheFileDoesNotKnowIsNotSure) {
   const LimitOptions limit = default_limit(device);
   EXPECT_TRUE(measure_limit(device, driver, {}, limit, {}).measured.trust.sound());
@@ -61,7 +61,7 @@ TEST_P(OnDevice, ALimitByFrictionThatTheFileDoesNotKnowIsNotSure) {
   for (const double share : {0.001, 0.003, 0.01, 0.02}) {
     SCOPED_TRACE(share);
     DeviceParameters parameters = device.parameters();
-    parameters.bodies.front().coulomb = share * limit.knock;
+    parameters.bodies.front().coulomb = share * limit.impulse;
     SimulatedDriver with_friction{Device(parameters), 0.0, false};
     const LimitMeasurement measured = measure_limit(device, with_friction, {}, limit, {}).measured;
     if (measured.interval) {

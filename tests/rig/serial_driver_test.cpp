@@ -93,7 +93,7 @@ TEST_P(OnDrive, AWatchdogIsProvedThoughAnswersAreLate) {
   if (!GetParam().has_watchdog) return;
   PtyEmulator emulator(GetParam().firmware(), device);
   const auto driver = GetParam().driver(link(emulator, device, false));
-  emulator.set_lateness(130);  // ms: longer than the patience of 100
+  emulator.set_answer_delay(130);  // ms: longer than the patience of 100
   emulator.set_fault(Fault::late);
   EXPECT_EQ(driver->proves_watchdog(), true);
   emulator.set_fault(Fault::none);

@@ -24,7 +24,7 @@ using test::DriveKind;
 using test::PtyEmulator;
 using testing::HasSubstr;
 
-constexpr double coulomb = 0.01;  // N, a hundredth of the knocks: more would hold the swing down for good
+constexpr double coulomb = 0.01;  // N, a hundredth of the impulses: more would hold the swing down for good
 
 /// N, of a force in whole milliamperes.
 double rounding(const Device& device) {
@@ -61,10 +61,10 @@ class FrictionOnDrive : public LimitsOnDrive {
 
 // What friction does to the limit it does behind the line as well, and the answer says so.
 TEST_P(FrictionOnDrive, TheLimitIsThatOfTheSimulationAndDoubtful) {
-  const LimitOptions knocked = default_limit(device);
-  const RigLimit limit = measure_limit(device, *driver, {}, knocked, {});
+  const LimitOptions with_impulse = default_limit(device);
+  const RigLimit limit = measure_limit(device, *driver, {}, with_impulse, {});
   SimulatedDriver simulated{device, 0.0, false};
-  const RigLimit expected = measure_limit(device, simulated, {}, knocked, {});
+  const RigLimit expected = measure_limit(device, simulated, {}, with_impulse, {});
   ASSERT_TRUE(limit.measured.stiffness) << explanation(limit.session.stop)
                                         << testing::PrintToString(limit.measured.trust.reasons);
   ASSERT_TRUE(expected.measured.stiffness);
@@ -95,7 +95,7 @@ TEST_P(LimitsOnDrive, TheForceIsCutOffAndTheLimitRefused) {
   options.limits.force = 1.0;
   options.limits.saturation_duration = 100.0;
   LimitOptions limit = default_limit(device);
-  limit.knock = 8.0;
+  limit.impulse = 8.0;
   const RigLimit measured = measure_limit(device, *driver, options, limit, {});
   EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding(device)) << "what came out of the line, at the most";
   EXPECT_TRUE(measured.measured.trust.refused());
@@ -110,7 +110,7 @@ TEST_P(LimitsOnDrive, ForceBeyondTheLimitForTooLongIsZeroForce) {
   options.limits.ramp = 0.0;
   WallOptions wall;
   wall.controller = wall_controller(device.parameters().wall);
-  wall.knock = 10.0;
+  wall.impulse = 10.0;
   const RigWall rendered = render_wall(device, *driver, options, wall);
   EXPECT_EQ(rendered.session.stop, StopReason::saturation);
   EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding(device));
@@ -123,7 +123,7 @@ TEST_P(LimitsOnDrive, APositionBeyondItsLimitIsZeroForce) {
   options.limits.position = 2e-3;
   WallOptions wall;
   wall.controller = wall_controller(device.parameters().wall);
-  wall.knock = 8.0;
+  wall.impulse = 8.0;
   const RigWall rendered = render_wall(device, *driver, options, wall);
   EXPECT_EQ(rendered.session.stop, StopReason::position_limit);
   EXPECT_LT(rendered.peak_position, 2 * 2e-3);
@@ -135,7 +135,7 @@ TEST_P(LimitsOnDrive, AVelocityBeyondItsLimitIsZeroForce) {
   options.limits.velocity = 0.02;
   WallOptions wall;
   wall.controller = wall_controller(device.parameters().wall);
-  wall.knock = 8.0;
+  wall.impulse = 8.0;
   EXPECT_EQ(render_wall(device, *driver, options, wall).session.stop, StopReason::velocity_limit);
   expect_no_force();
 }

@@ -7,8 +7,8 @@
 #include "rig/rig_actions.hpp"
 #include "rig/rig_devices.hpp"
 #include "rig/simulated_driver.hpp"
-#include "zwidth/model/device_operator.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/model/device_user.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::rig {
 namespace {
@@ -103,13 +103,13 @@ TEST(UnsafeLimit, WhoHoldsIsKnownInTheFileAlone) {
   EXPECT_NEAR(held.limits.nobody.critical_stiffness, 14.2, 0.05);
   EXPECT_NEAR(*held.measured.stiffness / held.predicted.stiffness, 1.0, 0.02);
   // Nobody holds it: the file's limit for that is kept.
-  const RigLimit free = limit_of_other(device, without_operator(device));
+  const RigLimit free = limit_of_other(device, device_without_user(device));
   ASSERT_TRUE(free.measured.at_most);
   ASSERT_EQ(free.remarks.size(), 1U);
   EXPECT_EQ(free.remarks.front().severity, Remark::Severity::note);
   EXPECT_TRUE(free.predicted.trust.sound());
   // Nobody holds it, and it bears less than that too.
-  const RigLimit less = limit_of_other(device, damped_by(without_operator(device), 0.7));
+  const RigLimit less = limit_of_other(device, damped_by(device_without_user(device), 0.7));
   EXPECT_TRUE(says_unsafe(less)) << less.measured.at_most.value_or(0.0);
 }
 

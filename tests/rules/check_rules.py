@@ -76,7 +76,7 @@ def room_of_library(path):
 
 
 def sub_room(path):
-    """"stability/users/user_discs.hpp" -> its place in the order; nothing for what stands in the room itself."""
+    """"stability/users/termination_circles.hpp" -> its place in the order; nothing for what stands in the room itself."""
     parts = path.split("/")
     order = SUB_ROOMS.get(parts[0], [])
     return order.index(parts[1]) if len(parts) == 3 and parts[1] in order else None
@@ -191,8 +191,8 @@ def disk(root):
     writes = re.compile(r"\b(OutputFiles|write_whole|make_directory|ofstream)\b")
     for path in files(root, "apps/cli"):
         for number, line in lines(path):
-            if reads.search(line) and path.stem != "surroundings":
-                yield path, number, "reads a file beside surroundings.hpp"
+            if reads.search(line) and path.stem != "request_context":
+                yield path, number, "reads a file beside request_context.hpp"
             if writes.search(line) and path.stem not in ("outputs", "reproduce"):
                 yield path, number, "writes a file beside outputs.hpp"
 

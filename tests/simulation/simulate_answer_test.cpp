@@ -178,7 +178,7 @@ TEST(SimulationStart, AStartThatWasAskedForStaysAndItsStictionIsSaid) {
 
 // Under a steady force F a damper alone lets the device drift at v = F/(b + B): the encoder steps v/q times a second,
 // each a force of B q/T for one sample.
-TEST(ForceRipple, OfADampedDriftIsThatOfTheCounts) {
+TEST(QuantisationForce, OfADampedDriftIsThatOfTheCounts) {
   DeviceParameters device = test::rigid_parameters();
   device.wall.damping = 20.0;
   device.sensor.resolution = 1e-4;
@@ -187,15 +187,15 @@ TEST(ForceRipple, OfADampedDriftIsThatOfTheCounts) {
   options.duration = 8.0;
   const Simulation result = simulate(Device(device), options);
   EXPECT_EQ(result.verdict, LoopVerdict::drifts);
-  ASSERT_TRUE(result.force_ripple);
-  EXPECT_NEAR(result.force_ripple->amplitude, 0.5 * 20.0 * 1e-4 / 1e-3, 0.02);
-  EXPECT_NEAR(result.force_ripple->frequency, 2.0 * pi * (0.1 / 23.5) / 1e-4, 0.02 * 2.0 * pi * 42.6);
+  ASSERT_TRUE(result.quantisation_force);
+  EXPECT_NEAR(result.quantisation_force->amplitude, 0.5 * 20.0 * 1e-4 / 1e-3, 0.02);
+  EXPECT_NEAR(result.quantisation_force->frequency, 2.0 * pi * (0.1 / 23.5) / 1e-4, 0.02 * 2.0 * pi * 42.6);
   EXPECT_TRUE(result.encoder_chatters);
   EXPECT_THAT(whats(result), Contains(HasSubstr("ripple by 1 N either way, at 42.")));
 }
 
 // The springs hold a position between two counts: the encoder cannot settle on either.
-TEST(ForceRipple, OfADeviceHeldBetweenTwoCountsIsNamed) {
+TEST(QuantisationForce, OfADeviceHeldBetweenTwoCountsIsNamed) {
   DeviceParameters device = lhifam_with_wall(5000.0);
   device.bodies[1].damping = 30.0;
   device.sensor.resolution = 1e-3;
@@ -204,14 +204,14 @@ TEST(ForceRipple, OfADeviceHeldBetweenTwoCountsIsNamed) {
   options.duration = 20.0;
   const Simulation result = simulate(Device(device), options);
   EXPECT_NE(result.verdict, LoopVerdict::unstable);
-  ASSERT_TRUE(result.force_ripple);
-  EXPECT_NEAR(result.force_ripple->amplitude, 2.5, 0.1);  // K q/2
+  ASSERT_TRUE(result.quantisation_force);
+  EXPECT_NEAR(result.quantisation_force->amplitude, 2.5, 0.1);  // K q/2
   EXPECT_TRUE(result.encoder_chatters);
   EXPECT_THAT(whats(result), Contains(HasSubstr("the encoder's steps of 1 mm make the force ripple")));
 }
 
 // Once the encoder reads one step only, the place within it decays on: that was told as a ripple of the force.
-TEST(ForceRipple, IsNoneWhereTheForceRestsAtLast) {
+TEST(QuantisationForce, IsNoneWhereTheForceRestsAtLast) {
   DeviceParameters device = lhifam_with_wall(3000.0);
   device.bodies[1].damping = 30.0;
   device.wall.damping = 10.0;
@@ -223,7 +223,7 @@ TEST(ForceRipple, IsNoneWhereTheForceRestsAtLast) {
   const std::vector<double>& commands = result.trajectory.command;
   const auto tail = std::span(commands).last(commands.size() / 10);
   ASSERT_TRUE(std::ranges::all_of(tail, [&](double each) { return each == tail.front(); }));
-  EXPECT_FALSE(result.force_ripple);
+  EXPECT_FALSE(result.quantisation_force);
 }
 
 TEST(SimulationRemarks, SayWhereTheWallCannotAct) {
@@ -238,36 +238,36 @@ TEST(SimulationRemarks, SayWhereTheWallCannotAct) {
   EXPECT_THAT(whats(simulate(Device(weak))), Contains(HasSubstr("no wall moves the device")));
 }
 
-TEST(ForceRipple, IsNoneWithoutAnEncoderAndAtRest) {
-  EXPECT_FALSE(simulate(Device(lhifam_with_wall(5000.0))).force_ripple);
+TEST(QuantisationForce, IsNoneWithoutAnEncoderAndAtRest) {
+  EXPECT_FALSE(simulate(Device(lhifam_with_wall(5000.0))).quantisation_force);
   DeviceParameters device = test::with_friction(lhifam_with_wall(5000.0), 0.5, 1.0);
   device.sensor.resolution = 3.14e-6;
   const Simulation rests = simulate(Device(device));
   EXPECT_EQ(rests.verdict, LoopVerdict::settles);
-  EXPECT_FALSE(rests.force_ripple);
+  EXPECT_FALSE(rests.quantisation_force);
   EXPECT_FALSE(rests.encoder_chatters);
 }
 
 // A swinging device has a ripple too, but it is not what moves the force.
-TEST(ForceRipple, OfALargeOscillationIsNoChatter) {
+TEST(QuantisationForce, OfALargeOscillationIsNoChatter) {
   DeviceParameters device = lhifam_with_wall(5000.0);
   device.sensor.resolution = 3.14e-6;
   const Simulation result = simulate(Device(device));
   EXPECT_EQ(result.verdict, LoopVerdict::settles);
-  ASSERT_TRUE(result.force_ripple);
-  EXPECT_LT(result.force_ripple->amplitude, 5000.0 * 3.14e-6);
+  ASSERT_TRUE(result.quantisation_force);
+  EXPECT_LT(result.quantisation_force->amplitude, 5000.0 * 3.14e-6);
   EXPECT_FALSE(result.encoder_chatters);
 }
 
 // Too few swings to judge: nothing is said about the encoder either.
-TEST(ForceRipple, OfAnUndecidedRunIsNoChatter) {
+TEST(QuantisationForce, OfAnUndecidedRunIsNoChatter) {
   DeviceParameters device = lhifam_with_wall(500.0);
   device.sensor.resolution = 3.14e-6;
   SimulationOptions options;
   options.duration = 6.5;
   const Simulation result = simulate(Device(device), options);
   EXPECT_EQ(result.verdict, LoopVerdict::undecided);
-  EXPECT_TRUE(result.force_ripple);
+  EXPECT_TRUE(result.quantisation_force);
   EXPECT_FALSE(result.encoder_chatters);
 }
 

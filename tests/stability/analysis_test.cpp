@@ -266,7 +266,7 @@ TEST(Analysis, AnOpenIntervalIsNoSureAnswer) {
   device.uncertainty->covariance = {{4.0}};
   const Analysis open = analyze(Device(device));
   EXPECT_EQ(open.trust.verdict, Trust::Verdict::doubtful);
-  EXPECT_TRUE(is_open(*open.interval));
+  EXPECT_TRUE(is_inconclusive(*open.interval));
 }
 
 TEST(Analysis, AWallAboveTheLimitWithAnyUserIsSaid) {

@@ -1,4 +1,4 @@
-// Dampers without a spring. Beside critical_damping() and any_user_damping(): closed forms of a rigid device, eigenvalues of
+// Dampers without a spring. Beside critical_damping() and absolute_stability_damping(): closed forms of a rigid device, eigenvalues of
 // the matrix exponential, and users.
 
 #include "zwidth/stability/critical_damping.hpp"
@@ -14,9 +14,9 @@
 
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
-#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_region.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/wall_margins.hpp"
@@ -70,7 +70,7 @@ TEST(CriticalDamping, WithAnyUserARigidDeviceBearsItsOwnDamping) {
     const double T = random.log_uniform(1e-4, 1e-2);
     const double m = random.log_uniform(1e-3, 10.0);
     const double b = m / T * random.log_uniform(1e-4, 0.1);
-    const AnyUserDamping found = any_user_damping(Device(one_body(m, b, T)));
+    const AbsoluteStabilityDamping found = absolute_stability_damping(Device(one_body(m, b, T)));
     EXPECT_TRUE(found.trust.sound());
     EXPECT_NEAR(found.damping / b, 1.0, 1e-6) << i;
     EXPECT_LE(found.damping, b * (1.0 + 1e-9)) << i;
@@ -133,9 +133,9 @@ TEST(CriticalDamping, EigenvaluesAgreeOnRandomDevices) {
 
 TEST(CriticalDamping, WithAnyUserIsWhereTheRegionEnds) {
   const Device device(test::lhifam_parameters());
-  const AnyUserDamping found = any_user_damping(device);
+  const AbsoluteStabilityDamping found = absolute_stability_damping(device);
   const StableWalls walls(filtered_plant(device));
-  const AnyUserRegion region = any_user_region(device, walls, critical_damping(device).damping);
+  const AbsoluteStabilityRegion region = absolute_stability_region(device, walls, critical_damping(device).damping);
   ASSERT_TRUE(region.most_damped);
   EXPECT_NEAR(region.most_damped->damping / found.damping, 1.0, 1e-3);
 }
@@ -144,8 +144,8 @@ TEST(CriticalDamping, WithAnyUserIsWhereTheRegionEnds) {
 double least_over_users(const Device& device, double limit) {
   test::RandomDevices random(3);
   double least = critical_damping(device).damping;
-  const auto take = [&](const Operator& user) {
-    const CriticalDamping held = critical_damping(with_operator(device, user));
+  const auto take = [&](const User& user) {
+    const CriticalDamping held = critical_damping(device_with_user(device, user));
     if (!held.trust.sound()) return;
     EXPECT_GE(held.damping, limit * (1.0 - 1e-6)) << user.mass << ", " << user.damping << ", " << user.stiffness;
     least = std::min(least, held.damping);
@@ -167,7 +167,7 @@ TEST(CriticalDamping, UsersProveTheLimit) {
   const DeviceParameters devices[] = {lhifam, test::handle_sensed(lhifam), test::with_delay(lhifam, 1e-3)};
   for (const DeviceParameters& each : devices) {
     const Device device(each);
-    const double limit = any_user_damping(device).damping;
+    const double limit = absolute_stability_damping(device).damping;
     EXPECT_LT(limit, critical_damping(device).damping);
     const double least = least_over_users(device, limit);
     EXPECT_LT(least, limit * 1.002);

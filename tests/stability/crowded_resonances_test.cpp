@@ -60,7 +60,7 @@ TEST(CrowdedResonances, WorstUsersAreSeenByTheCriticalStiffness) {
       parameters.loop.sensed = sensed;
       parameters.loop.delay = delay;
       const Device device(parameters);
-      const auto worst = worst_user(device, any_user_limit(device));
+      const auto worst = worst_user(device, absolute_stability_limit(device));
       ASSERT_TRUE(worst);
       const CriticalStiffness result = critical_stiffness(filtered_plant(held_by(device, worst->user)));
       EXPECT_LE(result.stiffness, worst->critical_stiffness * (1.0 + 1e-6))

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "lhifam.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -84,7 +84,7 @@ TEST(Holding, AKnobInAHandIsJudgedWithoutIt) {
 TEST(Holding, TheLimitsAreThoseOfTheDeviceWithoutTheUser) {
   const DeviceParameters parameters = knob();
   const HoldingLimits limits = holding_limits(Device(parameters));
-  const HoldingLimits alone = holding_limits(without_operator(Device(parameters)));
+  const HoldingLimits alone = holding_limits(device_without_user(Device(parameters)));
   EXPECT_EQ(limits.nobody.critical_stiffness, alone.nobody.critical_stiffness);
   EXPECT_EQ(limits.nobody.critical_damping, alone.nobody.critical_damping);
   EXPECT_EQ(limits.any_user->critical_stiffness, alone.any_user->critical_stiffness);

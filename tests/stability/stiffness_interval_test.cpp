@@ -230,16 +230,16 @@ TEST(StiffnessInterval, RefusesWithoutUncertaintyOrDraws) {
 }
 
 // Of one number the limit rises with, the quantiles are the limits at its own.
-TEST(AnyUserInterval, FollowsAMonotonicFunction) {
+TEST(AbsoluteStabilityInterval, FollowsAMonotonicFunction) {
   DeviceParameters parameters = test::lhifam_parameters();
   constexpr double variance = 0.04;
   parameters.uncertainty = Uncertainty{{"body.handle.damping"}, {{variance}}};
-  const StiffnessInterval interval = any_user_interval(Device(parameters), {}, 400);
+  const StiffnessInterval interval = absolute_stability_interval(Device(parameters), {}, 400);
   const auto limit_at = [&](double deviations) {
     DeviceParameters moved = parameters;
     moved.uncertainty.reset();
     moved.bodies[1].damping += deviations * std::sqrt(variance);
-    return any_user_limit(Device(moved)).stiffness;
+    return absolute_stability_limit(Device(moved)).stiffness;
   };
   EXPECT_GT(interval.lower, limit_at(-2.4));
   EXPECT_LT(interval.lower, limit_at(-1.6));
@@ -248,11 +248,11 @@ TEST(AnyUserInterval, FollowsAMonotonicFunction) {
   EXPECT_EQ(interval.draws, 400U);
 }
 
-TEST(AnyUserInterval, RefusesWithoutUncertaintyOrDraws) {
+TEST(AbsoluteStabilityInterval, RefusesWithoutUncertaintyOrDraws) {
   DeviceParameters parameters = test::lhifam_parameters();
-  EXPECT_THROW((void)any_user_interval(Device(parameters)), Error);
+  EXPECT_THROW((void)absolute_stability_interval(Device(parameters)), Error);
   parameters.uncertainty = Uncertainty{{"body.handle.damping"}, {{0.04}}};
-  EXPECT_THROW((void)any_user_interval(Device(parameters), {}, 0), Error);
+  EXPECT_THROW((void)absolute_stability_interval(Device(parameters), {}, 0), Error);
 }
 
 // 8 kN/m with an interval from 7.6: was called stable, and some devices that the uncertainty allows are not.

@@ -9,7 +9,7 @@
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
@@ -17,12 +17,12 @@ namespace {
 
 constexpr UserFamily arms{{0.0, 2.0}, {0.0, 30.0}, {0.0, 1000.0}};
 
-double held_stiffness(DeviceParameters parameters, const Operator& user, VirtualDamper damper = {}) {
+double held_stiffness(DeviceParameters parameters, const User& user, VirtualDamper damper = {}) {
   parameters.user = user;
   return critical_stiffness(filtered_plant(Device(parameters)), damper).stiffness;
 }
 
-Operator drawn(const UserFamily& family, test::RandomDevices& random) {
+User drawn(const UserFamily& family, test::RandomDevices& random) {
   // Half of them near the least values, where K_CR changes fastest.
   const auto value = [&](const ValueRange& range) {
     const double share = random.uniform(0.0, 1.0);
@@ -52,7 +52,7 @@ TEST(UserFamily, OneUserIsItsOwnWorst) {
 TEST(UserFamily, FindsTheWorstSpring) {
   const Device device(test::lhifam_parameters());
   const WorstOfFamily worst = worst_of_family(device, {{0.0, 0.0}, {0.0, 0.0}, {0.0, 1e6}});
-  const double limit = any_user_limit(device).stiffness;
+  const double limit = absolute_stability_limit(device).stiffness;
   EXPECT_GE(worst.critical_stiffness, limit);
   EXPECT_LE(worst.critical_stiffness, limit * (1.0 + 5e-6));
   EXPECT_NEAR(worst.user.stiffness, 363025.0, 2000.0);
@@ -76,10 +76,10 @@ TEST(UserFamily, NoDrawnUserIsWorse) {
     const VirtualDamper damper{parameters.wall.damping, parameters.wall.velocity_filter_hz};
     const Device device(parameters);
     const WorstOfFamily worst = worst_of_family(device, arms, damper);
-    EXPECT_GE(worst.critical_stiffness, any_user_limit(device, damper).stiffness * (1.0 - 3e-6))
+    EXPECT_GE(worst.critical_stiffness, absolute_stability_limit(device, damper).stiffness * (1.0 - 3e-6))
         << kind << ", " << seed;
     for (int i = 0; i < 100; ++i) {
-      const Operator user = drawn(arms, random);
+      const User user = drawn(arms, random);
       EXPECT_GE(held_stiffness(parameters, user, damper), worst.critical_stiffness * (1.0 - 1e-6))
           << kind << ", seed " << seed << ": " << user.mass << ", " << user.damping << ", " << user.stiffness;
     }

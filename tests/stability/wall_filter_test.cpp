@@ -8,8 +8,8 @@
 
 #include "lhifam.hpp"
 #include "zwidth/design/stable_region.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
-#include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
@@ -81,8 +81,8 @@ TEST(WallFilters, ALowPassLeavesNoCrossoverAtNyquist) {
 }
 
 TEST(WallFilters, AFactorOfOneHalfDoublesTheAnyUserLimit) {
-  const AnyUserLimit plain = any_user_limit(Device(test::lhifam_parameters()));
-  const AnyUserLimit halved = any_user_limit(with_filter(digital_filter({0.5, 0.0}, {1.0, 0.0})));
+  const AbsoluteStabilityLimit plain = absolute_stability_limit(Device(test::lhifam_parameters()));
+  const AbsoluteStabilityLimit halved = absolute_stability_limit(with_filter(digital_filter({0.5, 0.0}, {1.0, 0.0})));
   EXPECT_NEAR(halved.stiffness / plain.stiffness, 2.0, 1e-9);
 }
 

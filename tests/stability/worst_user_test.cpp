@@ -35,7 +35,7 @@ double excess(const Device& held, VirtualDamper damper, double stiffness) {
 void expect_proof(const std::string& name, const DeviceParameters& parameters, double off, VirtualDamper damper = {}) {
   SCOPED_TRACE(name + ", delay " + std::to_string(parameters.loop.delay));
   const Device device(parameters);
-  const AnyUserLimit limit = any_user_limit(device, damper);
+  const AbsoluteStabilityLimit limit = absolute_stability_limit(device, damper);
   const auto worst = worst_user(device, limit, damper);
   ASSERT_TRUE(worst);
   EXPECT_GE(worst->critical_stiffness, limit.stiffness * (1.0 - rounding));
@@ -43,7 +43,7 @@ void expect_proof(const std::string& name, const DeviceParameters& parameters, d
   const Device held = held_by(device, worst->user);
   EXPECT_LT(excess(held, damper, limit.stiffness * (1.0 - 1e-4)), 0.0);
   EXPECT_GT(excess(held, damper, worst->critical_stiffness * (1.0 + 1e-4)), 0.0);
-  if (worst->user.absorbers.size() > 2) return;  // see docs/any_user.md, "What falls short"
+  if (worst->user.absorbers.size() > 2) return;  // see docs/absolute_stability.md, "What falls short"
   const double critical = critical_stiffness(filtered_plant(held), damper).stiffness;
   EXPECT_GE(critical, limit.stiffness * (1.0 - 3e-6));
   EXPECT_LE(critical, limit.stiffness * (1.0 + off));
@@ -64,7 +64,7 @@ TEST(WorstUser, IsKnownToTheLastDigitsAtLowFrequency) {
   parameters.bodies = {{"handle", 0.989032, 0.0203918, 0.0, 0.0}};
   parameters.actuator.time_constant = 1.8024e-3;
   const Device device(parameters);
-  const auto worst = worst_user(device, any_user_limit(device));
+  const auto worst = worst_user(device, absolute_stability_limit(device));
   ASSERT_TRUE(worst);
   const test::ExactClosedLoop held(held_by(device, worst->user));
   EXPECT_EQ(held.poles_outside(worst->critical_stiffness * (1.0 - 1e-12)), 0);

@@ -9,7 +9,7 @@
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/study/study_run.hpp"
 
 namespace zwidth {
@@ -293,7 +293,7 @@ TEST(Study, FindsTheWorstUnitForAnyUser) {
   EXPECT_LE(*result.worst_any_user->any_user, result.worst_any_user->sampled);
   EXPECT_LE(*result.worst_any_user->any_user, *result.worst->any_user * (1.0 + 1e-9));
   const Device device(result.worst_any_user->device);
-  EXPECT_EQ(any_user_limit(device, virtual_damper(device)).stiffness, *result.worst_any_user->any_user);
+  EXPECT_EQ(absolute_stability_limit(device, virtual_damper(device)).stiffness, *result.worst_any_user->any_user);
 }
 
 TEST(Study, RefusesOptionsByName) {

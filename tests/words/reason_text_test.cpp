@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "counted.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {

@@ -23,11 +23,12 @@ std::string axes(const std::string& ranges, std::string_view label) {
   return fmt::format("{}\n{}\nset xtics autofreq\nset ytics autofreq\n{}", axes_look(), y_label(label), ranges);
 }
 
-void draw_drift(Canvas& canvas, const Box& frame, double drift, const NotchDesign& notch, const Units& units) {
+void draw_modal_shifts(Canvas& canvas, const Box& frame, double uncertainty, const NotchDesign& notch,
+                       const Units& units) {
   std::string rows;
   double top = 0.0;
-  for (const NotchAtDrift& each : notch.over_drift) {
-    rows += fmt::format("{:.9g} {:.9g} {:.9g}\n", 100.0 * each.drift, each.without, each.with);
+  for (const NotchAtModalShift& each : notch.over_modal_shift) {
+    rows += fmt::format("{:.9g} {:.9g} {:.9g}\n", 100.0 * each.modal_shift, each.without, each.with);
     for (const double limit : {each.without, each.with}) {
       if (std::isfinite(limit)) top = std::max(top, limit);
     }
@@ -35,12 +36,12 @@ void draw_drift(Canvas& canvas, const Box& frame, double drift, const NotchDesig
   if (top == 0.0) top = 1.0;  // no wall keeps the margins: a line at 0
   const AxisUnit unit = axis_unit(top);
   data_block(canvas, "drift", rows);
-  const double reach = std::max(100.0 * drift, 1.0);
+  const double reach = std::max(100.0 * uncertainty, 1.0);
   canvas.commands(
       axes(fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.6g}]", -reach, reach, 1.1 * top / unit.size),
            fmt::format("Stiffest wall ({}{})", unit.prefix, units.stiffness)));
   x_label(canvas, frame, "Shift of the modes (%)");
-  const char* style = notch.over_drift.size() > 1 ? "lines" : "points pt 7";
+  const char* style = notch.over_modal_shift.size() > 1 ? "lines" : "points pt 7";
   const std::string with =
       fmt::format(", $drift using 1:($3/{}) with {} {} notitle", unit.size, style, gnuplot_line(with_style));
   canvas.plot(frame, fmt::format("$drift using 1:($2/{}) with {} {} notitle{}", unit.size, style,
@@ -91,7 +92,8 @@ std::string draw_notch(const Device& device, const NotchOptions& options, const 
   const double top = heading.bottom() + 26.0;
   Canvas canvas(title, canvas_width, top + 366.0);
   heading.draw(canvas);
-  draw_drift(canvas, {frame_left, notch.notch ? 440.0 : frame_right, top, top + 304.0}, options.drift, notch, units);
+  draw_modal_shifts(canvas, {frame_left, notch.notch ? 440.0 : frame_right, top, top + 304.0},
+                    options.modal_frequency_uncertainty, notch, units);
   if (notch.notch)
     draw_gain(canvas, {530.0, frame_right - 46.0, top, top + 304.0}, device.loop().sampling_period, notch);
   return canvas.draw(format);

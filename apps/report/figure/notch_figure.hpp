@@ -7,7 +7,7 @@
 
 namespace zwidth::report {
 
-/// The stiffest wall over the drift, with and without; and the gain of the notch. Throws OutputFailed.
+/// The stiffest wall over the modal shift, with and without; and the gain of the notch. Throws OutputFailed.
 [[nodiscard]] std::string draw_notch(const Device& device, const NotchOptions& options, const NotchDesign& notch,
                                      FigureFormat format);
 

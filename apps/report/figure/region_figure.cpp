@@ -266,9 +266,9 @@ class RegionFigure {
   }
 
   /// Down to K = 0 at either end.
-  static std::vector<Place> outline_of(const std::vector<AnyUserPoint>& range) {
+  static std::vector<Place> outline_of(const std::vector<AbsoluteStabilityPoint>& range) {
     std::vector<Place> outline{{range.front().damping, 0.0}};
-    for (const AnyUserPoint& point : range) outline.push_back({point.damping, point.stiffness});
+    for (const AbsoluteStabilityPoint& point : range) outline.push_back({point.damping, point.stiffness});
     outline.push_back({range.back().damping, 0.0});
     return outline;
   }

@@ -22,7 +22,7 @@ constexpr std::string_view anyone_colour = "#bfe3c5";
 constexpr std::string_view unstable_colour = "#f6d5d0";
 constexpr LineStyle leader{"#555555", 0.8, "1"};
 constexpr LineStyle reference_leader{"#0b4f9e", 1.0, "(4,3)"};
-constexpr LineStyle any_user_leader{"#14532d", 1.4, "1"};
+constexpr LineStyle absolute_stability_leader{"#14532d", 1.4, "1"};
 constexpr LineStyle critical_leader{"#b91c1c", 1.4, "1"};
 /// More crossovers than these stand without a number, as in the Bode figure.
 constexpr std::size_t most_numbered = 12;
@@ -51,7 +51,7 @@ std::vector<StableInterval> stable_walls(const Analysis& analysis) {
 }
 
 /// That can be drawn: some users destabilise some walls, not all.
-bool has_any_user_limit(const Analysis& analysis) {
+bool has_absolute_stability_limit(const Analysis& analysis) {
   return analysis.any_user && analysis.any_user->stiffness > 0.0 && std::isfinite(analysis.any_user->stiffness);
 }
 
@@ -81,9 +81,9 @@ std::vector<Label> labels_of(const AnalysedDevice& analysed) {
     labels.push_back(
         {stiffness, fmt::format("{}, {}", words_of(Holder::nobody), quantity(stiffness, unit)), critical_leader});
   }
-  if (has_any_user_limit(analysis)) {
+  if (has_absolute_stability_limit(analysis)) {
     const double stiffness = analysis.any_user->stiffness;
-    labels.push_back({stiffness, "any passive user, " + quantity(stiffness, unit), any_user_leader});
+    labels.push_back({stiffness, "any passive user, " + quantity(stiffness, unit), absolute_stability_leader});
   }
   if (analysis.rigid && analysis.rigid->critical.status == StiffnessStatus::finite &&
       analysed.device.bodies().size() > 1) {

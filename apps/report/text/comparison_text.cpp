@@ -55,7 +55,7 @@ std::string sentence(std::string_view user, const DesignComparison& comparison, 
                      gain);
 }
 
-std::string user_text(const Operator& user, Motion motion) {
+std::string user_text(const User& user, Motion motion) {
   const Units units = units_of(motion);
   return fmt::format("{} {}, {} {}, {} {}", number(user.mass), units.mass, number(user.damping), units.damping,
                      number(user.stiffness), units.stiffness);

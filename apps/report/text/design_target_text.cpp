@@ -65,7 +65,7 @@ class TargetTable {
     std::vector<std::string> row{key, parameter_text(each.key, each.value_now, motion_),
                                  parameter_text(each.key, *each.value_needed, motion_), change_text(each)};
     if (table_.alignment.size() > row.size()) {
-      row.push_back(words_.any_user(each.any_user_then));
+      row.push_back(words_.any_user(each.absolute_stability_limit_then));
     }
     table_.rows.push_back(std::move(row));
     notes_ += wrap(fmt::format("{}: {}", key, text(each.why)), line_width, 4).replace(0, 4, "  - ");
@@ -88,16 +88,16 @@ class TargetTable {
 std::string design_target_text(const Device& device, const DesignTargetOptions& options, const DesignTargets& targets) {
   const Motion motion = device.parameters().motion;
   const LimitWords words(options.limit_of, motion);
-  const bool any_user = options.goal == StiffnessGoal::any_user_limit;
+  const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
   std::string text = shortened(display_name(device), line_width) + "\n";
   if (const auto trust = trust_note(targets.trust)) text += wrap(*trust, line_width, 22).replace(0, 7, "  trust");
   text += fmt::format("  {}  {}, asked for {}\n", any_user ? "any passive user  " : words.nobody(),
                       words.limit(targets.limit_now), words.asked(options, targets));
-  if (!any_user && targets.any_user_now) {
-    text += fmt::format("  any passive user    {}\n", words.limit(targets.any_user_now));
+  if (!any_user && targets.absolute_stability_limit_now) {
+    text += fmt::format("  any passive user    {}\n", words.limit(targets.absolute_stability_limit_now));
   }
   for (const Remark& remark : targets.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
-  TargetTable reaching(motion, words, targets.any_user_now.has_value());
+  TargetTable reaching(motion, words, targets.absolute_stability_limit_now.has_value());
   TargetTable lowering(motion, words, true);
   std::string without;
   for (const DesignTarget& each : targets.targets) {
@@ -110,7 +110,7 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
   }
   text += reaching.under("What reaches it, the smallest change first; numbers that are 0 now at the end");
   text += lowering.under(fmt::format("What reaches it, but lowers the limit with any passive user, now {}",
-                                     words.limit(targets.any_user_now)));
+                                     words.limit(targets.absolute_stability_limit_now)));
   if (!without.empty()) text += "\nWhat does not\n" + without;
   return text;
 }

@@ -30,9 +30,9 @@ class DesignWriter {
                        (trust ? labelled("  trust", *trust) : "") +
                        labelled("  critical stiffness", critical_stiffness_text(critical, motion_));
     if (const auto limit = what_limits(analysed_)) text += labelled("  limited by", *limit);
-    if (const auto limit = any_user_note(analysed_)) text += labelled("  any passive user", *limit);
+    if (const auto limit = absolute_stability_note(analysed_)) text += labelled("  any passive user", *limit);
     text += "\n";
-    if (design_.sensitivities.empty() && design_.any_user_sensitivities.empty()) {
+    if (design_.sensitivities.empty() && design_.absolute_stability_sensitivities.empty()) {
       return text + "No sensitivities: there is no limit that a parameter could move.\n";
     }
     text += relative_table();
@@ -56,7 +56,7 @@ class DesignWriter {
   [[nodiscard]] std::vector<const Sensitivity*> all() const {
     std::vector<const Sensitivity*> result;
     for (const Sensitivity& each : design_.sensitivities) result.push_back(&each);
-    for (const Sensitivity& each : design_.any_user_sensitivities) {
+    for (const Sensitivity& each : design_.absolute_stability_sensitivities) {
       if (find_sensitivity(design_.sensitivities, each.key) == nullptr) result.push_back(&each);
     }
     return result;
@@ -73,9 +73,9 @@ class DesignWriter {
     for (const Sensitivity* each : rows) {
       table.rows.push_back({shortened(each->key, key_width), parameter_text(each->key, each->value, motion_),
                             percent(find_sensitivity(design_.sensitivities, each->key)),
-                            percent(find_sensitivity(design_.any_user_sensitivities, each->key))});
+                            percent(find_sensitivity(design_.absolute_stability_sensitivities, each->key))});
     }
-    if (design_.any_user_sensitivities.empty()) drop_last_column(table);
+    if (design_.absolute_stability_sensitivities.empty()) drop_last_column(table);
     return fmt::format("What +{:.0f} % of each number gives, the strongest first\n", typical_change) + layout(table);
   }
 
@@ -93,7 +93,7 @@ class DesignWriter {
       if (each->relative) continue;
       const std::string unit = parameter_unit(each->key, motion_);
       table.rows.push_back({shortened(each->key, key_width), cell(find_sensitivity(design_.sensitivities, each->key)),
-                            cell(find_sensitivity(design_.any_user_sensitivities, each->key)),
+                            cell(find_sensitivity(design_.absolute_stability_sensitivities, each->key)),
                             fmt::format("{} per {}", stiffness, unit.empty() ? "1" : unit)});
     }
     if (table.rows.size() < 2) return {};

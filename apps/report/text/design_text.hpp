@@ -21,7 +21,7 @@ namespace zwidth::report {
 [[nodiscard]] std::string design_target_text(const Device& device, const DesignTargetOptions& options,
                                              const DesignTargets& targets);
 
-/// The answer for people: what to paste, what it gains over the drift, what it costs.
+/// The answer for people: what to paste, what it gains over the modal shifts, what it costs.
 [[nodiscard]] std::string notch_text(const Device& device, const NotchOptions& options, const NotchDesign& notch);
 
 /// The sweep as a table: every point of one parameter up to `most_rows`, evenly thinned beyond; of two, the least and

@@ -22,7 +22,7 @@ std::string cause_text(OscillationCause cause) {
   switch (cause) {
     case OscillationCause::device:
       return "the device itself, nobody holding";
-    case OscillationCause::with_operator:
+    case OscillationCause::with_user:
       return "the device with its operator";
     case OscillationCause::passive_user:
       return "the grasp of a user";
@@ -93,8 +93,9 @@ class LimitScale {
     const auto take = [&largest](const std::optional<double>& limit) {
       if (limit && std::isfinite(*limit)) largest = std::max(largest, *limit);
     };
-    take(diagnosis.any_user_now);
-    for (const DiagnosisChange& each : diagnosis.changes) take(each.limit_then), take(each.any_user_then);
+    take(diagnosis.absolute_stability_limit_now);
+    for (const DiagnosisChange& each : diagnosis.changes)
+      take(each.limit_then), take(each.absolute_stability_limit_then);
     constexpr double thousands = 1e4;
     if (!is_damper_ && largest >= thousands) scale_ = 1e3;
     unit_ = fmt::format("{}{}", scale_ > 1.0 ? "k" : "", is_damper_ ? units.damping : units.stiffness);
@@ -120,11 +121,11 @@ class LimitScale {
 std::string end_text(const Diagnosis& diagnosis, const DiagnosisChange& change) {
   if (!change.ends_it) return "-";
   if (!*change.ends_it) return "no";
-  if (!diagnosis.stiffness || !change.any_user_then) return "yes";
+  if (!diagnosis.stiffness || !change.absolute_stability_limit_then) return "yes";
   const bool is_damper = diagnosis.limit_of == WallNumber::damping;
   const double now = is_damper ? diagnosis.damping : *diagnosis.stiffness;
   const double wall = change.key == (is_damper ? "wall.damping" : "wall.stiffness") ? change.value_then : now;
-  return *change.any_user_then > wall ? "yes" : "alone only";
+  return *change.absolute_stability_limit_then > wall ? "yes" : "alone only";
 }
 
 std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
@@ -132,7 +133,7 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
   const Units units = units_of(motion);
   const LimitScale limits(device, diagnosis);
   const bool by_amplitude = diagnosis.nearest == OscillationCause::quantisation;
-  const bool judged = diagnosis.any_user_now && diagnosis.nearest != OscillationCause::passive_user;
+  const bool judged = diagnosis.absolute_stability_limit_now && diagnosis.nearest != OscillationCause::passive_user;
   TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::left},
                   {{"change", "now", "then", by_amplitude ? "swing" : limits.heading(), "ends it"}}};
   if (judged) {
@@ -146,7 +147,9 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
     table.rows.push_back({each.what, value_text(each, each.value_now, motion),
                           value_text(each, each.value_then, motion), effect, end_text(diagnosis, each)});
-    if (judged) table.rows.back().push_back(each.any_user_then ? limits.text(*each.any_user_then) : "-");
+    if (judged)
+      table.rows.back().push_back(each.absolute_stability_limit_then ? limits.text(*each.absolute_stability_limit_then)
+                                                                     : "-");
     if (!each.safe.value_or(true)) lowering += (lowering.empty() ? "" : ", ") + each.what;
   }
   std::string now;
@@ -156,8 +159,8 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
     if (first.amplitude_now) now = fmt::format("swing now {}", quantity(*first.amplitude_now, units.length));
   }
   if (judged) {
-    now +=
-        fmt::format("{}with any passive user {}", now.empty() ? "" : ", ", limits.with_unit(*diagnosis.any_user_now));
+    now += fmt::format("{}with any passive user {}", now.empty() ? "" : ", ",
+                       limits.with_unit(*diagnosis.absolute_stability_limit_now));
   }
   if (!by_amplitude || judged) now += fmt::format("{}limits in {}", now.empty() ? "" : "; ", limits.unit());
   std::string text =

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "report/text/quantity.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::report {
@@ -160,7 +160,7 @@ AnalysedDevice with_nobody_holding(const AnalysedDevice& analysed) {
   analysis.modes = alone->modes;
   analysis.suspended_rigid_body = alone->suspended_rigid_body;
   analysis.trust = analysed.analysis.trust;
-  return {without_operator(analysed.device), std::move(analysis), std::nullopt};
+  return {device_without_user(analysed.device), std::move(analysis), std::nullopt};
 }
 
 std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion) {
@@ -198,12 +198,12 @@ std::optional<std::string> interval_note(const AnalysedDevice& analysed) {
   return uncertainty && !uncertainty->warning.empty() ? note + ". NOT TO BE TRUSTED: " + uncertainty->warning : note;
 }
 
-std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {
+std::optional<std::string> absolute_stability_note(const AnalysedDevice& analysed) {
   if (!analysed.analysis.any_user) {
-    if (parameters_of(analysed).bodies.size() <= most_bodies_for_any_user) return std::nullopt;
-    return fmt::format("not computed above {} bodies", most_bodies_for_any_user);
+    if (parameters_of(analysed).bodies.size() <= most_bodies_for_absolute_stability) return std::nullopt;
+    return fmt::format("not computed above {} bodies", most_bodies_for_absolute_stability);
   }
-  const AnyUserLimit& limit = *analysed.analysis.any_user;
+  const AbsoluteStabilityLimit& limit = *analysed.analysis.any_user;
   if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
   if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
   const std::string_view unit = device_units(analysed).stiffness;
@@ -360,7 +360,7 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
     const bool stands_beside_margins = wall.has_value();
     if (remark.severity == Remark::Severity::warning && !stands_beside_margins) texts.push_back(remark_line(remark));
   }
-  const Operator& user = device.user;
+  const User& user = device.user;
   const bool has_limit = analysed.analysis.any_user && analysed.analysis.any_user->stiffness > 0.0 &&
                          std::isfinite(analysed.analysis.any_user->stiffness);
   const std::string held = device.bodies.empty() ? "" : device.bodies[device.loop.held].name;

@@ -35,7 +35,7 @@ namespace zwidth::report {
 
 /// "5.776 kN/m, worst at 41.4 Hz": the limit over all passive users; or that there are too many bodies. Nothing for a
 /// transfer function.
-[[nodiscard]] std::optional<std::string> any_user_note(const AnalysedDevice& analysed);
+[[nodiscard]] std::optional<std::string> absolute_stability_note(const AnalysedDevice& analysed);
 
 /// "a spring of 362.5 kN/m: unstable from 5.776 kN/m, 2.3 ppm above the limit": who proves that limit tight. Nothing
 /// where it was not asked for.

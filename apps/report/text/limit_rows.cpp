@@ -12,7 +12,7 @@
 #include "report/text/text_medium.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
-#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {
@@ -81,7 +81,7 @@ class LimitTable {
     const AnalysedDevice alone = with_nobody_holding(analysed_);
     add(what, Holder::nobody, spring_text(alone, alone.analysis.critical));
     if (analysis_.limits.user) add(what, Holder::user, spring_text(analysed_, analysis_.critical));
-    if (const auto limit = any_user_note(analysed_)) add(what, Holder::any_user, *limit);
+    if (const auto limit = absolute_stability_note(analysed_)) add(what, Holder::any_user, *limit);
   }
 
   [[nodiscard]] bool shows_dampers() const {

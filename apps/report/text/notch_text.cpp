@@ -14,7 +14,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t drifts_shown = 9;
+constexpr std::size_t modal_shifts_shown = 9;
 
 class NotchWriter {
  public:
@@ -40,7 +40,7 @@ class NotchWriter {
     text += fmt::format("  stiffest wall       {} with it, {}\n", quantity(design_.with, units_.stiffness), without);
     text += fmt::format("  that is             {}\n\n", what_is_promised());
     text += "For the device file\n" + for_the_file() + "\n";
-    if (design_.over_drift.size() > 1) text += over_drift() + "\n";
+    if (design_.over_modal_shift.size() > 1) text += over_modal_shift() + "\n";
     text += costs() + "\n";
     return text + wrap(fmt::format("Below its centre the notch delays the force by {}: a wall of {} feels {} {} less "
                                    "damped. Found by search: a local optimum, verified over the whole drift.",
@@ -51,13 +51,14 @@ class NotchWriter {
 
  private:
   [[nodiscard]] const char* goal() const {
-    return options_.goal == StiffnessGoal::any_user_limit ? "limit with any passive user" : "critical stiffness";
+    return options_.goal == StiffnessGoal::absolute_stability_limit ? "limit with any passive user"
+                                                                    : "critical stiffness";
   }
 
   [[nodiscard]] std::string what_is_promised() const {
     std::string text = fmt::format("the least {}", goal());
-    if (options_.drift > 0.0) {
-      text += fmt::format(" while the modes drift by up to {:.3g} %", 100.0 * options_.drift);
+    if (options_.modal_frequency_uncertainty > 0.0) {
+      text += fmt::format(" while the modes drift by up to {:.3g} %", 100.0 * options_.modal_frequency_uncertainty);
     }
     if (options_.gain_margin > 1.0) text += fmt::format(", over {:.3g}", options_.gain_margin);
     if (options_.phase_margin > 0.0) {
@@ -84,13 +85,13 @@ class NotchWriter {
         notch.frequency_hz, notch.damping_ratio, notch.depth);
   }
 
-  [[nodiscard]] std::string over_drift() const {
+  [[nodiscard]] std::string over_modal_shift() const {
     TextTable table{{Align::right, Align::right, Align::right}, {{"modes", "without", "with the notch"}}};
-    const std::size_t step = (design_.over_drift.size() - 1) / (drifts_shown - 1);
-    for (std::size_t i = 0; i < design_.over_drift.size(); i += step) {
-      const NotchAtDrift& each = design_.over_drift[i];
-      table.rows.push_back({fmt::format("{:+.3g} %", 100.0 * each.drift), quantity(each.without, units_.stiffness),
-                            quantity(each.with, units_.stiffness)});
+    const std::size_t step = (design_.over_modal_shift.size() - 1) / (modal_shifts_shown - 1);
+    for (std::size_t i = 0; i < design_.over_modal_shift.size(); i += step) {
+      const NotchAtModalShift& each = design_.over_modal_shift[i];
+      table.rows.push_back({fmt::format("{:+.3g} %", 100.0 * each.modal_shift),
+                            quantity(each.without, units_.stiffness), quantity(each.with, units_.stiffness)});
     }
     return "Stiffest wall over the drift\n" + layout(table);
   }

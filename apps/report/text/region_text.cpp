@@ -46,7 +46,7 @@ class RegionWriter {
              "\n";
     }
     text += (walls_.shared ? shared_lines(*walls_.shared) : answer_lines()) + "\n" + meaning() + "\n";
-    if (walls_.any_user) text += any_user_paragraph() + "\n";
+    if (walls_.any_user) text += absolute_stability_paragraph() + "\n";
     if (!walls_.approximations.empty()) text += approximations() + "\n";
     for (const Remark& remark : walls_.remarks) text += wrap(remark_line(remark), line_width, 0) + "\n";
     return text + wrap(
@@ -156,8 +156,8 @@ class RegionWriter {
     return wrap(text, line_width, 0);
   }
 
-  [[nodiscard]] std::string any_user_paragraph() const {
-    const AnyUserRegion& region = *walls_.any_user;
+  [[nodiscard]] std::string absolute_stability_paragraph() const {
+    const AbsoluteStabilityRegion& region = *walls_.any_user;
     const std::string anyone(words_of(WallStability::anyone));
     if (!region.stiffest) return wrap(fmt::format("No wall is {}: some user destabilises any.", anyone), line_width, 0);
     const auto& first = region.ranges.front().front();

@@ -9,13 +9,13 @@
 
 #include "report/text/findings_text.hpp"
 #include "report/text/frf_text.hpp"
-#include "report/text/held_wall_text.hpp"
+#include "report/text/holder_limit_text.hpp"
 #include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/relay_text.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -176,7 +176,7 @@ std::string rig_text(const Device& device, const RigLimit& limit) {
   }
   for (const Remark& remark : limit.remarks) text += labelled("", remark_line(remark));
   text += trust_lines(limit.trust);
-  return text + "\nTrials, each after a knock of " + quantity(limit.knock, units.force) + "\n" +
+  return text + "\nTrials, each after a knock of " + quantity(limit.impulse, units.force) + "\n" +
          trial_rows(measured, units) + session_text(limit.session);
 }
 

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "report/text/explanation.hpp"
-#include "report/text/held_wall_text.hpp"
+#include "report/text/holder_limit_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/remark.hpp"
-#include "zwidth/stability/held_wall.hpp"
+#include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -96,7 +96,7 @@ std::string_view name_of(NonlinearPart part) {
   switch (part) {
     case NonlinearPart::coulomb_friction:
       return "Coulomb friction";
-    case NonlinearPart::encoder_step:
+    case NonlinearPart::quantisation_step:
       return "the encoder step";
     case NonlinearPart::force_limit:
       return "the force limit";
@@ -112,9 +112,9 @@ std::string_view name_of(NonlinearPart part) {
   return "late forces";
 }
 
-std::string ripple_text(const ForceRipple& ripple, Motion motion) {
-  return fmt::format("{} either way at {}", quantity(ripple.amplitude, units_of(motion).force),
-                     quantity(hertz(ripple.frequency), "Hz"));
+std::string quantisation_force_text(const QuantisationForce& quantisation_force, Motion motion) {
+  return fmt::format("{} either way at {}", quantity(quantisation_force.amplitude, units_of(motion).force),
+                     quantity(hertz(quantisation_force.frequency), "Hz"));
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ std::string verdict_sentence(const Device& device, const Simulation& result) {
       if (!result.oscillation) {
         if (!result.encoder_chatters) return "SETTLES: the device comes to rest";
         return "SETTLES to within the encoder step, but the force chatters by " +
-               ripple_text(*result.force_ripple, motion);
+               quantisation_force_text(*result.quantisation_force, motion);
       }
       if (result.growth_rate && *result.growth_rate < 0.0 &&
           result.oscillation->amplitude > device.parameters().sensor.resolution) {
@@ -167,9 +167,9 @@ std::string verdict_sentence(const Device& device, const Simulation& result) {
                          oscillation);
     case LoopVerdict::drifts:
       return fmt::format("DRIFTS: {} within the run, but the device moves on; it ends at {}",
-                         result.encoder_chatters
-                             ? "no oscillation but the ripple of " + ripple_text(*result.force_ripple, motion)
-                             : "no oscillation",
+                         result.encoder_chatters ? "no oscillation but the ripple of " +
+                                                       quantisation_force_text(*result.quantisation_force, motion)
+                                                 : "no oscillation",
                          quantity(result.final_position, units_of(motion).length));
     case LoopVerdict::undecided:
       break;

@@ -78,7 +78,7 @@ TextTable quantile_table(const StudyRun& run, const Study& study) {
                           : each.lower || each.upper
                               ? fmt::format("too few units: {} to {}", end(each.lower), end(each.upper))
                               : std::string("too few units")});
-    if (run.options().any_user) table.rows.back().push_back(end(study.any_user_quantiles[i].value));
+    if (run.options().any_user) table.rows.back().push_back(end(study.absolute_stability_quantiles[i].value));
   }
   return table;
 }

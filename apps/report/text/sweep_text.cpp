@@ -30,7 +30,7 @@ std::string status_text(const SweepPoint& point, std::string_view unit) {
   return quantity(point.stiffness, unit);
 }
 
-std::string any_user_text(const AnyUserLimit& limit, std::string_view unit) {
+std::string any_user_text(const AbsoluteStabilityLimit& limit, std::string_view unit) {
   if (limit.stiffness == 0.0) return "none";
   return std::isfinite(limit.stiffness) ? quantity(limit.stiffness, unit) : std::string("unbounded");
 }

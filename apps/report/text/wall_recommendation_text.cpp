@@ -26,13 +26,13 @@ std::string bound_text(WallBound bound) {
       return "the gain margin";
     case WallBound::phase_margin:
       return "the phase margin";
-    case WallBound::ripple:
+    case WallBound::quantisation_force:
       return "the force per encoder count";
     case WallBound::contact_damping:
       return "the contact would swing";
     case WallBound::uncertainty:
       return "the device is not known better";
-    case WallBound::drift:
+    case WallBound::modal_frequency_uncertainty:
       return "the drift of its modes";
   }
   return "";
@@ -48,13 +48,13 @@ std::string short_text(WallBound bound) {
       return "gain";
     case WallBound::phase_margin:
       return "phase";
-    case WallBound::ripple:
+    case WallBound::quantisation_force:
       return "ripple";
     case WallBound::contact_damping:
       return "contact";
     case WallBound::uncertainty:
       return "uncertainty";
-    case WallBound::drift:
+    case WallBound::modal_frequency_uncertainty:
       return "drift";
   }
   return "";
@@ -103,17 +103,17 @@ class RecommendationWriter {
   }
 
   [[nodiscard]] std::string asked() const {
-    const bool any_user = !answer_.wall || answer_.wall->any_user_limit;
+    const bool any_user = !answer_.wall || answer_.wall->absolute_stability_limit;
     const bool is_damper = options_.goal == WallGoal::damper;
     std::string text =
         fmt::format("{}; gain margin {:.3g} dB {} {}, phase margin {}", goal_text(options_.goal),
                     decibels(options_.gain_margin), is_damper ? "of B" : "of K alone and of the whole force",
                     any_user ? "with any passive user" : "of the device as it is", degrees(options_.phase_margin));
-    if (options_.ripple)
-      text += fmt::format(", at most {} per encoder count", quantity(*options_.ripple, units_.force));
-    if (options_.drift > 0.0) {
-      text +=
-          fmt::format(", at {} drifts of the modes by up to {:.3g} %", answer_.drifts_checked, 100.0 * options_.drift);
+    if (options_.quantisation_force)
+      text += fmt::format(", at most {} per encoder count", quantity(*options_.quantisation_force, units_.force));
+    if (options_.modal_frequency_uncertainty > 0.0) {
+      text += fmt::format(", at {} drifts of the modes by up to {:.3g} %", answer_.modal_shifts_checked,
+                          100.0 * options_.modal_frequency_uncertainty);
     }
     return text;
   }
@@ -136,10 +136,11 @@ class RecommendationWriter {
     text += line("velocity filter", filter);
     if (const auto filters = wall_filters_text(wall)) text += line("filters", *filters);
     text += line("margins", margins(each));
-    if (each.any_user_damping_limit) {
-      text += line("any passive user", fmt::format("B up to {}", damping(*each.any_user_damping_limit)));
-    } else if (each.any_user_limit) {
-      text += line("any passive user", fmt::format("K up to {} with this damper", stiffness(*each.any_user_limit)));
+    if (each.absolute_stability_damping_limit) {
+      text += line("any passive user", fmt::format("B up to {}", damping(*each.absolute_stability_damping_limit)));
+    } else if (each.absolute_stability_limit) {
+      text += line("any passive user",
+                   fmt::format("K up to {} with this damper", stiffness(*each.absolute_stability_limit)));
     }
     if (each.contact_damping_ratio) {
       text +=

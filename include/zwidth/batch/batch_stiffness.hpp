@@ -43,16 +43,16 @@ struct BatchStiffness {
   std::vector<std::int16_t> mode;       ///< of the limiting mechanism: 0 the rigid body, 1.. the mode; -1 unless finite
   std::vector<std::int8_t> poles_leaving;  ///< Crossover::poles_leaving of the limiting one; 0 unless finite
   std::vector<Trust::Verdict> verdict;     ///< of trust_of(i)
-  std::vector<double> any_user;            ///< AnyUserLimit::stiffness; NaN when refused; empty unless asked for
-  std::vector<double> any_user_frequency;  ///< rad/s, AnyUserLimit::frequency; as any_user
-  Trust trust;                             ///< of the base device: every element has it
-  std::vector<BatchException> exceptions;  ///< by rising index: every device with more to say than `trust`
-  std::size_t scalar_count = 0;            ///< devices that critical_stiffness(Device) answered, not the kernel
+  std::vector<double> any_user;  ///< AbsoluteStabilityLimit::stiffness; NaN when refused; empty unless asked for
+  std::vector<double> absolute_stability_frequency;  ///< rad/s, AbsoluteStabilityLimit::frequency; as any_user
+  Trust trust;                                       ///< of the base device: every element has it
+  std::vector<BatchException> exceptions;            ///< by rising index: every device with more to say than `trust`
+  std::size_t scalar_count = 0;  ///< devices that critical_stiffness(Device) answered, not the kernel
 
   [[nodiscard]] std::size_t size() const { return stiffness.size(); }  ///< how many devices
   /// What limits the i-th device; nothing unless its status is finite.
   [[nodiscard]] std::optional<Mechanism> limited_by(std::size_t i) const;
-  /// Trust in the i-th device's answer: the base device's, its computation's, and the any-user limit's.
+  /// Trust in the i-th device's answer: the base device's, its computation's, and the absolute stability limit's.
   [[nodiscard]] Trust trust_of(std::size_t i) const;
   /// Why the i-th device has no answer; empty where it has one, or is refused for its trust.
   [[nodiscard]] std::string failure_of(std::size_t i) const;
@@ -65,7 +65,7 @@ struct BatchStiffness {
 /// no device, and what does not converge, end nothing: that element is refused, and `exceptions` says why.
 /// `progress` may be called from any thread, never from two at once.
 /// Throws Error (invalid_argument) where find_problem() of the changes or of the options finds one, (needs_bodies) for
-/// the any-user limit of a transfer function.
+/// the absolute stability limit of a transfer function.
 [[nodiscard]] BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterValues> changes,
                                              const BatchOptions& options = {}, const Progress& progress = {});
 

@@ -20,7 +20,7 @@ inline constexpr std::size_t most_bodies_for_branch_switches = 8;
 
 /// What a design answers beside the slopes of K_CR.
 struct DesignOptions {
-  bool any_user = true;              ///< the any-user limit and its slopes, where analyze() gives that limit
+  bool any_user = true;              ///< the absolute stability limit and its slopes, where analyze() gives that limit
   bool branch_switches = true;       ///< where another crossover takes over; a device of at most 8 bodies
   double branch_switch_factor = 10;  ///< each number is followed from p / factor to p * factor; > 1, finite
   Progress progress = {};            ///< told how far the work is; ends it by throwing
@@ -31,9 +31,10 @@ struct DesignOptions {
 
 /// What each number of a device does to the stiffest wall.
 struct Design {
-  Analysis analysis;                                ///< of the device as it is
-  std::vector<Sensitivity> sensitivities;           ///< of K_CR
-  std::vector<Sensitivity> any_user_sensitivities;  ///< of the any-user limit; empty where there is none
+  Analysis analysis;                       ///< of the device as it is
+  std::vector<Sensitivity> sensitivities;  ///< of K_CR
+  std::vector<Sensitivity>
+      absolute_stability_sensitivities;  ///< of the absolute stability limit; empty where there is none
   /// Where another crossover sets K_CR; absent above most_bodies_for_branch_switches, and where not asked for; empty
   /// where there is no limit.
   std::optional<std::vector<BranchSwitch>> branch_switches;
@@ -43,7 +44,7 @@ struct Design {
 
 /// The slopes of both limits and the places where another mechanism takes over.
 ///
-///     dK_CR/dp, p/K dK_CR/dp of stiffness_sensitivities() and any_user_sensitivities(); branch_switches()
+///     dK_CR/dp, p/K dK_CR/dp of stiffness_sensitivities() and absolute_stability_sensitivities(); branch_switches()
 ///
 /// Throws Error (invalid_argument) where find_problem(options) finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Design design(const Device& device, const DesignOptions& options = {});

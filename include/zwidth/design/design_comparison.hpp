@@ -8,7 +8,7 @@
 #include "zwidth/model/device_variants.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
 
@@ -16,11 +16,11 @@ namespace zwidth {
 
 /// One of several ways to build a device, judged with three users: none, any passive one, and a given one.
 struct ComparedDesign {
-  std::string value;                      ///< of the key that is compared
-  Device device;                          ///< without the user
-  CriticalStiffness free;                 ///< nobody holding
-  std::optional<AnyUserLimit> any_user;   ///< absent for a transfer function and many bodies
-  std::optional<CriticalStiffness> held;  ///< with the user; absent without one
+  std::string value;                               ///< of the key that is compared
+  Device device;                                   ///< without the user
+  CriticalStiffness free;                          ///< nobody holding
+  std::optional<AbsoluteStabilityLimit> any_user;  ///< absent for a transfer function and many bodies
+  std::optional<CriticalStiffness> held;           ///< with the user; absent without one
 };
 
 /// Two variants of one user, by falling stiffness.
@@ -35,7 +35,7 @@ struct BestDesigns {
 /// Several designs side by side. A user's best designs are absent where fewer than two of them have a limit for it.
 struct DesignComparison {
   std::string key;                           ///< "loop.sensed"
-  Operator user;                             ///< the given one; all 0: none
+  User user;                                 ///< the given one; all 0: none
   std::vector<ComparedDesign> designs;       ///< in the order given
   std::optional<BestDesigns> best_free;      ///< the stiffest with nobody holding; absent where none can be told
   std::optional<BestDesigns> best_any_user;  ///< the stiffest in every passive hand
@@ -45,12 +45,12 @@ struct DesignComparison {
 
 /// Checks: at least one variant; `user` (see compare_designs()) not negative, and of devices with a body to hold.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DeviceVariants& variants,
-                                                        const std::optional<Operator>& user);
+                                                        const std::optional<User>& user);
 
 /// Judges every variant, its own [operator] replaced by `user`, or by the first one's where there is none:
-/// critical_stiffness() of the free and the held device, any_user_limit().
+/// critical_stiffness() of the free and the held device, absolute_stability_limit().
 /// Throws Error (invalid_argument) where find_problem(variants, user) finds one, (did_not_converge) as its parts do.
-[[nodiscard]] DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<Operator>& user = {},
+[[nodiscard]] DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<User>& user = {},
                                                const Progress& progress = {});
 
 }  // namespace zwidth

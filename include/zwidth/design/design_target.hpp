@@ -25,7 +25,7 @@ struct DesignTargetOptions {
   Progress progress = {};                       ///< told how far the work is; ends it by throwing
 };
 
-/// Checks the stiffness (or times_now), the factor and the device: the any-user limit needs a body to hold, and not too
+/// Checks the stiffness (or times_now), the factor and the device: the absolute stability limit needs a body to hold, and not too
 /// many.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device);
 
@@ -35,10 +35,10 @@ struct DesignTarget {
   double value_now = 0.0;              ///< p, in the unit of its key
   std::optional<double> value_needed;  ///< the nearest p at which the limit is the target; absent: there is none
   Finding why;                         ///< what limits there, or why no value is enough
-  /// any_user_limit() at the value needed; infinite where nobody can destabilise a wall, absent where there is no value,
+  /// absolute_stability_limit() at the value needed; infinite where nobody can destabilise a wall, absent where there is no value,
   /// no body to hold, or the limit is not found.
-  std::optional<double> any_user_then;
-  std::optional<bool> safe;  ///< any_user_then is no lower than any_user_now; absent where one is not known
+  std::optional<double> absolute_stability_limit_then;
+  std::optional<bool> safe;  ///< no lower then than now; absent where one is not known
 };
 
 /// The ways to a stiffness, the cheapest first: least relative change |ln(needed/now)|; then numbers that are 0 in the
@@ -47,10 +47,10 @@ struct DesignTarget {
 struct DesignTargets {
   std::optional<double> target;     ///< the limit to reach; absent where it is a multiple of a limit that is not finite
   std::optional<double> limit_now;  ///< of the device as it is; infinite where unbounded, absent where refused
-  std::optional<double> any_user_now;  ///< any_user_limit() of the device as it is; absent as any_user_then
-  std::vector<DesignTarget> targets;   ///< cheapest relative change first
-  Trust trust;                         ///< of the whole answer
-  std::vector<Remark> remarks;         ///< what is worth knowing beside it
+  std::optional<double> absolute_stability_limit_now;  ///< of the device as it is; absent as the limit then
+  std::vector<DesignTarget> targets;                   ///< cheapest relative change first
+  Trust trust;                                         ///< of the whole answer
+  std::vector<Remark> remarks;                         ///< what is worth knowing beside it
 };
 
 /// For each number p of the device that the limit depends on: the value nearest to today's at which the limit reaches
@@ -58,13 +58,13 @@ struct DesignTargets {
 ///
 ///     K(p) = target,  p alone varied
 ///
-/// p moves by equal factors (a twelfth of a decade; a sixth for the any-user limit) both ways within `factor` and the
+/// p moves by equal factors (a twelfth of a decade; a sixth for the absolute stability limit) both ways within `factor` and the
 /// range that makes a device, from 0 upwards; the first change of sign of K(p) - target is refined until K is the
 /// target to 1e-10, or, where the limit jumps across it, to the jump's side that has the target. A scan: a limit that
-/// passes the target twice within one step is passed over. For the any-user limit of more than four bodies only those
+/// passes the target twice within one step is passed over. For the absolute stability limit of more than four bodies only those
 /// numbers are followed that move it most, by a factor of 10 at most: a remark says how many. Each needed value is
-/// confirmed by critical_stiffness(Device) or any_user_limit(), and judged for any passive user.
-/// K is the B of a damper alone where `limit_of` says so: critical_damping() and any_user_damping().
+/// confirmed by critical_stiffness(Device) or absolute_stability_limit(), and judged for any passive user.
+/// K is the B of a damper alone where `limit_of` says so: critical_damping() and absolute_stability_damping().
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] DesignTargets design_targets(const Device& device, const DesignTargetOptions& options);
 

@@ -18,11 +18,11 @@ namespace zwidth {
 
 /// What may keep a device oscillating at its wall.
 enum class OscillationCause {
-  device,         ///< the loop of the device that nobody holds is unstable
-  with_operator,  ///< the loop with the device's own [operator] is, that without is not
-  passive_user,   ///< some passive user's grasp makes it unstable
-  quantisation,   ///< the encoder's steps: a limit cycle of about a step
-  friction,       ///< Coulomb friction holds a body still: a limit cycle of the rest
+  device,        ///< the loop of the device that nobody holds is unstable
+  with_user,     ///< the loop with the device's own [operator] is, that without is not
+  passive_user,  ///< some passive user's grasp makes it unstable
+  quantisation,  ///< the encoder's steps: a limit cycle of about a step
+  friction,      ///< Coulomb friction holds a body still: a limit cycle of the rest
 };
 
 /// What was seen of the oscillation.
@@ -69,17 +69,17 @@ struct DiagnosisChange {
   double value_now = 0.0;   ///< SI units
   double value_then = 0.0;  ///< of wall.filter: the centre of a notch, Hz
   /// The stiffness (of a damper alone its B) up to which the cause is absent: K_CR, that with friction holding, or the
-  /// any-user limit; absent of quantisation, whose amplitude the change alters.
+  /// absolute stability limit; absent of quantisation, whose amplitude the change alters.
   std::optional<double> limit_now;
   std::optional<double> limit_then;      ///< infinite where unbounded
   std::optional<double> amplitude_now;   ///< m or rad, of a cycle; absent where its size is not known
   std::optional<double> amplitude_then;  ///< the same, after the change
   /// limit_then times the nearest cause's `otherwise.limit` is above K (B); absent where K is not known.
   std::optional<bool> ends_it;
-  /// any_user_limit() after the change, of a damper alone any_user_damping(); infinite where nobody can destabilise a
+  /// absolute_stability_limit() after the change, of a damper alone absolute_stability_damping(); infinite where nobody can destabilise a
   /// wall, absent where the device cannot be held or the limit is not found.
-  std::optional<double> any_user_then = {};
-  std::optional<bool> safe = {};  ///< any_user_then is no lower than any_user_now; absent where one is not known
+  std::optional<double> absolute_stability_limit_then = {};
+  std::optional<bool> safe = {};  ///< no lower then than now; absent where one is not known
 };
 
 /// What an oscillation is, and what moves it.
@@ -94,8 +94,8 @@ struct Diagnosis {
   /// The first candidate's, where it fits or would fit with each number within a factor of 2, as well as a device's
   /// numbers are commonly known.
   std::optional<OscillationCause> nearest;
-  std::optional<double> any_user_now;  ///< any_user_limit() of the device as it is; absent as any_user_then
-  /// What moves the nearest cause, by falling limit, then what lowers any_user_now; none where there is no such cause.
+  std::optional<double> absolute_stability_limit_now;  ///< of the device as it is; absent as the limit then
+  /// What moves the nearest cause, by falling limit, then what lowers absolute_stability_limit_now; none where there is no such cause.
   std::vector<DiagnosisChange> changes;
   Trust trust;                  ///< where refused, nothing else is held
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
@@ -103,12 +103,12 @@ struct Diagnosis {
 
 /// Which mechanism an oscillation at a given frequency is, and what moves it.
 ///
-///     device, with_operator   a closed-loop pole |z| > 1 of the wall (K, B) at e^{jwT}, or a phase crossover below K; K
+///     device, with_user   a closed-loop pole |z| > 1 of the wall (K, B) at e^{jwT}, or a phase crossover below K; K
 ///                             unknown: a phase crossover
-///     passive_user            K above the least K(w) with |1 + C c_T| = |C| r_T (any_user_limit())
+///     passive_user            K above the least K(w) with |1 + C c_T| = |C| r_T (absolute_stability_limit())
 ///     quantisation            1 + N t C P = 0 at a phase crossover t > 1 of the stable loop; the encoder rests between two
 ///                             steps q, a relay of +-q/2: amplitude 2 q/(pi t)
-///     (a damper alone, K = 0)  the same with B for K: critical_damping(), any_user_damping()
+///     (a damper alone, K = 0)  the same with B for K: critical_damping(), absolute_stability_damping()
 ///     friction                the loop is stable while bodies slide, and unstable with the first harmonic of their
 ///                             Coulomb friction, a damping 4 F_c/(pi V): V where it is just critical
 ///

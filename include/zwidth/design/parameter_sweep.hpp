@@ -8,7 +8,7 @@
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
 
@@ -39,11 +39,11 @@ struct SweepOptions {
 /// K_CR of the device with the axes' parameters at one of their values.
 struct SweepPoint {
   StiffnessStatus status = StiffnessStatus::finite;  ///< whether there is a limit
-  double stiffness = 0.0;                ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
-  std::optional<Crossover> limit;        ///< absent unless finite
-  std::optional<AnyUserLimit> any_user;  ///< where asked for, unless refused
-  std::vector<Crossover> crossovers;     ///< where asked for, by rising frequency
-  Trust trust;                           ///< of the device, and of both computations
+  double stiffness = 0.0;          ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
+  std::optional<Crossover> limit;  ///< absent unless finite
+  std::optional<AbsoluteStabilityLimit> any_user;  ///< where asked for, unless refused
+  std::vector<Crossover> crossovers;               ///< where asked for, by rising frequency
+  Trust trust;                                     ///< of the device, and of both computations
 };
 
 /// The limits over a grid of one or two numbers.
@@ -65,8 +65,8 @@ struct ParameterSweep {
 /// closed.
 ///
 /// Points run in parallel where there are many; `progress` may be called from any thread, never from two at once.
-/// Throws Error (invalid_argument) where find_sweep_problem() finds one, (needs_bodies) for the any-user limit of a
-/// transfer function, and as critical_stiffness() and any_user_limit() do.
+/// Throws Error (invalid_argument) where find_sweep_problem() finds one, (needs_bodies) for the absolute stability limit of a
+/// transfer function, and as critical_stiffness() and absolute_stability_limit() do.
 [[nodiscard]] ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis>& axes,
                                              SweepOptions options = {}, const Progress& progress = {});
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/region_approximation.hpp"
 #include "zwidth/design/shared_walls.hpp"
 #include "zwidth/design/stable_region.hpp"
@@ -61,8 +61,8 @@ struct WallRegion {
   std::optional<NobodysRegion> nobody;  ///< with nobody holding; absent without an [operator]: `region` is that
   /// The walls to build on: those of both. Absent without an [operator], where `region` is that.
   std::optional<SharedWalls> shared;
-  /// Absent unless asked for; for a transfer function, above most_bodies_for_any_user, or where no wall is stable.
-  std::optional<AnyUserRegion> any_user;
+  /// Absent unless asked for; for a transfer function, above most_bodies_for_absolute_stability, or where no wall is stable.
+  std::optional<AbsoluteStabilityRegion> any_user;
   std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for
   std::optional<ForcePerCountRates> force_per_count;  ///< of any wall here; absent without an encoder resolution
   std::vector<Mode> modes;                            ///< vibration modes, that BoundaryPoint::limited_by numbers

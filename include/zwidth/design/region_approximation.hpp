@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_walls.hpp"
 #include "zwidth/model/device.hpp"
 
@@ -69,6 +69,6 @@ inline constexpr int comparison_rows = 400;  ///< stiffnesses at which formula a
 
 /// Against the walls that no passive user destabilises.
 [[nodiscard]] ApproximationError approximation_error(const RegionApproximation& approximation,
-                                                     const AnyUserRegion& region);
+                                                     const AbsoluteStabilityRegion& region);
 
 }  // namespace zwidth

@@ -44,14 +44,15 @@ struct SafeWall {
   };
   Status status = Status::chosen;  ///< chosen, or why not
   Basis basis = Basis::device;     ///< what the ceiling is a share of
-  double limit = 0.0;              ///< K where stability ends: the any-user limit, or the lesser K_CR
+  double limit = 0.0;              ///< K where stability ends: the absolute stability limit, or the lesser K_CR
   double stiffness = 0.0;          ///< K chosen
   double damping = 0.0;            ///< B of it: the device's own, or the ceiling
   /// With Damping::ceiling the least B at which some wall of 0 < K <= stiffness is not stable.
   std::optional<double> damping_limit;
-  std::optional<StiffnessInterval> interval;           ///< of the lesser K_CR, where the device has an uncertainty
-  std::optional<StiffnessInterval> any_user_interval;  ///< of the any-user limit, where that is the basis too
-  /// The lower end of that interval over K_CR, or of the any-user limit's over that limit where it is less, at most 1:
+  std::optional<StiffnessInterval> interval;  ///< of the lesser K_CR, where the device has an uncertainty
+  std::optional<StiffnessInterval>
+      absolute_stability_interval;  ///< of the absolute stability limit, where that is the basis too
+  /// The lower end of that interval over K_CR, or of the absolute stability limit's over that limit where it is less, at most 1:
   /// every limit is taken at this share. 1 without an uncertainty.
   double uncertainty_share = 1.0;
   Trust trust;  ///< the device's, and what the check of the wall found; where refused, no number is held
@@ -62,15 +63,15 @@ struct SafeWall {
 ///
 ///     stiffness = safety_factor * uncertainty_share * limit
 ///
-/// `limit` is the any-user limit (any_user_limit()) where there is one, else the lesser of the K_CR with nobody holding and
+/// `limit` is the absolute stability limit (absolute_stability_limit()) where there is one, else the lesser of the K_CR with nobody holding and
 /// with the device's own user: a person lets go. With Damping::own the device's damper
 /// stays closed; with Damping::ceiling `limit` is that at B = 0, and
 ///
 ///     damping = safety_factor * uncertainty_share * damping_limit
 ///
 /// A program may then use the stiffness alone, the damping alone, or both, and any less of them: so the whole rectangle
-/// must be stable. damping_limit is the lowest boundary of the region over 0 < K <= stiffness: of the any-user region
-/// (any_user_region(), sampled over B) where any_user_limit() at B = 0 is above 0, else of stable_region() with nobody and
+/// must be stable. damping_limit is the lowest boundary of the region over 0 < K <= stiffness: of the absolute stability region
+/// (absolute_stability_region(), sampled over B) where absolute_stability_limit() at B = 0 is above 0, else of stable_region() with nobody and
 /// with the device's own user. The velocity filter and the filters of the wall stay in. Where the device has an uncertainty, `damping` is lowered until all but 2.5 %
 /// of the devices drawn from it keep the rectangle whoever holds them.
 ///

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
@@ -39,7 +39,7 @@ struct Sensitivity {
 /// damper. Throws Error (invalid_argument) where its limit is not a crossover of that loop.
 [[nodiscard]] std::vector<Sensitivity> stiffness_sensitivities(const Device& device, const CriticalStiffness& critical);
 
-/// The derivatives of the limit over all passive users, any_user_limit() with the wall's damper.
+/// The derivatives of the limit over all passive users, absolute_stability_limit() with the wall's damper.
 ///
 /// That limit is the least over frequency of K(theta; p) with |1 + C c_T| = |C| r_T; at the frequency of the least
 /// value its slope is that of K alone (envelope theorem), and c_T and r_T are differentiated exactly, alias by alias.
@@ -48,9 +48,10 @@ struct Sensitivity {
 /// limit does not depend on. Where p is 0, and for the delay of whole samples, the slope is that of growing p: the
 /// limit has a corner there. Empty where the limit is 0 or infinite. Throws Error (needs_bodies) for a transfer
 /// function.
-[[nodiscard]] std::vector<Sensitivity> any_user_sensitivities(const Device& device);
+[[nodiscard]] std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device);
 
 /// The same for a limit already found.
-[[nodiscard]] std::vector<Sensitivity> any_user_sensitivities(const Device& device, const AnyUserLimit& limit);
+[[nodiscard]] std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device,
+                                                                        const AbsoluteStabilityLimit& limit);
 
 }  // namespace zwidth

@@ -33,29 +33,29 @@ struct RecommendationOptions {
   double gain_margin = 2.0;                      // 6 dB
   double phase_margin = std::numbers::pi / 6.0;  ///< least, with nobody and with the file's user; 0 to pi/2 rad
   /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: not bounded.
-  std::optional<double> ripple = {};
-  /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0
+  std::optional<double> quantisation_force = {};
+  /// The vibration modes may lie anywhere from (1 - uncertainty) to (1 + uncertainty) times their frequency, see with_modal_shift(); from 0
   /// to 0.9; above 0 the device needs a link.
-  double drift = 0.0;
+  double modal_frequency_uncertainty = 0.0;
   bool notch = true;         ///< a notch near a mode may be added to the wall's filters
   bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
   std::size_t draws = 100;   ///< of the device's uncertainty, where it has one
   Progress progress = {};    ///< told how far the work is; ends it by throwing
 };
 
-/// Checks every member's range, and the device: critical damping needs bodies, a drift links.
+/// Checks every member's range, and the device: critical damping needs bodies, uncertain modal frequencies need links.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device);
 
 /// What keeps a number of a wall from being better.
 enum class WallBound {
-  none,             ///< nothing: it is as good as it can be, or more of it gains nothing
-  any_user,         ///< the gain margin with some passive user
-  gain_margin,      ///< the gain margin of the device as it is
-  phase_margin,     ///< its phase margin
-  ripple,           ///< the force per encoder count
-  contact_damping,  ///< the contact would swing
-  uncertainty,      ///< the device is not known better
-  drift,            ///< its modes may drift
+  none,                         ///< nothing: it is as good as it can be, or more of it gains nothing
+  any_user,                     ///< the gain margin with some passive user
+  gain_margin,                  ///< the gain margin of the device as it is
+  phase_margin,                 ///< its phase margin
+  quantisation_force,           ///< the force per encoder count
+  contact_damping,              ///< the contact would swing
+  uncertainty,                  ///< the device is not known better
+  modal_frequency_uncertainty,  ///< its modal frequencies are uncertain
 };
 
 /// What keeps each number of the wall from being larger.
@@ -74,15 +74,15 @@ struct RecommendedWall {
   std::optional<WallFilter> notch;  ///< that of wall.filters which was added
   WallBounds bounded_by;            ///< what keeps each number from being larger
   WallMargins margins;              ///< of the device as it is
-  /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for
-  /// a transfer function and above most_bodies_for_any_user.
-  std::optional<double> any_user_limit;
-  std::optional<double> any_user_stiffness_margin;  ///< any_user_limit / K; absent of a damper alone
+  /// absolute_stability_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for
+  /// a transfer function and above most_bodies_for_absolute_stability.
+  std::optional<double> absolute_stability_limit;
+  std::optional<double> absolute_stability_margin;  ///< absolute_stability_limit / K; absent of a damper alone
   std::optional<double> contact_damping_ratio;      ///< see contact_damping_ratio()
   std::optional<ForcePerCount> force_per_count;     ///< absent without an encoder resolution
-  /// any_user_damping() behind this velocity filter, at least gain_margin times B; only of a damper alone, absent as
-  /// any_user_limit
-  std::optional<double> any_user_damping_limit = {};
+  /// absolute_stability_damping() behind this velocity filter, at least gain_margin times B; only of a damper alone, absent as
+  /// absolute_stability_limit
+  std::optional<double> absolute_stability_damping_limit = {};
 };
 
 /// The wall to run, and what else could be run.
@@ -98,9 +98,9 @@ struct WallRecommendation {
   std::optional<RecommendedWall> wall;        ///< only where found
   std::optional<Finding> reason;              ///< why there is none; absent where found and where refused
   std::vector<RecommendedWall> alternatives;  ///< the trade-off: other goals, dampers, filters
-  /// At how many drifts of the modes, evenly over the range asked, each wall was held against its margins; 1: at none
+  /// At how many modal shifts, evenly over the range asked, each wall was held against its margins; 1: at none
   /// but their own frequencies.
-  std::size_t drifts_checked = 1;
+  std::size_t modal_shifts_checked = 1;
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };
@@ -112,11 +112,11 @@ struct WallRecommendation {
 
 /// The wall to render: K, B, velocity filter, and a notch where it is worth 5 % of the goal.
 ///
-///     gain_margin K < any_user_limit(B),   f K < any_user_limit(f B) for f = sqrt(gain_margin), gain_margin
+///     gain_margin K < absolute_stability_limit(B),   f K < absolute_stability_limit(f B) for f = sqrt(gain_margin), gain_margin
 ///     margins of the device as it is >= gain_margin, phase_margin
 ///     force per count <= ripple
 ///
-/// WallGoal::damper asks for a damper alone: K = 0, and gain_margin B lies below any_user_damping() and below
+/// WallGoal::damper asks for a damper alone: K = 0, and gain_margin B lies below absolute_stability_damping() and below
 /// critical_damping() with nobody and with the device's [operator]. B says little behind a slow filter: no filter or
 /// the one of seven is taken with the greatest Im(B v)/w at 10 Hz (a tenth of Nyquist, where that is lower). No notch
 /// is tried.
@@ -127,10 +127,10 @@ struct WallRecommendation {
 /// nothing with it checks the proposal: closed-loop poles by matrix exponential of the loop, of the loop grown by the
 /// gain margin and of that held by passive users, and the phase margin from the state space. The answer is `refused`
 /// where the two contradict each other.
-/// With a drift of the modes the wall keeps the margins, every user's too, at 41 drifts evenly over the range, and a
-/// notch lowers no any-user limit at any of them; the contact's damping is that without drift.
+/// With an uncertainty of the modal frequencies the wall keeps the margins, every user's too, at 41 modal shifts evenly over the range, and a
+/// notch lowers no absolute stability limit at any of them; the contact's damping is that at their nominal values.
 /// The wall of an uncertain device keeps all of this in 97.5 % of `draws` devices drawn from the uncertainty. Where
-/// any_user_limit() is not available the device as it is decides, and a remark says so.
+/// absolute_stability_limit() is not available the device as it is decides, and a remark says so.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options = {});
 

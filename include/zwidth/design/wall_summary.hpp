@@ -41,9 +41,9 @@ struct WallSummaryOptions {
 
 /// The two walls for the first lines of an answer.
 ///
-///     max over 0 <= B < B_CR of any_user_limit(K; B),   B_CR = limits.any_user.critical_damping
+///     max over 0 <= B < B_CR of absolute_stability_limit(K; B),   B_CR = limits.any_user.critical_damping
 ///
-/// by a search over B (a local maximum beside 24 samples; any_user_region() follows the whole of it), with the velocity
+/// by a search over B (a local maximum beside 24 samples; absolute_stability_region() follows the whole of it), with the velocity
 /// filter and the filters of the file; and recommend_wall() with its usual margins. `analysis` is that of the device.
 /// Throws as these do.
 [[nodiscard]] WallSummary wall_summary(const Device& device, const Analysis& analysis,

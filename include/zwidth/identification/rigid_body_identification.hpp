@@ -37,7 +37,7 @@ struct RigidBodyIdentification {
 ///
 /// Friction that comes out below 0 is taken as 0, and said. The device's delay is what exceeds that of a held force, not
 /// below 0, and stands in its covariance. Doubtful where more than a tenth of the force stays unexplained, where the
-/// crossover that limits lies outside the excited band or the covariance leaves K_CR open (is_open()), where the delay
+/// crossover that limits lies outside the excited band or the covariance leaves K_CR open (is_inconclusive()), where the delay
 /// does not show, where the body is not rigid, where a force shows that hangs on the position in no linear way (cogging,
 /// a spring that stiffens), or where a signal is clipped; refused where more than half stays unexplained. Requires two channels (force, position); throws Error (invalid_argument) where
 /// find_problem(options) finds one, where the fitted mass is not above 0, and as identify_rigid_body() does.

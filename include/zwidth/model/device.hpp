@@ -71,7 +71,7 @@ struct Wall {
 };
 
 /// A user at the held body: a mass, damper and spring to ground, all >= 0.
-struct Operator {
+struct User {
   double mass = 0.0;       ///< kg or kg m^2
   double damping = 0.0;    ///< N s/m or N m s/rad, to ground
   double stiffness = 0.0;  ///< N/m or N m/rad, to ground
@@ -88,7 +88,7 @@ struct DeviceParameters {
   Actuator actuator;                                  ///< lag and limit of the force
   Sensor sensor;                                      ///< step of the encoder
   Wall wall;                                          ///< to judge
-  Operator user;                                      ///< at the held body
+  User user;                                          ///< at the held body
   std::optional<Uncertainty> uncertainty;             ///< of some of the numbers above
   std::optional<MotorDrive> driver = {};              ///< what a rig reaches the motor through
 };

@@ -35,7 +35,7 @@ struct LimitSearchOptions {
 /// The first member outside its domain.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const LimitSearchOptions& options);
 
-/// The wall was rendered with this stiffness, knocked, and its ringing read.
+/// The wall was rendered with this stiffness, excited by an impulse, and its ringing read.
 struct LimitTrial {
   double stiffness = 0.0;        ///< N/m or N m/rad
   std::optional<RingDown> ring;  ///< the oscillation that decays least; absent where none was read
@@ -68,7 +68,7 @@ struct LimitMeasurement {
 /// From `start` by `step`, but no further than a hundredth beyond where the last two growth rates extrapolate to zero;
 /// after the first that grows, inside the bracket, by the line through the growth rates at its ends. K_CR is where that
 /// line passes zero. Ends with the bracket, at the ceiling, and after 60 trials. The one that decays least counts, of
-/// the oscillations near the predicted frequencies and of the strongest one. A last trial with a smaller knock tells
+/// the oscillations near the predicted frequencies and of the strongest one. A last trial with a smaller impulse tells
 /// whether the size of the swing matters, as with dry friction, of which the device's file may know nothing: all swings
 /// of a linear device grow alike.
 class LimitSearch {
@@ -80,16 +80,16 @@ class LimitSearch {
 
   /// The stiffness to try next; absent: done.
   [[nodiscard]] std::optional<double> next() const;
-  /// The positions after the knock, at this stiffness. `stopped`: the run was ended because an oscillation grew. `cut`:
+  /// The positions after the impulse, at this stiffness. `stopped`: the run was ended because an oscillation grew. `cut`:
   /// force was kept back meanwhile; a limit between such trials is refused.
   /// Throws Error (invalid_argument) for a period that is not > 0 and positions that are not finite.
   void add(double stiffness, std::span<const double> position, double sampling_period, bool stopped, bool cut = false);
 
-  static constexpr double smaller_knock = 0.5;  ///< of the others
-  /// When next() is done, the stiffness to try once more with that share of the knock: the stiffest that rang down.
+  static constexpr double smaller_impulse = 0.5;  ///< of the others
+  /// When next() is done, the stiffness to try once more with that share of the impulse: the stiffest that rang down.
   /// Absent where no limit was read.
   [[nodiscard]] std::optional<double> next_smaller() const;
-  /// The positions after the smaller knock. Throws as add() does.
+  /// The positions after the smaller impulse. Throws as add() does.
   void add_smaller(std::span<const double> position, double sampling_period);
 
   /// What has been found so far on this device.
@@ -103,7 +103,7 @@ class LimitSearch {
   double period_ = 0.0;  // s, of the last trial
   std::vector<LimitTrial> trials_;
   bool has_smaller_ = false;
-  std::optional<RingDown> smaller_;  // the ringing after the smaller knock
+  std::optional<RingDown> smaller_;  // the ringing after the smaller impulse
 };
 
 /// Where to begin and end, and what to watch, from what theory predicts: from half of the lower of the two limits, up to

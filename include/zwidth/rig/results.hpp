@@ -71,14 +71,14 @@ struct RigWall {
 
 /// Where walls become unstable: measured, and predicted.
 struct RigLimit {
-  RigSession session;                    ///< what ran
-  LimitMeasurement measured;             ///< on the device
-  CriticalStiffness predicted;           ///< from the device's file, with its user
-  HoldingLimits limits;                  ///< from the device's file: with nobody, its user and any passive user
-  std::optional<AnyUserLimit> any_user;  ///< absent where nobody can hold the device
-  double knock = 0.0;                    ///< N or N m
-  Trust trust;                           ///< of what was measured, and whether it bears out the prediction
-  std::vector<Remark> remarks;           ///< UNSAFE where the device bears less than its file promises
+  RigSession session;           ///< what ran
+  LimitMeasurement measured;    ///< on the device
+  CriticalStiffness predicted;  ///< from the device's file, with its user
+  HoldingLimits limits;         ///< from the device's file: with nobody, its user and any passive user
+  std::optional<AbsoluteStabilityLimit> any_user;  ///< absent where nobody can hold the device
+  double impulse = 0.0;                            ///< N or N m
+  Trust trust;                                     ///< of what was measured, and whether it bears out the prediction
+  std::vector<Remark> remarks;                     ///< UNSAFE where the device bears less than its file promises
 };
 
 }  // namespace zwidth

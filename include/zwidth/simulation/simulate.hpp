@@ -76,7 +76,7 @@ struct Oscillation {
 };
 
 /// What the encoder's steps do to the wall's force: the command less the one for the unrounded position.
-struct ForceRipple {
+struct QuantisationForce {
   double amplitude = 0.0;  ///< half of peak to peak, N or N m
   double frequency = 0.0;  ///< rad/s, mean over its cycles; under a slow motion at v, 2 pi v / step
 };
@@ -84,7 +84,7 @@ struct ForceRipple {
 /// What acts in a simulation and is left out by linear analysis.
 enum class NonlinearPart {
   coulomb_friction,
-  encoder_step,
+  quantisation_step,
   force_limit,
   leaving_wall,  ///< the wall only pushes
   lost_samples,
@@ -127,7 +127,7 @@ struct Simulation {
   double peak_generated_energy = 0.0;  ///< its largest value during the run; 0 at the start
   /// Over the last quarter of the run. Absent without an encoder step or a wall, with faults, and where there are not
   /// two cycles.
-  std::optional<ForceRipple> force_ripple;
+  std::optional<QuantisationForce> quantisation_force;
   /// The encoder's steps are what moves the force at the end: the device itself drifts, is at rest or swings by a step
   /// or two.
   bool encoder_chatters = false;

@@ -8,7 +8,7 @@
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/disk_margin.hpp"
 #include "zwidth/stability/force_per_count.hpp"
@@ -51,20 +51,21 @@ struct QCriterion {
 };
 
 /// Each body costs a modal form: beyond, the limit over all users would take longer than the rest by far.
-inline constexpr std::size_t most_bodies_for_any_user = 20;
+inline constexpr std::size_t most_bodies_for_absolute_stability = 20;
 
 /// Beyond, its interval would take seconds.
-inline constexpr std::size_t most_bodies_for_any_user_interval = 4;
+inline constexpr std::size_t most_bodies_for_absolute_stability_interval = 4;
 
 /// What an analysis computes beside the critical stiffness; what is not asked for costs nothing.
 struct AnalysisOptions {
-  bool any_user = true;                   ///< any_user_limit(), where the device has a body to hold and not too many
-  bool critical_damping = true;           ///< HolderLimit::critical_damping of each holder
-  bool worst_user = false;                ///< the user who proves that limit; needs any_user
+  bool any_user = true;          ///< absolute_stability_limit(), where the device has a body to hold and not too many
+  bool critical_damping = true;  ///< HolderLimit::critical_damping of each holder
+  bool worst_user = false;       ///< the user who proves that limit; needs any_user
   std::optional<UserRanges> family = {};  ///< worst_of_family() of user_family() of these
   std::size_t draws = 1000;               ///< of the uncertainty, for the interval; 0: no interval
-  std::size_t any_user_draws = 200;  ///< the same for any_user, of at most most_bodies_for_any_user_interval bodies
-  Progress progress = {};            ///< told how far the work is; ends it by throwing
+  std::size_t any_user_draws =
+      200;                 ///< the same for any_user, of at most most_bodies_for_absolute_stability_interval bodies
+  Progress progress = {};  ///< told how far the work is; ends it by throwing
 };
 
 /// The critical stiffness, the modes and the margins of a given wall alone: for who prints nothing more.
@@ -76,7 +77,7 @@ struct AnalysisOptions {
 [[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options);
 
 /// The same, and what depends on the device: a worst user or a family needs a body to hold, a worst user at most
-/// most_bodies_for_any_user bodies.
+/// most_bodies_for_absolute_stability bodies.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const Device& device);
 
 /// The answer with nobody holding where the file has a user: what HoldingLimits::nobody and StableFor::nobody rest on.
@@ -101,11 +102,11 @@ struct Analysis {
   std::optional<DiskMargin> disk_margin;              ///< of that wall; absent where it is not stable
   std::optional<ForcePerCount> force_per_count;       ///< of that wall; absent without an encoder resolution too
   std::optional<QuantisationPassivity> quantisation;  ///< absent without Coulomb friction and an encoder resolution
-  std::optional<StiffnessInterval> interval;    ///< of the critical stiffness; absent without uncertain parameters
-  std::optional<AnyUserLimit> any_user;         ///< absent unless asked for, and where there is none (see options)
-  std::optional<WorstUser> worst_user;          ///< absent unless asked for, and where any_user is 0 or infinite
-  std::optional<UserFamilyAnswer> user_family;  ///< absent unless asked for
-  Trust trust;                                  ///< of everything here: the device's, and what the guards found
+  std::optional<StiffnessInterval> interval;       ///< of the critical stiffness; absent without uncertain parameters
+  std::optional<AbsoluteStabilityLimit> any_user;  ///< absent unless asked for, and where there is none (see options)
+  std::optional<WorstUser> worst_user;             ///< absent unless asked for, and where any_user is 0 or infinite
+  std::optional<UserFamilyAnswer> user_family;     ///< absent unless asked for
+  Trust trust;                                     ///< of everything here: the device's, and what the guards found
   std::vector<Remark> remarks;  ///< what was left out, and why; numbers that are probably not in SI units
 };
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
 
@@ -39,20 +39,20 @@ struct CriticalDamping {
 [[nodiscard]] CriticalDamping critical_damping(const Device& device);
 
 /// The largest damper without a spring that no passive user destabilises.
-struct AnyUserDamping {
+struct AbsoluteStabilityDamping {
   double damping = 0.0;        ///< every B below is stable with every passive user; 0: none is; infinite: all are
-  double frequency = 0.0;      ///< rad/s, as AnyUserLimit::frequency
-  double truncation = 0.0;     ///< relative, taken off, as AnyUserLimit::truncation
+  double frequency = 0.0;      ///< rad/s, as AbsoluteStabilityLimit::frequency
+  double truncation = 0.0;     ///< relative, taken off, as AbsoluteStabilityLimit::truncation
   bool needs_no_user = false;  ///< the device that nobody holds reaches it
   Trust trust;                 ///< doubtful where more than 1e-4 had to be taken off
 };
 
-/// any_user_limit() of the damper alone: the least B that breaks
+/// absolute_stability_limit() of the damper alone: the least B that breaks
 ///
 ///     |1 + B v c_T| > |B v| r_T      at some 0 < w <= pi/T
 ///
-/// with the discs c_T, r_T of any_user_limit(). A rigid device without delay: its own damping b (Colgate & Schenkel).
+/// with the discs c_T, r_T of absolute_stability_limit(). A rigid device without delay: its own damping b (Colgate & Schenkel).
 /// Throws Error (needs_bodies) for a transfer function, and what critical_damping() throws.
-[[nodiscard]] AnyUserDamping any_user_damping(const Device& device, const Progress& progress = {});
+[[nodiscard]] AbsoluteStabilityDamping absolute_stability_damping(const Device& device, const Progress& progress = {});
 
 }  // namespace zwidth

@@ -21,7 +21,7 @@ struct StiffnessInterval {
 };
 
 /// Whether it spans more than a factor of 2: an order of magnitude, not an answer.
-[[nodiscard]] bool is_open(const StiffnessInterval& interval);
+[[nodiscard]] bool is_inconclusive(const StiffnessInterval& interval);
 
 /// The 95 % interval of K_CR: `draws` devices drawn from the uncertainty (seeded; an impossible value, such as a negative
 /// damping, goes to its bound, and correlated ones with it by regression), each analysed exactly. Where those draws go to one side

@@ -29,11 +29,11 @@ struct UserRanges {
 };
 
 /// The device's own operator where a range is not given.
-[[nodiscard]] UserFamily user_family(const UserRanges& ranges, const Operator& own);
+[[nodiscard]] UserFamily user_family(const UserRanges& ranges, const User& own);
 
 /// The user of a family that leaves the least stable wall, as far as the search sees.
 struct WorstOfFamily {
-  Operator user;                    ///< with whom the limit is lowest
+  User user;                        ///< with whom the limit is lowest
   double critical_stiffness = 0.0;  ///< K_CR held by that user; 0: no wall is stable; infinity: all are, for every user
 };
 
@@ -47,7 +47,7 @@ struct UserFamilyAnswer {
 /// Searches a family for the user with whom the critical stiffness is least.
 ///
 /// What is certain: `critical_stiffness` is exact for `user`, so the least over the family is no higher; and by
-/// any_user_limit() it is no lower than the limit over all passive users. In between it is a search: the corners, and
+/// absolute_stability_limit() it is no lower than the limit over all passive users. In between it is a search: the corners, and
 /// five values of each range in all combinations, closer together towards the least; then pattern search within the box
 /// from the best few of them. A narrow dip between them may be missed.
 /// Throws Error (needs_bodies) for a transfer function, (invalid_argument) for a range that is negative, reversed or

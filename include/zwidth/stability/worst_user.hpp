@@ -6,7 +6,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {
 
@@ -28,7 +28,7 @@ struct UserNetwork {
 /// Throws Error (needs_bodies) for a transfer function, and as Device does where the user has impossible values.
 [[nodiscard]] Device held_by(const Device& device, const UserNetwork& user);
 
-/// A passive user that (nearly) reaches the any-user limit.
+/// A passive user that (nearly) reaches the absolute stability limit.
 struct WorstUser {
   UserNetwork user;  ///< with whom the limit for any user is reached
   /// With this wall a pole of the device held by this user lies on the unit circle, at `frequency`: its K_CR is no
@@ -40,7 +40,7 @@ struct WorstUser {
 /// For aliases; where the mass at the held body is hung on a spring as well, that is one more.
 inline constexpr std::size_t most_absorbers = 12;
 
-/// The user that proves an any-user limit tight: with it, the wall is unstable hardly above the limit.
+/// The user that proves an absolute stability limit tight: with it, the wall is unstable hardly above the limit.
 ///
 /// At the limit's frequency w the worst plant lies on the boundary of its disc, which takes the right reactance at w
 /// and at the aliases |w + 2 pi k/T|: there each alias' own disc must point the same way. The mass or spring gives the
@@ -51,8 +51,8 @@ inline constexpr std::size_t most_absorbers = 12;
 /// 1/k²) most_absorbers leave some per mille, up to 3 % of the limit. A limit reached as w goes to 0 is represented by
 /// a user for a low frequency. With more than two absorbers critical_stiffness() of the held device is not to be relied
 /// on: their resonances share one sampled frequency, closer together than double precision separates. Nothing where the
-/// limit is 0 or infinite. Throws what any_user_limit() throws.
-[[nodiscard]] std::optional<WorstUser> worst_user(const Device& device, const AnyUserLimit& limit,
+/// limit is 0 or infinite. Throws what absolute_stability_limit() throws.
+[[nodiscard]] std::optional<WorstUser> worst_user(const Device& device, const AbsoluteStabilityLimit& limit,
                                                   VirtualDamper damper = {}, const Progress& progress = {});
 
 }  // namespace zwidth

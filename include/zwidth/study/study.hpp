@@ -122,10 +122,10 @@ struct Study {
   HoldingLimits limits;
   /// Units that meet the whole specification, and each half; absent where nothing is specified.
   std::optional<Proportion> yield;
-  std::optional<Proportion> critical_stiffness_yield;  ///< absent unless specified
-  std::optional<Proportion> any_user_yield;            ///< absent unless specified
-  std::vector<QuantileEstimate> quantiles;             ///< of the critical stiffness
-  std::vector<QuantileEstimate> any_user_quantiles;    ///< empty unless asked for
+  std::optional<Proportion> critical_stiffness_yield;          ///< absent unless specified
+  std::optional<Proportion> absolute_stability_yield;          ///< absent unless specified
+  std::vector<QuantileEstimate> quantiles;                     ///< of the critical stiffness
+  std::vector<QuantileEstimate> absolute_stability_quantiles;  ///< empty unless asked for
   /// 95 % of all units reach it, with 95 % confidence (Wilks); absent with less than 59 samples.
   std::optional<double> reached_by_95_percent;
   StiffnessHistogram histogram;                           ///< of the finite limits
