@@ -3,9 +3,9 @@
 #include <limits>
 #include <utility>
 
-#include "stability/absolute_stability_search.hpp"
-#include "stability/gain_crossings.hpp"
-#include "stability/guarded_stiffness.hpp"
+#include "stability/limit/gain_crossings.hpp"
+#include "stability/limit/guarded_stiffness.hpp"
+#include "stability/users/absolute_stability_search.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 

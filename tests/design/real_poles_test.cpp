@@ -1,4 +1,4 @@
-#include "design/real_poles.hpp"
+#include "design/region/real_poles.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What a grid shows of a loop bounds what isolating every crossing finds.
 
-#include "design/seen_crossings.hpp"
+#include "design/region/seen_crossings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "design/margin_wall.hpp"
+#include "design/synthesis/margin_wall.hpp"
 #include "property/random_devices.hpp"
-#include "stability/loops_of_stiffness.hpp"
+#include "stability/margins/loops_of_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {

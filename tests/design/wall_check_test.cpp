@@ -1,4 +1,4 @@
-#include "design/wall_check.hpp"
+#include "design/synthesis/wall_check.hpp"
 
 #include <gtest/gtest.h>
 

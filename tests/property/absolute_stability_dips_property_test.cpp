@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "property/random_devices.hpp"
-#include "stability/pole_count.hpp"
+#include "stability/second_route/pole_count.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

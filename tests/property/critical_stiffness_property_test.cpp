@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "property/random_devices.hpp"
-#include "stability/pole_count.hpp"
+#include "stability/second_route/pole_count.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

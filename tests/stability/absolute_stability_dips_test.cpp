@@ -7,9 +7,9 @@
 #include <complex>
 #include <numbers>
 
-#include "stability/dissipation_zeros.hpp"
-#include "stability/pole_count.hpp"
-#include "stability/termination_circles.hpp"
+#include "stability/second_route/pole_count.hpp"
+#include "stability/users/dissipation_zeros.hpp"
+#include "stability/users/termination_circles.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

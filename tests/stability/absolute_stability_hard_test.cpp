@@ -9,8 +9,8 @@
 #include "campaign.hpp"
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
-#include "stability/damper_response.hpp"
-#include "stability/termination_circles.hpp"
+#include "stability/loop/damper_response.hpp"
+#include "stability/users/termination_circles.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {

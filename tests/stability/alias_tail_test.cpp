@@ -1,4 +1,4 @@
-#include "stability/alias_tail.hpp"
+#include "stability/users/alias_tail.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "stability/bounded_jet.hpp"
+#include "stability/loop/bounded_jet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sampling/unit_circle.hpp"
-#include "stability/plant_fraction.hpp"
+#include "stability/loop/plant_fraction.hpp"
 
 namespace zwidth {
 using namespace internal;

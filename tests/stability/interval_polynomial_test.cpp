@@ -1,4 +1,4 @@
-#include "stability/interval_polynomial.hpp"
+#include "stability/roots/interval_polynomial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The second route that guards every answer: it counts as eigenvalues do, decides where they cannot, and contradicts
 // what is wrong.
-#include "stability/pole_count.hpp"
+#include "stability/second_route/pole_count.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
-#include "stability/guarded_stiffness.hpp"
+#include "stability/limit/guarded_stiffness.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

@@ -8,7 +8,7 @@
 
 #include "exact_closed_loop.hpp"
 #include "lhifam.hpp"
-#include "stability/pole_count.hpp"
+#include "stability/second_route/pole_count.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 

@@ -1,4 +1,4 @@
-#include "stability/root_isolation.hpp"
+#include "stability/roots/root_isolation.hpp"
 
 #include <gtest/gtest.h>
 

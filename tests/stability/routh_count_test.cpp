@@ -1,11 +1,11 @@
 // The quick count that guards every answer is never wrong: whatever it calls sure, the count in a hundred digits says too.
-#include "stability/routh_count.hpp"
+#include "stability/second_route/routh_count.hpp"
 
 #include <gtest/gtest.h>
 
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
-#include "stability/pole_count.hpp"
+#include "stability/second_route/pole_count.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"

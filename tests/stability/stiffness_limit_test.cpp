@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "property/random_devices.hpp"
-#include "stability/gain_crossings.hpp"
-#include "stability/plant_fraction.hpp"
-#include "stability/response_bound.hpp"
+#include "stability/limit/gain_crossings.hpp"
+#include "stability/loop/plant_fraction.hpp"
+#include "stability/loop/response_bound.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth {

@@ -13,8 +13,8 @@
 
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
-#include "stability/spectral_radius.hpp"
-#include "stability/unit_gain.hpp"
+#include "stability/margins/unit_gain.hpp"
+#include "stability/second_route/spectral_radius.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"

@@ -1,0 +1,244 @@
+#include "design/diagnosis/diagnosis_changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "design/sensitivities/number_limit.hpp"
+#include "staged_progress.hpp"
+#include "zwidth/model/device_user.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr double more = 1.2;
+constexpr double half = 0.5;
+constexpr double finer = 0.25;
+constexpr double softer = 0.5;                                                    // of the limit: 6 dB
+constexpr std::array dampers{0.5, 0.8, 1.25, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};  // times B, or the device's damping
+constexpr double usual_changes = 16.0;                                            // for the progress
+constexpr std::size_t most_links = 3;
+constexpr std::size_t shares_looked_at = 4;  // every fourth share of friction
+
+/// The stiffness, or the damping of a damper alone, up to which the cause is absent.
+double limit_of(OscillationCause cause, const Device& device, WallNumber number, const Progress& progress) {
+  switch (cause) {
+    case OscillationCause::device:
+      return number_limit(device_without_user(device), number).value;
+    case OscillationCause::with_user:
+      return number_limit(device, number).value;
+    case OscillationCause::passive_user:
+      return absolute_stability_limit_of(device, number, progress).value;
+    case OscillationCause::friction: {
+      double least = number_limit(device, number).value;
+      const std::vector<double> shares = friction_shares(device);
+      for (std::size_t i = 0; i < shares.size(); i += shares_looked_at) {
+        tell(progress, 0.0);
+        least = std::min(least, unchecked_number_limit(with_friction_as_damping(device, shares[i]), number).value);
+      }
+      return least;
+    }
+    case OscillationCause::quantisation:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The number of a wall that the limit is of.
+double gain_of(const Device& device, WallNumber number) {
+  const Wall& wall = device.parameters().wall;
+  return number == WallNumber::stiffness ? *wall.stiffness : wall.damping;
+}
+
+class Changes {
+ public:
+  Changes(const ObservedLoop& loop, const OscillationCandidate& cause, const AbsoluteStabilityCheck& users)
+      : loop_(loop), cause_(cause), users_(users), off_(cause.otherwise ? cause.otherwise->limit : 1.0) {
+    if (is_quantisation()) return;
+    const bool is_known = cause.cause == OscillationCause::passive_user && users.now();
+    limit_ = is_known ? *users.now() : limit_of(cause.cause, loop.device, loop.number, loop.progress);
+  }
+
+  [[nodiscard]] std::vector<DiagnosisChange> all() {
+    soften();
+    const DeviceParameters& now = loop_.device.parameters();
+    if (loop_.device.has_bodies()) {
+      double damping = 0.0;
+      for (const Body& body : now.bodies) damping += body.damping;
+      if (damping > 0.0) {
+        add("damping of every body + 20 %", "body.*.damping", damping, more * damping, [](DeviceParameters& then) {
+          for (Body& body : then.bodies) body.damping *= more;
+        });
+      }
+    }
+    if (now.loop.delay > 0.0) {
+      add("half the delay", "loop.delay", now.loop.delay, half * now.loop.delay,
+          [](DeviceParameters& then) { then.loop.delay *= half; });
+    }
+    if (now.wall.filters.empty()) {
+      add("twice the sampling rate", "loop.sampling_period", now.loop.sampling_period, half * now.loop.sampling_period,
+          [](DeviceParameters& then) { then.loop.sampling_period *= half; });
+    }
+    if (now.actuator.time_constant > 0.0) {
+      add("half the actuator's lag", "actuator.time_constant", now.actuator.time_constant,
+          half * now.actuator.time_constant, [](DeviceParameters& then) { then.actuator.time_constant *= half; });
+    }
+    if (now.wall.damping > 0.0 && now.wall.velocity_filter_hz > 0.0) {
+      add("no velocity filter", "wall.velocity_filter_hz", now.wall.velocity_filter_hz, 0.0,
+          [](DeviceParameters& then) { then.wall.velocity_filter_hz = 0.0; });
+    }
+    damp();
+    if (cause_.limited_by && cause_.limited_by->kind == Mechanism::Kind::vibration_mode) stop_mode();
+    for (std::size_t i = 0; i < std::min(now.links.size(), most_links); ++i) {
+      add(fmt::format("link {} 20 % stiffer", i), fmt::format("link.{}.stiffness", i), now.links[i].stiffness,
+          more * now.links[i].stiffness, [i](DeviceParameters& then) { then.links[i].stiffness *= more; });
+    }
+    if (is_quantisation()) {
+      add("an encoder four times as fine", "sensor.resolution", now.sensor.resolution, finer * now.sensor.resolution,
+          [](DeviceParameters& then) { then.sensor.resolution *= finer; });
+    }
+    std::ranges::stable_sort(changes_, [](const DiagnosisChange& a, const DiagnosisChange& b) {
+      if (is_safe(a) != is_safe(b)) return is_safe(a);
+      if (a.limit_then && b.limit_then) return *a.limit_then > *b.limit_then;
+      return a.amplitude_then.value_or(0.0) < b.amplitude_then.value_or(0.0);
+    });
+    return std::move(changes_);
+  }
+
+ private:
+  [[nodiscard]] bool is_quantisation() const { return cause_.cause == OscillationCause::quantisation; }
+
+  static bool is_safe(const DiagnosisChange& change) { return change.safe.value_or(true); }
+
+  struct Recomputed {
+    DiagnosisChange change;
+    Device device;
+  };
+
+  /// The change, recomputed but not judged; nothing where it makes no device, or is worse than a cycle. `search`: of the
+  /// changed device, where it is known.
+  template <typename Change>
+  std::optional<Recomputed> recomputed(DiagnosisChange result, const Change& change, AbsoluteStabilitySearch* search) {
+    tell(loop_.progress, std::min(1.0, static_cast<double>(changes_.size()) / usual_changes));
+    DeviceParameters parameters = loop_.device.parameters();
+    change(parameters);
+    if (find_problem(parameters)) return std::nullopt;
+    Recomputed made{std::move(result), Device(std::move(parameters))};
+    if (is_quantisation()) {
+      const ObservedLoop with{made.device, loop_.frequency, {}, made.device.parameters().wall.stiffness, loop_.number};
+      const auto cycle = quantisation_candidate(with);
+      made.change.amplitude_now = cause_.amplitude;
+      if (cycle && cycle->amplitude) made.change.amplitude_then = cycle->amplitude;
+      made.change.ends_it = !cycle || !cycle->fits;
+      return is_stable(made.device) ? std::optional(std::move(made)) : std::nullopt;
+    }
+    made.change.limit_now = limit_;
+    if (cause_.cause == OscillationCause::passive_user) judge(made, search);
+    const std::optional<double>& any_user = made.change.absolute_stability_limit_then;
+    made.change.limit_then = cause_.cause == OscillationCause::passive_user && any_user
+                                 ? *any_user
+                                 : limit_of(cause_.cause, made.device, loop_.number, loop_.progress);
+    if (std::isnan(*made.change.limit_then)) return std::nullopt;
+    if (loop_.stiffness) made.change.ends_it = off_ * *made.change.limit_then > gain_of(made.device, loop_.number);
+    return made;
+  }
+
+  void judge(Recomputed& made, AbsoluteStabilitySearch* search) const {
+    if (made.change.safe) return;
+    const auto judgement = search != nullptr ? users_.of(made.device, *search) : users_.of(made.device);
+    made.change.absolute_stability_limit_then = judgement.then;
+    made.change.safe = judgement.safe;
+  }
+
+  template <typename Change>
+  void add(std::string what, std::string key, double now, double then, const Change& change) {
+    auto made = recomputed({std::move(what), std::move(key), now, then, {}, {}, {}, {}, {}}, change, nullptr);
+    if (!made) return;
+    judge(*made, nullptr);
+    changes_.push_back(std::move(made->change));
+  }
+
+  void soften() {
+    if (!loop_.stiffness) return;
+    const bool is_damper = loop_.number == WallNumber::damping;
+    const double now = gain_of(loop_.device, loop_.number);
+    // A hand that takes hold of the cure must not make it shake.
+    const double limit = std::min(limit_, users_.now().value_or(limit_));
+    const double softened = is_quantisation() ? softer * now : softer * off_ * limit;
+    if (!(softened > 0.0 && softened < now)) return;
+    if (is_damper) {
+      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below", "wall.damping", now, softened,
+          [&](DeviceParameters& then) { then.wall.damping = softened; });
+    } else {
+      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below", "wall.stiffness", now, softened,
+          [&](DeviceParameters& then) { then.wall.stiffness = softened; });
+    }
+  }
+
+  /// The damper of the ladder with the highest limit (least amplitude) of those that lower no user's.
+  void damp() {
+    if (loop_.number == WallNumber::damping) return;  // the damper is what oscillates
+    const Wall& wall = loop_.device.parameters().wall;
+    double unit = wall.damping;
+    if (unit == 0.0) {
+      for (const Body& body : loop_.device.bodies()) unit += body.damping;
+      // A device that nothing damps: of a sample of its wall.
+      if (unit == 0.0) unit = 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
+      if (!(unit > 0.0)) return;
+    }
+    std::optional<AbsoluteStabilitySearch> search;  // what users do does not depend on the damper
+    if (users_.now()) search.emplace(loop_.device, loop_.progress);
+    AbsoluteStabilitySearch* const users = search ? &*search : nullptr;
+    std::vector<Recomputed> ladder;
+    for (const double factor : dampers) {
+      auto made = recomputed(
+          {"another virtual damper", "wall.damping", wall.damping, factor * unit, {}, {}, {}, {}, {}},
+          [&](DeviceParameters& then) { then.wall.damping = factor * unit; }, users);
+      if (made) ladder.push_back(*std::move(made));
+    }
+    if (ladder.empty()) return;
+    std::ranges::stable_sort(ladder, [this](const Recomputed& a, const Recomputed& b) {
+      return is_quantisation() ? a.change.amplitude_then.value_or(0.0) < b.change.amplitude_then.value_or(0.0)
+                               : *a.change.limit_then > *b.change.limit_then;
+    });
+    for (Recomputed& each : ladder) {
+      judge(each, users);
+      if (!is_safe(each.change)) continue;
+      changes_.push_back(std::move(each.change));
+      return;
+    }
+    if (!users_.now()) changes_.push_back(std::move(ladder.front().change));
+  }
+
+  void stop_mode() {
+    WallFilter notch;
+    notch.kind = WallFilter::Kind::notch;
+    notch.frequency_hz = cause_.frequency / (2.0 * std::numbers::pi);
+    notch.damping_ratio = 0.5;
+    if (find_problem(notch, loop_.device.loop().sampling_period)) return;
+    add("a notch there", "wall.filter", 0.0, notch.frequency_hz,
+        [&](DeviceParameters& then) { then.wall.filters.push_back(notch); });
+  }
+
+  const ObservedLoop& loop_;
+  const OscillationCandidate& cause_;
+  const AbsoluteStabilityCheck& users_;
+  double off_;  // the real limit of a cause that does not fit, of the one that the device's numbers give
+  double limit_ = 0.0;
+  std::vector<DiagnosisChange> changes_;
+};
+
+}  // namespace
+
+std::vector<DiagnosisChange> changes_of(const ObservedLoop& loop, const OscillationCandidate& cause,
+                                        const AbsoluteStabilityCheck& users) {
+  return Changes(loop, cause, users).all();
+}
+
+}  // namespace zwidth::internal

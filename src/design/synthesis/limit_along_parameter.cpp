@@ -1,0 +1,81 @@
+#include "design/synthesis/limit_along_parameter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "design/sensitivities/number_limit.hpp"
+#include "stability/limit/gain_crossings.hpp"
+#include "stability/loop/damper_response.hpp"
+#include "stability/users/disc_stiffness.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/stability/critical_damping.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr std::size_t most_angles = 4;
+constexpr std::array beside{1.0, 0.9, 1.1};  // times an angle at which users have set the limit
+constexpr double low_angle = 1e-2;           // where the limit is reached towards zero frequency
+constexpr double bound_certain = 1e-6;       // relative, of a bound
+
+}  // namespace
+
+std::optional<LimitAlongParameter::Limit> LimitAlongParameter::at(double value, const Interest& interest) {
+  DeviceParameters moved = device_.parameters();
+  moved.uncertainty.reset();
+  set_parameter(moved, parameter_.key, value);
+  if (find_problem(moved)) return std::nullopt;
+  const Device device(std::move(moved));
+  try {
+    if (number_ == WallNumber::damping) return of_damper(device, interest);
+    Limit limit{stiffness_limit(filtered_plant(device), virtual_damper(device), interest.most), false};
+    if (goal_ == StiffnessGoal::critical_stiffness) return limit;
+    limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
+    if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, of_any_user(device, interest.enough, limit));
+    return limit;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::did_not_converge) return std::nullopt;
+    throw;
+  }
+}
+
+LimitAlongParameter::Limit LimitAlongParameter::of_damper(const Device& device, const Interest& interest) const {
+  const NumberLimit own = number_limit(device, number_);
+  if (own.trust.refused()) throw Error(ErrorCode::did_not_converge, own.trust.reasons.front());
+  Limit limit{std::min(own.value, interest.most), false};
+  if (goal_ == StiffnessGoal::critical_stiffness) return limit;
+  limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
+  if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, absolute_stability_damping(device).damping);
+  return limit;
+}
+
+double LimitAlongParameter::of_any_user(const Device& device, double enough, Limit& limit) {
+  const VirtualDamper damper = virtual_damper(device);
+  const double period = device.loop().sampling_period;
+  const bool is_of_damper = parameter_.kind == DesignParameter::Kind::wall_damping ||
+                            parameter_.kind == DesignParameter::Kind::velocity_filter_hz;
+  if (!is_of_damper && enough > 0.0 && !angles_.empty()) {
+    const TerminationCircles discs(device);
+    for (std::size_t i = angles_.size(); i-- > 0;) {
+      for (const double factor : beside) {
+        const double frequency = std::min(angles_[i] * factor, std::numbers::pi) / period;
+        const double bound = least_stiffness(discs.at(frequency), damper_response(damper, period, frequency));
+        limit.is_bound = bound < enough * (1.0 - bound_certain);
+        if (limit.is_bound) return bound;
+      }
+    }
+  }
+  if (!users_ || !is_of_damper) users_ = std::make_unique<AbsoluteStabilitySearch>(device);
+  const AbsoluteStabilityLimit found = users_->limit(damper);
+  const double angle = found.frequency > 0.0 ? found.frequency * period : low_angle;
+  if (std::ranges::find(angles_, angle) == angles_.end()) angles_.push_back(angle);
+  if (angles_.size() > most_angles) angles_.erase(angles_.begin());
+  return found.stiffness;
+}
+
+}  // namespace zwidth::internal
