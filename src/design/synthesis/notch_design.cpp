@@ -10,6 +10,7 @@
 #include "counted.hpp"
 #include "design/synthesis/margin_wall.hpp"
 #include "design/synthesis/notch_search.hpp"
+#include "design/synthesis/wall_limits.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -33,10 +34,6 @@ constexpr double step_down = 0.99;
 constexpr int most_steps_down = 200;
 constexpr double bound_by_phase = 0.1;  // of the stiffness that the gain margin allows
 constexpr double same_limit = 1e-9;     // relative, of two absolute stability limits
-
-bool can_be_held(const Device& device) {
-  return device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability;
-}
 
 Device with_filter(const Device& device, const WallFilter& filter) {
   DeviceParameters parameters = device.parameters();
