@@ -17,7 +17,7 @@ BatchStiffness answers_with_findings() {
                .subjects = {{"side", "above"}},
                .key = "loop.delay",
                .effect = {{"critical_stiffness", 300.0}}});
-  trust.refuse("no data");
+  trust.refuse({.code = FindingCode::second_route_contradicts, .evidence = {{"stiffness", 42.0}}});
   BatchStiffness answers;
   answers.stiffness = {1.0, 2.0};
   answers.trust = trust;

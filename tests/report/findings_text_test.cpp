@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/words/finding_text.hpp"
+
 namespace zwidth::report {
 namespace {
 
@@ -22,6 +24,9 @@ Finding unsafe(double at_most) {
           .effect = {{"critical_stiffness", at_most}}};
 }
 
+const Finding an_open_interval{.code = FindingCode::interval_open};
+const Finding no_delay_margin{.code = FindingCode::delay_margin_contradicts};
+const Finding a_contradiction{.code = FindingCode::second_route_contradicts, .evidence = {{"stiffness", 42.0}}};
 const Remark a_note{Remark::Severity::note, "how it was done", ""};
 const Remark a_warning{Remark::Severity::warning, "what is odd", ""};
 
@@ -34,12 +39,13 @@ TEST(FindingsText, OfASoundAnswerIsItsRemarksWarningsFirst) {
 
 TEST(FindingsText, ShowsThreeThenSaysHowManyMore) {
   Trust trust;
-  trust.doubt("a");
-  trust.doubt("b");
+  trust.doubt(an_open_interval);
+  trust.doubt(no_delay_margin);
   const std::vector remarks{a_note, a_warning};
   const FindingsText three = findings_text(trust, remarks, ShownFindings::three);
   EXPECT_THAT(three.against, HasSubstr("DOUBTFUL"));
-  EXPECT_THAT(three.against, HasSubstr("  ! a\n  ! b\n"));
+  EXPECT_THAT(three.against, HasSubstr(text(an_open_interval)));
+  EXPECT_THAT(three.against, HasSubstr(text(no_delay_margin)));
   EXPECT_EQ(three.remarks, "\nRemarks\n  ! what is odd\n  ... 1 more: add --explain\n");
   const FindingsText all = findings_text(trust, remarks, ShownFindings::all);
   EXPECT_EQ(all.against, three.against);
@@ -48,21 +54,21 @@ TEST(FindingsText, ShowsThreeThenSaysHowManyMore) {
 
 TEST(FindingsText, PutsRefusalsFirstThenTheLowestLimit) {
   Trust trust;
-  trust.doubt("a doubt that names no limit");
-  trust.doubt("another");
+  trust.doubt(an_open_interval);
+  trust.doubt(no_delay_margin);
   trust.doubt(unsafe(800.0));
   trust.doubt(unsafe(500.0));
-  trust.refuse("no data");
+  trust.refuse(a_contradiction);
   const FindingsText found = findings_text(trust, {}, ShownFindings::three);
   EXPECT_THAT(found.against, HasSubstr("REFUSED"));
   EXPECT_EQ(found.remarks, "  ... 2 more: add --explain\n");
-  const std::size_t refusal = found.against.find("no data");
+  const std::size_t refusal = found.against.find(text(a_contradiction));
   const std::size_t lower = found.against.find("1000");  // fitted, where 500 are proven
   const std::size_t higher = found.against.find("1600");
   ASSERT_NE(higher, std::string::npos);
   EXPECT_LT(refusal, lower);
   EXPECT_LT(lower, higher);
-  EXPECT_THAT(found.against, Not(HasSubstr("another")));
+  EXPECT_THAT(found.against, Not(HasSubstr(text(no_delay_margin))));
 }
 
 TEST(FindingsText, SaysADoubtThatIsARemarkTooOnce) {
