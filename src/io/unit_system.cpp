@@ -14,24 +14,24 @@ namespace {
 
 /// factor m^a kg^b s^c rad^d A^e
 struct Unit {
-  double factor = 1.0;
+  long double factor = 1.0L;  // so that 60 Hz in Hz are 60
   std::array<int, 5> powers = {};
 };
 
-constexpr Unit scaled(double factor, Unit unit) {
+constexpr Unit scaled(long double factor, Unit unit) {
   unit.factor *= factor;
   return unit;
 }
 
 constexpr Unit one;
-constexpr Unit metre{1.0, {1, 0, 0, 0, 0}};
-constexpr Unit kilogram{1.0, {0, 1, 0, 0, 0}};
-constexpr Unit second{1.0, {0, 0, 1, 0, 0}};
-constexpr Unit radian{1.0, {0, 0, 0, 1, 0}};
-constexpr Unit ampere{1.0, {0, 0, 0, 0, 1}};
-constexpr Unit newton{1.0, {1, 1, -2, 0, 0}};
-constexpr Unit newton_metre{1.0, {2, 1, -2, 0, 0}};
-constexpr Unit turn = scaled(2.0 * std::numbers::pi, radian);
+constexpr Unit metre{1.0L, {1, 0, 0, 0, 0}};
+constexpr Unit kilogram{1.0L, {0, 1, 0, 0, 0}};
+constexpr Unit second{1.0L, {0, 0, 1, 0, 0}};
+constexpr Unit radian{1.0L, {0, 0, 0, 1, 0}};
+constexpr Unit ampere{1.0L, {0, 0, 0, 0, 1}};
+constexpr Unit newton{1.0L, {1, 1, -2, 0, 0}};
+constexpr Unit newton_metre{1.0L, {2, 1, -2, 0, 0}};
+constexpr Unit turn = scaled(2.0L * std::numbers::pi_v<long double>, radian);
 constexpr Unit hertz{turn.factor, {0, 0, -1, 1, 0}};
 
 struct NamedUnit {
@@ -42,7 +42,7 @@ struct NamedUnit {
 // No more than a device needs, so that a slip ("1 h", "5 a") is refused instead of being an hour or an are.
 constexpr NamedUnit units[] = {
     {"m", metre},
-    {"g", scaled(1e-3, kilogram)},
+    {"g", scaled(1e-3L, kilogram)},
     {"s", second},
     {"rad", radian},
     {"A", ampere},
@@ -50,62 +50,62 @@ constexpr NamedUnit units[] = {
     {"N", newton},
     {"turn", turn},
     {"Hz", hertz},
-    {"V", {1.0, {2, 1, -3, 0, -1}}},
+    {"V", {1.0L, {2, 1, -3, 0, -1}}},
     {"meter", metre},
     {"metre", metre},
-    {"micron", scaled(1e-6, metre)},
-    {"in", scaled(0.0254, metre)},
-    {"inch", scaled(0.0254, metre)},
-    {"ft", scaled(0.3048, metre)},
-    {"gram", scaled(1e-3, kilogram)},
+    {"micron", scaled(1e-6L, metre)},
+    {"in", scaled(0.0254L, metre)},
+    {"inch", scaled(0.0254L, metre)},
+    {"ft", scaled(0.3048L, metre)},
+    {"gram", scaled(1e-3L, kilogram)},
     {"kilogram", kilogram},
-    {"lb", scaled(0.45359237, kilogram)},
-    {"oz", scaled(0.028349523125, kilogram)},
+    {"lb", scaled(0.45359237L, kilogram)},
+    {"oz", scaled(0.028349523125L, kilogram)},
     {"sec", second},
     {"second", second},
-    {"min", scaled(60.0, second)},
-    {"minute", scaled(60.0, second)},
+    {"min", scaled(60.0L, second)},
+    {"minute", scaled(60.0L, second)},
     {"newton", newton},
     {"Nm", newton_metre},
-    {"Nmm", scaled(1e-3, newton_metre)},
-    {"Nms", {1.0, {2, 1, -1, 0, 0}}},
-    {"kgf", scaled(9.80665, newton)},
-    {"lbf", scaled(4.4482216152605, newton)},
-    {"ozf", scaled(0.27801385095378125, newton)},
+    {"Nmm", scaled(1e-3L, newton_metre)},
+    {"Nms", {1.0L, {2, 1, -1, 0, 0}}},
+    {"kgf", scaled(9.80665L, newton)},
+    {"lbf", scaled(4.4482216152605L, newton)},
+    {"ozf", scaled(0.27801385095378125L, newton)},
     {"radian", radian},
-    {"deg", scaled(1.0 / 360.0, turn)},
-    {"degree", scaled(1.0 / 360.0, turn)},
-    {"arcmin", scaled(1.0 / 21600.0, turn)},
-    {"arcsec", scaled(1.0 / 1296000.0, turn)},
+    {"deg", scaled(1.0L / 360.0L, turn)},
+    {"degree", scaled(1.0L / 360.0L, turn)},
+    {"arcmin", scaled(1.0L / 21600.0L, turn)},
+    {"arcsec", scaled(1.0L / 1296000.0L, turn)},
     {"rev", turn},
     {"revolution", turn},
-    {"rpm", scaled(1.0 / 60.0, hertz)},
+    {"rpm", scaled(1.0L / 60.0L, hertz)},
     {"hertz", hertz},
     {"count", one},
     {"tick", one},
-    {"%", scaled(0.01, one)},
+    {"%", scaled(0.01L, one)},
     // The plurals that are written.
     {"turns", turn},
     {"revs", turn},
     {"revolutions", turn},
     {"counts", one},
     {"ticks", one},
-    {"degrees", scaled(1.0 / 360.0, turn)},
+    {"degrees", scaled(1.0L / 360.0L, turn)},
     {"radians", radian},
     {"seconds", second},
-    {"minutes", scaled(60.0, second)},
+    {"minutes", scaled(60.0L, second)},
     {"meters", metre},
     {"metres", metre},
     {"newtons", newton},
-    {"grams", scaled(1e-3, kilogram)},
+    {"grams", scaled(1e-3L, kilogram)},
     {"kilograms", kilogram},
-    {"inches", scaled(0.0254, metre)},
+    {"inches", scaled(0.0254L, metre)},
 };
 
-constexpr std::pair<std::string_view, double> prefixes[] = {
-    {"p", 1e-12},    {"n", 1e-9},     {"u", 1e-6},     {"m", 1e-3},   {"c", 1e-2},
-    {"d", 1e-1},     {"k", 1e3},      {"M", 1e6},      {"G", 1e9},    {"nano", 1e-9},
-    {"micro", 1e-6}, {"milli", 1e-3}, {"centi", 1e-2}, {"kilo", 1e3}, {"mega", 1e6}};
+constexpr std::pair<std::string_view, long double> prefixes[] = {
+    {"p", 1e-12L},    {"n", 1e-9L},     {"u", 1e-6L},     {"m", 1e-3L},   {"c", 1e-2L},
+    {"d", 1e-1L},     {"k", 1e3L},      {"M", 1e6L},      {"G", 1e9L},    {"nano", 1e-9L},
+    {"micro", 1e-6L}, {"milli", 1e-3L}, {"centi", 1e-2L}, {"kilo", 1e3L}, {"mega", 1e6L}};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%'; }
 bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
@@ -251,7 +251,7 @@ std::optional<double> unit_factor(const std::string& unit, const std::string& wa
   const std::optional<Unit> given = UnitReader(unit).whole();
   const std::optional<Unit> target = UnitReader(wanted).whole();
   if (!given || !target || given->powers != target->powers) return std::nullopt;
-  const double factor = given->factor / target->factor;
+  const auto factor = static_cast<double>(given->factor / target->factor);
   return std::isfinite(factor) && factor > 0.0 ? std::optional(factor) : std::nullopt;
 }
 

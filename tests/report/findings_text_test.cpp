@@ -30,6 +30,14 @@ const Finding a_contradiction{.code = FindingCode::second_route_contradicts, .ev
 const Remark a_note{Remark::Severity::note, "how it was done", ""};
 const Remark a_warning{Remark::Severity::warning, "what is odd", ""};
 
+/// In one line each.
+std::string unwrapped(std::string text) {
+  const std::string wrap = "\n    ";
+  for (std::size_t at = text.find(wrap); at != std::string::npos; at = text.find(wrap))
+    text.replace(at, wrap.size(), " ");
+  return text;
+}
+
 TEST(FindingsText, OfASoundAnswerIsItsRemarksWarningsFirst) {
   const FindingsText found = findings_text({}, std::vector{a_note, a_warning, a_note}, ShownFindings::three);
   EXPECT_THAT(found.against, IsEmpty());
@@ -44,8 +52,8 @@ TEST(FindingsText, ShowsThreeThenSaysHowManyMore) {
   const std::vector remarks{a_note, a_warning};
   const FindingsText three = findings_text(trust, remarks, ShownFindings::three);
   EXPECT_THAT(three.against, HasSubstr("DOUBTFUL"));
-  EXPECT_THAT(three.against, HasSubstr(text(an_open_interval)));
-  EXPECT_THAT(three.against, HasSubstr(text(no_delay_margin)));
+  EXPECT_THAT(unwrapped(three.against), HasSubstr(text(an_open_interval)));
+  EXPECT_THAT(unwrapped(three.against), HasSubstr(text(no_delay_margin)));
   EXPECT_EQ(three.remarks, "\nRemarks\n  ! what is odd\n  ... 1 more: add --explain\n");
   const FindingsText all = findings_text(trust, remarks, ShownFindings::all);
   EXPECT_EQ(all.against, three.against);
@@ -62,13 +70,14 @@ TEST(FindingsText, PutsRefusalsFirstThenTheLowestLimit) {
   const FindingsText found = findings_text(trust, {}, ShownFindings::three);
   EXPECT_THAT(found.against, HasSubstr("REFUSED"));
   EXPECT_EQ(found.remarks, "  ... 2 more: add --explain\n");
-  const std::size_t refusal = found.against.find(text(a_contradiction));
-  const std::size_t lower = found.against.find("1000");  // fitted, where 500 are proven
-  const std::size_t higher = found.against.find("1600");
+  const std::string against = unwrapped(found.against);
+  const std::size_t refusal = against.find(text(a_contradiction));
+  const std::size_t lower = against.find("1000");  // fitted, where 500 are proven
+  const std::size_t higher = against.find("1600");
   ASSERT_NE(higher, std::string::npos);
   EXPECT_LT(refusal, lower);
   EXPECT_LT(lower, higher);
-  EXPECT_THAT(found.against, Not(HasSubstr(text(no_delay_margin))));
+  EXPECT_THAT(against, Not(HasSubstr(text(no_delay_margin))));
 }
 
 TEST(FindingsText, SaysADoubtThatIsARemarkTooOnce) {

@@ -6,6 +6,7 @@ export type {
   Analysis,
   Bode,
   Diagnosis,
+  Finding,
   Region,
   Relay,
   Remark,
