@@ -103,7 +103,7 @@ ColumnUnit known_unit(std::string_view text) {
       {"rad/s", velocity}, {"m/s^2", acceleration}, {"rad/s^2", acceleration}, {"A", other},      {"V", other}};
   for (const auto& [si, quantity] : quantities) {
     const auto factor = unit_factor(*ascii, si);
-    if (factor) return {text, quantity, si, *factor};
+    if (factor) return {text, quantity, si, static_cast<double>(*factor)};
   }
   return result;
 }

@@ -83,15 +83,15 @@ tl::expected<Parts, UnitProblem> parts_of(std::string_view text, const std::stri
 
 /// number * factor; by division where the factor is one over a whole number, for that is the exact double: 400 us as
 /// 400/1e6.
-double scaled(double number, double factor) {
+double scaled(double number, long double factor) {
   constexpr double largest_exact = 1e15;
-  const double inverse = std::round(1.0 / factor);
+  const long double inverse = std::round(1.0L / factor);
   constexpr double rounding = 4.0 * 2.220446049250313e-16;
-  const bool is_division = factor < 1.0 && inverse < largest_exact && std::abs(inverse * factor - 1.0) <= rounding;
-  return is_division ? number / inverse : number * factor;
+  const bool is_division = factor < 1.0L && inverse < largest_exact && std::abs(inverse * factor - 1.0L) <= rounding;
+  return is_division ? number / static_cast<double>(inverse) : static_cast<double>(number * factor);
 }
 
-std::optional<double> factor_to(const std::string& unit, const MeasuredUnit& wanted) {
+std::optional<long double> factor_to(const std::string& unit, const MeasuredUnit& wanted) {
   if (const auto factor = unit_factor(unit, wanted.si.empty() ? "1" : std::string(wanted.si))) return factor;
   if (wanted.without.empty()) return std::nullopt;
   return unit_factor(unit, std::string(wanted.without));
@@ -103,7 +103,7 @@ std::optional<std::string> inverse_of(double number, const std::string& unit, Me
   if (measure == Measure::time) {
     const auto factor = unit_factor(unit, "Hz");
     if (factor && magnitude > 0.0) {
-      const double rate = number * *factor;
+      const auto rate = static_cast<double>(number * *factor);
       for (const auto& [unit_of_time, scale] : {std::pair{"ms", 1000.0}, std::pair{"us", 1e6}}) {
         const std::string brief = fmt::format("{:.6g}", scale / rate);
         double read = 0.0;
@@ -118,7 +118,7 @@ std::optional<std::string> inverse_of(double number, const std::string& unit, Me
     const auto factor = unit_factor(unit, per);
     if (factor && magnitude > 0.0) {
       const bool is_rotary = motion == Motion::rotary;
-      const double counts = number * *factor * (is_rotary ? 2.0 * std::numbers::pi : 1e-3);
+      const auto counts = static_cast<double>(number * *factor * (is_rotary ? 2.0 * std::numbers::pi : 1e-3));
       return fmt::format("1 {}/{:.10g}", is_rotary ? "turn" : "mm", counts);
     }
   }
@@ -131,7 +131,7 @@ std::optional<std::string> separated_unit(const std::string& unit, const Measure
   constexpr std::size_t longest = 16;
   if (unit.size() > longest) return std::nullopt;
   std::optional<std::string> found;
-  std::optional<double> factor;
+  std::optional<long double> factor;
   bool is_one = true;
   const auto try_unit = [&](const std::string& candidate) {
     const auto own = factor_to(candidate, wanted);

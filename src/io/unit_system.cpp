@@ -247,12 +247,13 @@ std::optional<std::string> ascii_unit(std::string_view text) {
   return ascii;
 }
 
-std::optional<double> unit_factor(const std::string& unit, const std::string& wanted) {
+std::optional<long double> unit_factor(const std::string& unit, const std::string& wanted) {
   const std::optional<Unit> given = UnitReader(unit).whole();
   const std::optional<Unit> target = UnitReader(wanted).whole();
   if (!given || !target || given->powers != target->powers) return std::nullopt;
-  const auto factor = static_cast<double>(given->factor / target->factor);
-  return std::isfinite(factor) && factor > 0.0 ? std::optional(factor) : std::nullopt;
+  const long double factor = given->factor / target->factor;
+  const auto rounded = static_cast<double>(factor);
+  return std::isfinite(rounded) && rounded > 0.0 ? std::optional(factor) : std::nullopt;
 }
 
 bool is_unit(const std::string& unit) { return UnitReader(unit).whole().has_value(); }

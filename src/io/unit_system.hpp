@@ -9,8 +9,9 @@ namespace zwidth::internal {
 /// How many `wanted` one `unit` is, where it is a plain factor: unit_factor("N m/deg", "N m/rad") is 180/pi.
 ///
 /// The radian is a dimension of its own here and Hz is a turn per second, so that "rad/s" and "Hz" differ by 2 pi.
-/// Both in ASCII (ascii_unit()). None where `unit` is no unit, of another dimension, or more than a factor.
-[[nodiscard]] std::optional<double> unit_factor(const std::string& unit, const std::string& wanted);
+/// In extended precision, so that 60 rpm are 2 pi rad/s to the last
+/// digit. Both in ASCII (ascii_unit()). None where `unit` is no unit, of another dimension, or more than a factor.
+[[nodiscard]] std::optional<long double> unit_factor(const std::string& unit, const std::string& wanted);
 
 /// Whether the text is a unit of any dimension.
 [[nodiscard]] bool is_unit(const std::string& unit);
