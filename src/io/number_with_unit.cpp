@@ -147,7 +147,7 @@ std::optional<std::string> separated_unit(const std::string& unit, const Measure
   for (const std::size_t gap : gaps) try_unit(std::string(unit).insert(gap, " "));
   for (std::size_t i = 0; i < gaps.size() && !found; ++i) {
     for (std::size_t k = i + 1; k < gaps.size(); ++k) {
-      try_unit(std::string(unit).insert(gaps[k], " ").insert(gaps[i], " "));
+      try_unit(std::string(unit).insert(gaps[k], 1, ' ').insert(gaps[i], 1, ' '));
     }
   }
   return is_one ? found : std::nullopt;
