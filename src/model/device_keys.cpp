@@ -53,8 +53,7 @@ constexpr auto made_rows() {
        &Body::damping},
       {{body, "stiffness", number, stiffness, from_0, "0", "", "Spring between the body and the ground."},
        &Body::stiffness},
-      {{body, "coulomb", number, force, from_0, "0", "",
-        "Coulomb friction of the body. Only the simulation and the relay feel it."},
+      {{body, "coulomb", number, force, from_0, "0", "", "Coulomb friction of the body. No limit depends on it."},
        &Body::coulomb},
 
       {{link, "between", texts, none, none, needed_key, "two names of different bodies",
@@ -81,11 +80,11 @@ constexpr auto made_rows() {
         "Time constant from commanded to real force, first order."},
        &Actuator::time_constant},
       {{actuator, "force_limit", number, force, above_0, "none", "",
-        "Where the force saturates. Only the simulation feels it."},
+        "Where the force saturates. No limit depends on it."},
        &Actuator::force_limit},
 
       {{sensor, "resolution", number, position, from_0, "0", "",
-        "Position of one count of the encoder. Only the simulation and the force per count feel it."},
+        "Position of one count of the encoder. No limit depends on it."},
        &Sensor::resolution},
 
       {{wall, "stiffness", number, stiffness, from_0, "none", "", "Stiffness K of the virtual wall that is judged."},

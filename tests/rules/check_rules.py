@@ -19,7 +19,7 @@ LIBRARY = {
     "batch/kernel": ["model", "sampling"],
     "stability": ["model", "sampling", "batch/kernel"],
     "io": ["model", "signal", "study"],
-    "simulation": ["words", "model", "signal", "sampling", "control", "stability"],
+    "simulation": ["model", "signal", "sampling", "control", "stability"],
     "identification": ["words", "model", "signal", "sampling", "stability", "simulation"],
     "batch": ["model", "sampling", "stability", "batch/kernel"],
     "design": ["model", "signal", "sampling", "stability", "batch"],

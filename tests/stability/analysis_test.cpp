@@ -258,7 +258,6 @@ TEST(Analysis, DoubtTravelsAndARefusedDeviceHasNoNumber) {
   EXPECT_EQ(refused.rigid->critical.status, StiffnessStatus::refused);
 }
 
-// With a damper closed the gain margin is of the whole wall, the stiffness margin of K alone.
 TEST(Analysis, AnOpenIntervalIsNoSureAnswer) {
   DeviceParameters device = test::rigid_parameters();
   device.uncertainty = Uncertainty{{"body.body.damping"}, {{0.01}}};
@@ -283,6 +282,7 @@ TEST(Analysis, AWallAboveTheLimitWithAnyUserIsSaid) {
   EXPECT_TRUE(analyze(Device(device)).remarks.empty());  // it is unstable by itself
 }
 
+// With a damper closed the gain margin is of the whole wall, the stiffness margin of K alone.
 TEST(Analysis, StiffnessMarginIsOfTheStiffnessAlone) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.wall = {2000.0, 5.0, 0.0};
