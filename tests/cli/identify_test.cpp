@@ -93,7 +93,7 @@ TEST_F(Identify, NamesWhatTheDataLeaveOpen) {
   EXPECT_THAT(outcome.output, HasSubstr("is a placeholder"));
   const Outcome brief = run(record + "--structure two-body --locked handle");
   EXPECT_THAT(brief.output, HasSubstr("DOUBTFUL"));
-  EXPECT_THAT(brief.output, HasSubstr(" more: add --explain\n"));
+  EXPECT_THAT(brief.output, HasSubstr(": add --explain\n"));
   EXPECT_EQ(lines_of_findings(brief.output), 3);
   EXPECT_GT(lines_of_findings(outcome.output), 3);
   const json found = document(record + "--structure two-body --locked handle --json");

@@ -69,7 +69,7 @@ TEST(FindingsText, PutsRefusalsFirstThenTheLowestLimit) {
   trust.refuse(a_contradiction);
   const FindingsText found = findings_text(trust, {}, ShownFindings::three);
   EXPECT_THAT(found.against, HasSubstr("REFUSED"));
-  EXPECT_EQ(found.remarks, "  ... 2 more: add --explain\n");
+  EXPECT_EQ(found.remarks, "  ... 2 more, 2 of them against the numbers: add --explain\n");
   const std::string against = unwrapped(found.against);
   const std::size_t refusal = against.find(text(a_contradiction));
   const std::size_t lower = against.find("1000");  // fitted, where 500 are proven

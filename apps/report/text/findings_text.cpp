@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "report/text/text_table.hpp"
@@ -74,6 +77,34 @@ bool is_said(const Remark& remark, const Trust& trust) {
          std::ranges::any_of(trust.findings, [&](const Finding& doubt) { return is_of_the_same(doubt, finding); });
 }
 
+/// The trust in the fullest words that it is said in: a remark of the same finding may have a remedy besides.
+Trust in_full(Trust trust, std::span<const Remark> remarks) {
+  std::vector<std::string> reasons = trust.reasons;
+  for (std::string& reason : reasons) {
+    const Finding* const finding = finding_of(reason, trust);
+    for (const Remark& remark : remarks) {
+      if (finding == nullptr || !remark.finding || !is_of_the_same(*finding, *remark.finding)) continue;
+      if (std::string line = remark_line(remark); line.size() > reason.size()) reason = std::move(line);
+    }
+  }
+  trust.reasons = std::move(reasons);
+  return trust;
+}
+
+/// How a file was read, which hardly ever matters: said last.
+bool is_of_reading(const Remark& remark) {
+  using enum FindingCode;
+  constexpr std::array codes{text_table,          column_scaled_by_its_unit,
+                             column_read_in_unit, rate_of_times,
+                             rate_of_file,        twincat_scope_export,
+                             codesys_trace,       controldesk_export,
+                             objects_skipped,     labview_measurement_file,
+                             not_numeric_skipped, complex_skipped,
+                             no_signals_skipped,  single_numbers,
+                             datasets_passed_over};
+  return remark.finding && std::ranges::find(codes, remark.finding->code) != codes.end();
+}
+
 /// Those that the trust does not say, each once, warnings first.
 std::vector<Remark> remaining(std::span<const Remark> remarks, const Trust& trust) {
   std::vector<Remark> rest;
@@ -84,6 +115,8 @@ std::vector<Remark> remaining(std::span<const Remark> remarks, const Trust& trus
       if (std::ranges::find(rest, line, &remark_line) == rest.end()) rest.push_back(remark);
     }
   }
+  std::ranges::stable_partition(
+      rest, [](const Remark& each) { return each.severity == Remark::Severity::warning || !is_of_reading(each); });
   return rest;
 }
 
@@ -91,15 +124,24 @@ std::vector<Remark> remaining(std::span<const Remark> remarks, const Trust& trus
 
 FindingsText findings_text(const Trust& trust, std::span<const Remark> remarks, ShownFindings shown) {
   const std::size_t most = shown == ShownFindings::three ? most_shown : std::numeric_limits<std::size_t>::max();
-  Trust said = most_severe_first(trust);
+  Trust said = in_full(most_severe_first(trust), remarks);
   std::vector<Remark> rest = remaining(remarks, trust);
   const std::size_t all = said.reasons.size() + rest.size();
+  const auto warnings = static_cast<std::size_t>(
+      std::ranges::count(rest, Remark::Severity::warning, [](const Remark& each) { return each.severity; }));
+  const std::size_t against = said.reasons.size() + warnings;
   said.reasons.resize(std::min(said.reasons.size(), most));
   rest.resize(std::min(rest.size(), most - said.reasons.size()));
   FindingsText found{trust_lines(said), ""};
   if (!rest.empty()) found.remarks += "\nRemarks\n" + remarks_text(rest);
   const std::size_t more = all - said.reasons.size() - rest.size();
-  if (more > 0) found.remarks += fmt::format("  ... {} more: add --explain\n", more);
+  if (more > 0) {
+    const std::size_t shown_against = std::min(against, most);
+    found.remarks +=
+        fmt::format("  ... {} more{}: add --explain\n", more,
+                    against > shown_against ? fmt::format(", {} of them against the numbers", against - shown_against)
+                                            : std::string());
+  }
   return found;
 }
 
