@@ -12,7 +12,8 @@ const install = (): void => {
   vi.stubGlobal('fetch', (_: string, init: RequestInit) => {
     const toml = (JSON.parse(init.body as string) as { device_toml: string }).device_toml
     return new Promise<Response>((done) =>
-      asked.push({ toml, reply: (status, body) => done(new Response(JSON.stringify(body), { status })) }),
+      // A plain object: a Response reads its body when the machine comes to it.
+      asked.push({ toml, reply: (status, body) => done({ status, ok: status === 200, json: async () => body } as Response) }),
     )
   })
 }
@@ -80,7 +81,15 @@ describe('answer', () => {
     vi.useFakeTimers()
     let count = 0
     let isGone = true
-    vi.stubGlobal('fetch', () => (++count, isGone ? Promise.reject(new TypeError('gone')) : Promise.resolve(new Response('{"n":1}'))))
+    vi.stubGlobal(
+      'fetch',
+      () => (
+        ++count,
+        isGone
+          ? Promise.reject(new TypeError('gone'))
+          : Promise.resolve({ status: 200, ok: true, json: async () => ({ n: 1 }) } as Response)
+      ),
+    )
     const answer = new Answer<{ n: number }>()
     answer.ask({ path: 'analyze', toml: 'a' })
     const counts: number[] = []

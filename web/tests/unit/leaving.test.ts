@@ -38,7 +38,7 @@ it('leaves work on what is no longer asked after a second, and asks the newest',
   expect([asked[0]!.signal.aborted, answer.problem, answer.late]).toEqual([true, null, true])
   await vi.advanceTimersByTimeAsync(20_000)
   expect(asked[1]!.signal.aborted).toBe(false) // nothing newer is asked
-  asked[1]!.reply(new Response('{"n":2}'))
+  asked[1]!.reply({ status: 200, ok: true, json: async () => ({ n: 2 }) } as Response)
   await vi.advanceTimersByTimeAsync(1)
   expect([answer.document, answer.late]).toEqual([{ n: 2 }, false])
 })
