@@ -6,7 +6,8 @@ function(zwidth_unity target)
   set(alone plant_sensitivity identifiability pole_count_in_digits)
   list(APPEND alone wall_recommendation mat5_matrix)  # some names of theirs are others in wall_search, mat_recording
   # What the program loads on demand. The kernel includes itself besides, once per instruction set.
-  list(APPEND alone stiffness_kernel mat73_file least_squares shot_fit quiet_solve)
+  list(APPEND alone stiffness_kernel mat73_file least_squares shot_fit quiet_solve exact_sampling transfer_function)
+  set(exact exact_fraction exact_modal_form exact_partial_fractions exact_poles)  # together, for the same reason
   # tests that name their seed, cases or period as their neighbours do
   list(APPEND alone absolute_stability_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
     diagnosis_property_test drive_gains_test export_test hybrid_loop_linear_test hybrid_loop_property_test
@@ -15,8 +16,11 @@ function(zwidth_unity target)
     time_axis_test uff_recording_test velocity_filter_test wall_filter_file_test)
   foreach(source IN LISTS ARGN)
     cmake_path(GET source STEM name)
+    if(name IN_LIST exact)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP exact)
+    endif()
     foreach(letters a-d e-l m-r s-z)
-      if(NOT name IN_LIST alone AND source MATCHES "/(src|tests)/([a-z]+)/([a-z_]+/)?[${letters}][^/]*$")
+      if(NOT name IN_LIST alone AND NOT name IN_LIST exact AND source MATCHES "/(src|tests)/([a-z]+)/([a-z_]+/)?[${letters}][^/]*$")
         set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_2}_${letters})
       endif()
     endforeach()

@@ -8,6 +8,9 @@
 #include "identification/least_squares.hpp"
 #include "identification/shot_fit.hpp"
 #include "io/mat73_file.hpp"
+#include "model/exact_modal_form.hpp"
+#include "sampling/exact_sampling.hpp"
+#include "stability/second_route/pole_count.hpp"
 #include "study/study_result_file.hpp"
 
 namespace zwidth::on_demand {
@@ -21,6 +24,15 @@ struct Fits {
   decltype(internal::shot_residuals)* shot_residuals;
   decltype(internal::open_mat73_file)* open_mat73_file;
   decltype(study_engine::write_result)* write_result;
+};
+
+/// With FLINT and Arb.
+struct Digits {
+  static constexpr const char* file = "digits-" ZWIDTH_VERSION ".so";
+  decltype(internal::exact_modal_form)* exact_modal_form;
+  decltype(internal::sample_exactly)* sample_exactly;
+  decltype(internal::unstable_poles_in_digits)* unstable_poles_in_digits;
+  decltype(internal::polish_poles_in_digits)* polish_poles_in_digits;
 };
 
 /// With Highway.

@@ -57,6 +57,23 @@ tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
   return loaded<on_demand::Fits>().open_mat73_file(path);
 }
 
+ModalForm exact_modal_form(const Device& device, Path path, double lag, const PoleLabels& labels,
+                           std::shared_ptr<ExactlyFound>& found) {
+  return loaded<on_demand::Digits>().exact_modal_form(device, path, lag, labels, found);
+}
+
+ExtendedTerm sample_exactly(const ModalTerm& term, const SamplingInstants& instants) {
+  return loaded<on_demand::Digits>().sample_exactly(term, instants);
+}
+
+std::optional<int> unstable_poles_in_digits(const Device& device, double stiffness) {
+  return loaded<on_demand::Digits>().unstable_poles_in_digits(device, stiffness);
+}
+
+void polish_poles_in_digits(const Device& device, std::vector<PoleOnCircle>& poles) {
+  loaded<on_demand::Digits>().polish_poles_in_digits(device, poles);
+}
+
 void solve_group(const KernelGroup& group, const KernelDevices& devices, std::size_t count, KernelAnswers& answers,
                  KernelScratch& scratch) {
   loaded<on_demand::Kernel>().solve_group(group, devices, count, answers, scratch);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "counted.hpp"
+#include "model/exact_modal_form.hpp"
 #include "model/exact_poles.hpp"
 #include "model/partial_fractions.hpp"
 #include "zwidth/error.hpp"
@@ -313,7 +314,7 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
 
 }  // namespace
 
-ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known) {
+ModalForm exact_partial_fractions(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known) {
   if (lag > 0.0) {  // times 1 / (lag s + 1)
     RealBallPolynomial factor;
     RealBall coefficient;

@@ -11,13 +11,11 @@
 
 namespace zwidth::internal {
 
-// Terms are joined until none exceeds the sum by more, at the frequency of any pole.
+// Terms are joined until none exceeds the sum by more, at the frequency of any pole but where irrelevant_below says.
 inline constexpr double joined_above = 1e3;
-// Except where |G| is below this share of its largest value at a pole: a critical stiffness 1/|G| is beyond use there.
-inline constexpr double irrelevant_below = 1e-9;
 
 // `known`: poles that were found before, and will be. Throws Error (did_not_converge) where terms of
 // ModalTerm::max_degree still cancel too much.
-ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known);
+ModalForm exact_partial_fractions(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known);
 
 }  // namespace zwidth::internal

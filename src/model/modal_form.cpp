@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "counted.hpp"
 #include "model/device_matrices.hpp"
-#include "model/exact_partial_fractions.hpp"
+#include "model/exact_modal_form.hpp"
 #include "model/modal_forms.hpp"
 #include "model/partial_fractions.hpp"
 #include "model/pencil.hpp"
@@ -24,8 +25,7 @@ namespace zwidth {
 struct internal::FoundPoles {
   std::optional<std::vector<Complex<Extended>>> poles;  // those that are not 0, nor the lag's
   bool do_not_converge = false;                         // in double-double
-  KnownPoles exact;
-  IntegerPolynomial exact_denominator;
+  std::shared_ptr<ExactlyFound> exact;
 };
 
 using namespace internal;
@@ -149,7 +149,7 @@ bool is_carried(const ModalForm& form, const PencilX& pencil, double nyquist) {
          error_of_sum(form, pencil, nyquist) <= carried_error_at_nyquist;
 }
 
-// The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.
+// The modal form in double-double, or by exact arithmetic, exact(), where that does not carry.
 // Poles that are found already are not sought again.
 template <typename Pencil, typename PencilX, typename Exact>
 ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start,
@@ -173,7 +173,7 @@ ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vecto
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
   try {
-    return exact_modal_form(exact(), leading(extended.lag), labels, found.exact);
+    return exact();
   } catch (const Error& error) {  // too many bodies, or poles
     if (error.code() != ErrorCode::did_not_converge || !carried) throw;
     return *std::move(carried);
@@ -287,7 +287,7 @@ ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles&
     if (!(magnitude(s) > 0.0)) s = ComplexD(-1e-3, 1e-3);
   }
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
-  const auto exact = [&] { return exact_fraction(device, path, found.exact_denominator); };
+  const auto exact = [&] { return exact_modal_form(device, path, lag, labels, found.exact); };
   ModalForm form = matrices.mass.size() <= 2
                        ? expand_poles(small_device_pencil<double>(device, path, lag),
                                       small_device_pencil<Extended>(device, path, lag), std::move(start), labels,
@@ -298,7 +298,10 @@ ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles&
   return form;
 }
 
-ModalForm expand_transfer_function(const TransferFunction& transfer_function, double lag, double nyquist) {
+ModalForm expand_transfer_function(const Device& device) {
+  const TransferFunction& transfer_function = *device.parameters().transfer_function;
+  const double lag = device.parameters().actuator.time_constant;
+  const double nyquist = std::numbers::pi / device.loop().sampling_period;
   std::vector<double> numerator(transfer_function.numerator.rbegin(), transfer_function.numerator.rend());
   std::vector<double> denominator(transfer_function.denominator.rbegin(), transfer_function.denominator.rend());
   while (numerator.size() > 1 && numerator.back() == 0.0) numerator.pop_back();
@@ -327,17 +330,15 @@ ModalForm expand_transfer_function(const TransferFunction& transfer_function, do
   extended.numerator.assign(numerator.begin(), numerator.end());
   extended.denominator.assign(denominator.begin(), denominator.end());
   FoundPoles found;
-  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{}, nyquist, found,
-                      [&] { return exact_fraction(transfer_function); });
+  const PoleLabels labels;
+  return expand_poles(pencil, extended, newton_polygon_start(denominator), labels, nyquist, found,
+                      [&] { return exact_modal_form(device, {}, lag, labels, found.exact); });
 }
 
 }  // namespace
 
 ModalForm modal_form(const Device& device) {
-  if (!device.has_bodies()) {
-    return expand_transfer_function(*device.parameters().transfer_function, device.parameters().actuator.time_constant,
-                                    std::numbers::pi / device.loop().sampling_period);
-  }
+  if (!device.has_bodies()) return expand_transfer_function(device);
   return ModalForms(device, ActuatorLag::included).along({device.loop().actuated, device.loop().sensed});
 }
 
