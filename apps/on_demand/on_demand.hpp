@@ -1,6 +1,6 @@
 #pragma once
 
-// What the program loads at the first call: functions of the library and of the studies whose own libraries take longer
+// What the program loads at the first call: functions of the library, the studies and the server whose own libraries take longer
 // to load than an answer takes. A module holds them and those libraries. The program holds a stand-in of the same name
 // for each (stand_ins.cpp), which asks the module; all others that link with the library have the functions themselves.
 
@@ -10,6 +10,7 @@
 #include "io/mat73_file.hpp"
 #include "model/exact_modal_form.hpp"
 #include "sampling/exact_sampling.hpp"
+#include "server/api/digest.hpp"
 #include "stability/second_route/pole_count.hpp"
 #include "study/study_result_file.hpp"
 
@@ -39,6 +40,13 @@ struct Digits {
 struct Kernel {
   static constexpr const char* file = "kernel-" ZWIDTH_VERSION ".so";
   decltype(internal::solve_group)* solve_group;
+};
+
+/// With OpenSSL.
+struct Crypto {
+  static constexpr const char* file = "crypto-" ZWIDTH_VERSION ".so";
+  decltype(server::sha256)* sha256;
+  decltype(server::equal_in_constant_time)* equal_in_constant_time;
 };
 
 }  // namespace zwidth::on_demand

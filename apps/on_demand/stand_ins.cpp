@@ -88,4 +88,14 @@ void write_result(const std::string& path, const StudyRun& run, const ChunkSourc
 }
 
 }  // namespace study_engine
+
+namespace server {
+
+std::string sha256(std::string_view bytes) { return loaded<on_demand::Crypto>().sha256(bytes); }
+
+bool equal_in_constant_time(std::string_view one, std::string_view other) {
+  return loaded<on_demand::Crypto>().equal_in_constant_time(one, other);
+}
+
+}  // namespace server
 }  // namespace zwidth

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sys/types.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -60,6 +62,18 @@ tl::expected<std::size_t, InputError> InputFile::read(std::span<char> bytes) {
   const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file_.get());
   if (std::ferror(file_.get())) return tl::unexpected(refusal(errno));
   return count;
+}
+
+tl::expected<std::string, InputError> InputFile::read_up_to(std::size_t most) {
+  std::string text;
+  std::array<char, 4096> part;
+  while (text.size() < most) {
+    const auto count = read(std::span(part).first(std::min(part.size(), most - text.size())));
+    if (!count) return tl::unexpected(count.error());
+    if (*count == 0) break;
+    text.append(part.data(), *count);
+  }
+  return text;
 }
 
 tl::expected<void, InputError> InputFile::seek(std::uintmax_t offset) {

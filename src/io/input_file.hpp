@@ -21,6 +21,9 @@ class InputFile {
   /// Reads up to `bytes.size()` bytes; fewer only at the end.
   [[nodiscard]] tl::expected<std::size_t, InputError> read(std::span<char> bytes);
 
+  /// The rest, or its first `most` bytes.
+  [[nodiscard]] tl::expected<std::string, InputError> read_up_to(std::size_t most);
+
   /// Goes on reading at a byte of a regular file.
   [[nodiscard]] tl::expected<void, InputError> seek(std::uintmax_t offset);
 

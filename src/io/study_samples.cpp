@@ -106,17 +106,15 @@ tl::expected<Distribution, InputError> internal::read_study_samples(const std::s
 tl::expected<StudyFile, InputError> read_study_file(const std::string& path, const Device& device) {
   auto file = InputFile::open(path, "study file");
   if (!file) return tl::unexpected(std::move(file.error()));
-  std::string text(device_file_size_limit + 1, '\0');
-  const auto size = file->read(text);
-  if (!size) return tl::unexpected(size.error());
-  if (*size > device_file_size_limit) {
+  const auto text = file->read_up_to(device_file_size_limit + 1);
+  if (!text) return tl::unexpected(text.error());
+  if (text->size() > device_file_size_limit) {
     return tl::unexpected(InputError{file->source(), 0, 0, "",
                                      fmt::format("is larger than {} MiB", device_file_size_limit >> 20),
                                      "must be a study file, which takes a few hundred bytes"});
   }
-  text.resize(*size);
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  return parse_study(text, file->source(), device, folder.empty() ? "." : folder);
+  return parse_study(*text, file->source(), device, folder.empty() ? "." : folder);
 }
 
 }  // namespace zwidth

@@ -12,15 +12,12 @@ using namespace internal;
 namespace {
 
 tl::expected<std::string, InputError> read_all(InputFile& file) {
-  std::string text(device_file_size_limit + 1, '\0');  // one more, to tell a file at the limit from a longer one
-  const auto size = file.read(text);
-  if (!size) return tl::unexpected(size.error());
-  if (*size > device_file_size_limit) {
+  auto text = file.read_up_to(device_file_size_limit + 1);  // one more tells a file at the limit from a longer one
+  if (text && text->size() > device_file_size_limit) {
     return tl::unexpected(InputError{file.source(), 0, 0, "",
                                      fmt::format("is larger than {} MiB", device_file_size_limit >> 20),
                                      "must be a device file, which takes a few hundred bytes"});
   }
-  text.resize(*size);
   return text;
 }
 

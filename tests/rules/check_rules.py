@@ -40,7 +40,7 @@ APPS = {
     "study": ["results", "report"],
     "rig": ["results"],
     "cli": ["results", "report", "export", "reproduce", "server", "study", "rig"],
-    "on_demand": ["study"],
+    "on_demand": ["study", "server"],
 }
 MOST_LINES = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')

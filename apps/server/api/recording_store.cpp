@@ -1,23 +1,11 @@
 #include "server/api/recording_store.hpp"
 
-#include <fmt/format.h>
-#include <openssl/sha.h>
-
 #include <algorithm>
 #include <iterator>
 
+#include "server/api/digest.hpp"
+
 namespace zwidth::server {
-namespace {
-
-std::string sha256(std::string_view bytes) {
-  unsigned char digest[SHA256_DIGEST_LENGTH];
-  ::SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest);
-  std::string text;
-  for (const unsigned char each : digest) text += fmt::format("{:02x}", each);
-  return text;
-}
-
-}  // namespace
 
 RecordingStore::Stored RecordingStore::put(std::string_view bytes) {
   std::string id = sha256(bytes);

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openssl/crypto.h>
 #include <sys/random.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <system_error>
+
+#include "server/api/digest.hpp"
 
 namespace zwidth::server {
 namespace {
@@ -34,7 +35,6 @@ bool is_own_origin(const RequestHead& head) {
          (head.origins.size() == 1 && head.origins.front() == fmt::format("http://{}", head.hosts.front()));
 }
 
-/// Compared in a time that does not tell how much of it is right.
 bool has_token(const RequestHead& head, const std::string& token) {
   constexpr std::string_view scheme = "Bearer ";
   if (head.authorizations.size() != 1) return false;
@@ -42,7 +42,7 @@ bool has_token(const RequestHead& head, const std::string& token) {
   if (given.size() != scheme.size() + token.size() || !same_letters(given.substr(0, scheme.size()), scheme))
     return false;
   given.remove_prefix(scheme.size());
-  return ::CRYPTO_memcmp(given.data(), token.data(), token.size()) == 0;
+  return equal_in_constant_time(given, token);
 }
 
 std::optional<Refusal> refusal_of_body(const RequestHead& head, const Route& route) {
