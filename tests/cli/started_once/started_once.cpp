@@ -1,5 +1,5 @@
-// Preloaded into the program, it runs the many commands of a test for the start of one: loading its 68 libraries takes
-// longer than most answers. The program is forked where it has been loaded and is about to enter main().
+// Preloaded into the program, it runs the many commands of a test for the start of one, which takes longer than most
+// answers. The program is forked where it has been loaded and is about to enter main().
 //
 // Each line of standard input is a command: the files for its standard output and standard error, and its arguments,
 // with a blank between any two. Each exit status is printed on a line; 128 + N when signal N ended it.
