@@ -216,6 +216,16 @@ enum class ProblemCode : std::uint16_t {
   specification_missing,              ///< failures need a specification
   samples_out_of_range,               ///< a number of samples is out of its range
 
+  // device files
+
+  // recordings as text
+
+  // recordings in other files
+
+  // studies and responses in files
+
+  // models and designs
+
   // computations that do not come to their end
   outline_not_closed,              ///< the boundary of the region does not close
   boundary_not_followed,           ///< the boundary of the region turns too often

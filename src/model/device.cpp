@@ -305,6 +305,7 @@ std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
 Device::Device(DeviceParameters parameters) : parameters_(std::move(parameters)) {
   if (const auto problem = find_problem(parameters_)) {
     InputProblem told{{}, problem->what, problem->allowed, {}};
+    told.problem = problem->problem;
     told.place.key = problem->key;
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed),
                 {std::move(told)});

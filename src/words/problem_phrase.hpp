@@ -14,6 +14,17 @@ struct ProblemPhrase {
   const char* allowed;
 };
 
-[[nodiscard]] std::span<const ProblemPhrase> problem_phrases();
+// Of device files.
+
+// Of recordings as text.
+
+// Of recordings in other files.
+
+// Of studies and responses in files.
+
+// Of models and designs.
+
+// All of them, as lists by what is asked for.
+[[nodiscard]] std::span<const std::span<const ProblemPhrase>> problem_phrases();
 
 }  // namespace zwidth::internal

@@ -12,6 +12,7 @@
 #include "counted.hpp"
 #include "words/problem_phrase.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/input_problem.hpp"
 
 namespace zwidth {
 namespace {
@@ -27,10 +28,15 @@ std::string line(Problem problem) {
 
 TEST(ProblemText, EveryCodeHasWordsOfItsOwnName) {
   std::set<std::string_view> names;
-  for (const internal::ProblemPhrase& each : internal::problem_phrases()) {
-    EXPECT_EQ(name_of(each.code), each.name);
-    names.insert(each.name);
+  std::size_t count = 0;
+  for (const std::span<const internal::ProblemPhrase> list : internal::problem_phrases()) {
+    for (const internal::ProblemPhrase& each : list) {
+      EXPECT_EQ(name_of(each.code), each.name);
+      names.insert(each.name);
+      ++count;
+    }
   }
+  EXPECT_EQ(names.size(), count) << "a name stands twice";
   EXPECT_EQ(names.size(), static_cast<std::size_t>(ProblemCode::poles_not_told_apart) + 1) << "the last code";
 }
 
@@ -100,6 +106,26 @@ TEST(ProblemText, HasVariantsOfWholeSentences) {
   EXPECT_EQ(line(slow),
             "20 bytes per cycle at 115200 Bd leave 460 Hz at most, the loop runs at 1000 Hz; set the drive and "
             "driver.baud to 460800 or more, or loop.sampling_period to 0.0022 s or more");
+}
+
+TEST(ProblemText, NamesOptionsWhereThePhraseDoesAndNotWhereAUserDoes) {
+  InputProblem told = input_problem({.file = "study.toml", .line = 3, .column = 1},
+                                    {.code = ProblemCode::reaches_no_device,
+                                     .evidence = {{"value", -1.0}},
+                                     .subjects = {{"name", "`most`"},
+                                                  {"key", "loop.delay"},
+                                                  {"what", "is -1"},
+                                                  {"allowed", "must be >= 0"},
+                                                  {"end", "least"}}},
+                                    "0");
+  EXPECT_EQ(told.place.line, 3U);
+  ASSERT_TRUE(told.problem);
+  EXPECT_EQ(told.problem->code, ProblemCode::reaches_no_device);
+  EXPECT_EQ(told.suggestion, "0");
+  EXPECT_EQ(told.what, "`most`: reaches -1, which is no device: loop.delay is -1");
+  EXPECT_TRUE(told.options_of_what.empty());
+  ASSERT_EQ(told.options_of_allowed.size(), 1U);
+  EXPECT_EQ(told.options_of_allowed[0].name, "least");
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 namespace zwidth::internal {
 
-std::span<const ProblemPhrase> problem_phrases() {
+namespace {
+
+std::span<const ProblemPhrase> option_problem_phrases() {
   using enum ProblemCode;
   static constexpr const char* is = "is {value:exact}{?unit| {unit}}";
   static constexpr std::array phrases{
@@ -377,6 +379,20 @@ std::span<const ProblemPhrase> problem_phrases() {
       ProblemPhrase{poles_not_told_apart, "poles_not_told_apart",
                     "poles that nearly coincide could not be told from their neighbours", ""}};
   return phrases;
+}
+
+}  // namespace
+
+std::span<const std::span<const ProblemPhrase>> problem_phrases() {
+  static const std::array all{
+      option_problem_phrases(),
+      // device files
+      // recordings as text
+      // recordings in other files
+      // studies and responses in files
+      // models and designs
+  };
+  return all;
 }
 
 }  // namespace zwidth::internal

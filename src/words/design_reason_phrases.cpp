@@ -4,7 +4,7 @@
 
 namespace zwidth::internal {
 
-std::span<const Phrase> reason_phrases() {
+std::span<const Phrase> design_reason_phrases() {
   using enum FindingCode;
   using enum Finding::Severity;
   static constexpr std::array phrases{
