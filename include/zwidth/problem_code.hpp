@@ -225,6 +225,33 @@ enum class ProblemCode : std::uint16_t {
   // studies and responses in files
 
   // models and designs
+  no_finite_number,               ///< a number is not above 0, below 0 or not finite
+  not_one_of,                     ///< a number or a name is none of those that there are
+  control_character,              ///< a text has a control character
+  too_many_bytes,                 ///< a text is too long
+  stands_too_often,               ///< more bodies, links or filters than there may be
+  name_empty,                     ///< a body without a name
+  names_two_bodies,               ///< two bodies of one name
+  no_body_number,                 ///< no body of the device has this number
+  tied_to_itself,                 ///< a link from a body to itself
+  link_of_nothing,                ///< a link without stiffness and damping
+  body_not_connected,             ///< no links lead from a body to the others
+  number_of_coefficients,         ///< too few or too many coefficients
+  coefficient_out_of_range,       ///< a coefficient is neither 0 nor in its range
+  all_coefficients_zero,          ///< a numerator is 0
+  begins_with_zero,               ///< a denominator's leading coefficient is 0
+  degree_not_lower,               ///< a numerator's degree is not below the denominator's
+  longer_than_denominator,        ///< a numerator with leading zeros is longer than the denominator
+  beside_transfer_function,       ///< bodies, links, a body of the loop or a user beside a transfer function
+  no_body_at_all,                 ///< a device without bodies and transfer function
+  no_such_body,                   ///< no body of the device is called that
+  delay_of_too_many_periods,      ///< a delay of more sampling periods than are kept
+  travel_per_turn_missing,        ///< a linear device's drive without its travel per turn
+  no_letter,                      ///< a drive's command is not one letter
+  filter_not_stable,              ///< a filter's pole does not die out
+  static_gain_not_positive,       ///< a filter's static gain is not above 0
+  frequency_of_digital_filter,    ///< a digital filter has no frequency of its own
+  filter_frequency_out_of_range,  ///< a filter's frequency is not below Nyquist
 
   // computations that do not come to their end
   outline_not_closed,              ///< the boundary of the region does not close

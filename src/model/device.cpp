@@ -94,11 +94,10 @@ class Checks {
     const auto given = static_cast<double>(value);
     const bool is_sign = key.type == KeyType::sign;
     if (is_sign ? std::abs(given) == 1.0 : !key.range || key.range->contains(given)) return;
-    refuse(fmt::format("{}.{}", path, key.name),
-           is_sign ? Problem{.code = ProblemCode::not_one_of,
-                             .evidence = {{"value", given}},
-                             .subjects = {{"choices", "1 or -1"}}}
-                   : out_of_range(*key.range, key.type, given));
+    refuse(fmt::format("{}.{}", path, key.name), is_sign ? Problem{.code = ProblemCode::not_one_of,
+                                                                   .evidence = {{"value", given}},
+                                                                   .subjects = {{"choices", "1 or -1"}}}
+                                                         : out_of_range(*key.range, key.type, given));
   }
 
   std::vector<DeviceProblem> problems_;
@@ -137,8 +136,8 @@ void check_links(const DeviceParameters& parameters, Checks& checks) {
       problem.evidence.push_back({"of_two", 1.0});
       checks.refuse(key + ".between", std::move(problem));
     } else if (link.first == link.second) {
-      checks.refuse(key + ".between", {.code = ProblemCode::tied_to_itself,
-                                       .subjects = {{"name", parameters.bodies[link.first].name}}});
+      checks.refuse(key + ".between",
+                    {.code = ProblemCode::tied_to_itself, .subjects = {{"name", parameters.bodies[link.first].name}}});
     }
     checks.numbers(DeviceTable::link, key, link);
     if (link.stiffness == 0.0 && link.damping == 0.0) {
@@ -179,9 +178,8 @@ void check_coefficients(const std::string& key, const std::vector<double>& coeff
     const double magnitude = std::abs(coefficient);
     if (magnitude == 0.0 || (magnitude >= smallest_coefficient && magnitude <= largest_coefficient)) continue;
     checks.refuse(
-        key,
-        {.code = ProblemCode::coefficient_out_of_range,
-         .evidence = {{"value", coefficient}, {"least", smallest_coefficient}, {"most", largest_coefficient}}});
+        key, {.code = ProblemCode::coefficient_out_of_range,
+              .evidence = {{"value", coefficient}, {"least", smallest_coefficient}, {"most", largest_coefficient}}});
   }
 }
 

@@ -47,15 +47,14 @@ Found check_coefficients(const WallFilter& filter) {
   const std::vector<double>& numerator = filter.numerator;
   const std::vector<double>& denominator = filter.denominator;
   if (denominator.size() < 2 || denominator.size() > 3) {
-    return option_problem("denominator",
-                          {.code = ProblemCode::number_of_coefficients,
-                           .evidence = {counted("count", denominator.size()), counted("least", 2), counted("most", 3)}});
+    return option_problem(
+        "denominator", {.code = ProblemCode::number_of_coefficients,
+                        .evidence = {counted("count", denominator.size()), counted("least", 2), counted("most", 3)}});
   }
   if (numerator.empty() || numerator.size() > denominator.size()) {
     return option_problem(
-        "numerator",
-        {.code = ProblemCode::number_of_coefficients,
-         .evidence = {counted("count", numerator.size()), counted("denominator", denominator.size())}});
+        "numerator", {.code = ProblemCode::number_of_coefficients,
+                      .evidence = {counted("count", numerator.size()), counted("denominator", denominator.size())}});
   }
   for (const std::vector<double>* each : {&numerator, &denominator}) {
     for (const double c : *each) {
@@ -70,8 +69,8 @@ Found check_coefficients(const WallFilter& filter) {
     return option_problem("denominator", {.code = ProblemCode::begins_with_zero});
   }
   if (digital ? !is_stable_in_z(denominator) : !is_stable_in_s(denominator)) {
-    return option_problem("denominator", {.code = ProblemCode::filter_not_stable,
-                                          .subjects = {{"variable", digital ? "z" : "s"}}});
+    return option_problem("denominator",
+                          {.code = ProblemCode::filter_not_stable, .subjects = {{"variable", digital ? "z" : "s"}}});
   }
   const double gain = digital ? sum(numerator) / sum(denominator) : numerator.back() / denominator.back();
   if (!(gain > 0.0)) {

@@ -23,6 +23,7 @@ struct ProblemPhrase {
 // Of studies and responses in files.
 
 // Of models and designs.
+[[nodiscard]] std::span<const ProblemPhrase> model_problem_phrases();
 
 // All of them, as lists by what is asked for.
 [[nodiscard]] std::span<const std::span<const ProblemPhrase>> problem_phrases();

@@ -54,7 +54,8 @@ std::span<const ProblemPhrase> option_problem_phrases() {
                     "at most {most:exact} s{?periods|, {periods:exact} sampling periods}"},
       ProblemPhrase{not_below_period, "not_below_period", "is {value:exact} s",
                     "below the sampling period, {period:exact} s"},
-      ProblemPhrase{not_between, "not_between", is, "must be from {least:exact} to {most:exact}"},
+      ProblemPhrase{not_between, "not_between", is,
+                    "must be {?whole|a whole number }{?or_zero|0 or }from {least:exact} to {most:exact}"},
       ProblemPhrase{not_above_lower_end, "not_above_lower_end", is, "must be above the lower end, {least:exact}"},
       ProblemPhrase{no_part_left, "no_part_left", is, "must leave a part of the distribution"},
       ProblemPhrase{range_not_possible, "range_not_possible", "is from {least:exact} to {greatest:exact}",
@@ -391,6 +392,7 @@ std::span<const std::span<const ProblemPhrase>> problem_phrases() {
       // recordings in other files
       // studies and responses in files
       // models and designs
+      model_problem_phrases(),
   };
   return all;
 }
