@@ -9,7 +9,7 @@ std::span<const Phrase> model_phrases() {
   using enum Finding::Severity;
   static constexpr std::array phrases{
       Phrase{stated, "stated", refusal, "{reason}"},
-      Phrase{left_out, "left_out", doubt, "{what} is left out: {reason}"},
+      Phrase{left_out, "left_out", doubt, "the family of users is left out: {reason}"},
       Phrase{nobody_holding, "nobody_holding", refusal, "with nobody holding: {reason}"},
       Phrase{not_converged, "not_converged", refusal, "{reason}"},
       Phrase{untrusted_without_reason, "untrusted_without_reason", refusal,
