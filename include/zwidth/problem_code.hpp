@@ -217,12 +217,45 @@ enum class ProblemCode : std::uint16_t {
   samples_out_of_range,               ///< a number of samples is out of its range
 
   // device files
+  of_other_type,             ///< a value is a text, a number or a table where another is needed
+  is_missing,                ///< a key is missing
+  unknown_key,               ///< a table has no such key
+  key_of_other_filters,      ///< a filter of this type has no such key
+  no_such_name,              ///< no body, link or filter is called that
+  given_beside,              ///< two keys of one quantity
+  damping_of_first_order,    ///< a low-pass of order 1 has no damping ratio
+  inertia_of_linear_motion,  ///< an inertia of linear motion
+  not_two_bodies,            ///< a link is between two bodies
+  number_beyond_range,       ///< a number is neither 0 nor from 1e-30 to 1e30
+  number_without_unit,       ///< a number in quotes without a unit
+  decimal_comma,             ///< a comma for the decimal mark
+  unknown_unit,              ///< a unit that is not known
+  unit_of_other_measure,     ///< a unit of another measure
+  not_toml,                  ///< a text is not TOML
+  too_many_dots,             ///< a line nests too deep
+  text_without_quotes,       ///< a text without quotes
+  not_an_assignment,         ///< an override without a key or a value
+  not_a_toml_value,          ///< an override's value is not TOML
+  in_several_tables,         ///< an override does not tell which of several tables
+  no_table_to_override,      ///< an override of a body, link or filter that there is not
+  value_and_no_table,        ///< an override below a key that is no table
+  one_variant,               ///< one value to compare
+  variant_twice,             ///< a value to compare stands twice
+  cannot_be_read,            ///< the system refuses to read a file
+  not_a_file,                ///< a directory or a device, or no name
+  too_many_bytes_read,       ///< a file or a line is too long
 
   // recordings as text
 
   // recordings in other files
 
-  // studies and responses in files
+  // studies in files
+  not_told_by_uncertainty,   ///< the device's uncertainty does not have this number
+  no_relative_width,         ///< a relative deviation or tolerance leaves no width
+  weights_all_zero,          ///< every weight is 0
+  no_file_beside_study,      ///< a study that is no file names one
+  not_a_parameter_of_study,  ///< a correlation is of what does not vary
+  no_samples_in_file,        ///< a file has no samples, or a line that is none
 
   // models and designs
   no_finite_number,               ///< a number is not above 0, below 0 or not finite
