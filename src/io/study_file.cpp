@@ -190,7 +190,7 @@ class StudyReader {
         if (reader.has("lower") || reader.has("upper")) {
           reader.refuse("relative_tolerance", {.code = ProblemCode::given_beside,
                                                .evidence = {{"both", 1.0}},
-                                               .subjects = {{"other", "lower or upper"}}});
+                                               .subjects = {{"other", reader.has("lower") ? "lower" : "upper"}}});
         }
         const double half = std::abs(own.value_or(1.0)) * *tolerance;
         if (!(half > 0.0)) {

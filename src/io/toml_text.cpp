@@ -37,8 +37,8 @@ std::string_view without_macro(std::string_view description) {
 /// toml++ has no code for it, and says of a number too large for a double only that it is no value.
 bool is_number_out_of_range(std::string_view description) {
   return (description.find("floating-point") != std::string_view::npos &&
-          description.find("be interpreted as") != std::string_view::npos) ||
-         description.find("not representable in") != std::string_view::npos;
+          description.find("interpreted as") != std::string_view::npos) ||
+         description.find("not representable") != std::string_view::npos;
 }
 
 std::optional<InputError> problem_of_text(std::string_view text, std::string_view source, std::string_view of) {

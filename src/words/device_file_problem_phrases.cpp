@@ -54,7 +54,7 @@ std::span<const ProblemPhrase> device_file_problem_phrases() {
                     "{?meant|did you mean \"{meant}\"?}{?bodies|the bodies are {bodies}}"
                     "{?last|must be {what}.0 to {what}.{last:n}}"},
       ProblemPhrase{given_beside, "given_beside", "is given beside {other}",
-                    "must be {?both|either it or both of them}{!both|one of the two}"},
+                    "must be {?both|either it, or lower and upper}{!both|one of the two}"},
       ProblemPhrase{damping_of_first_order, "damping_of_first_order", "stands beside order 1, which has none",
                     "must be left out, or set order = 2"},
       ProblemPhrase{inertia_of_linear_motion, "inertia_of_linear_motion", "is for rotary motion",
