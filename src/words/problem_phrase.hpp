@@ -17,6 +17,7 @@ struct ProblemPhrase {
 // Of device files.
 
 // Of recordings as text.
+[[nodiscard]] std::span<const ProblemPhrase> recording_problem_phrases();
 
 // Of recordings in other files.
 

@@ -388,6 +388,7 @@ std::span<const std::span<const ProblemPhrase>> problem_phrases() {
       option_problem_phrases(),
       // device files
       // recordings as text
+      recording_problem_phrases(),
       // recordings in other files
       // studies and responses in files
       // models and designs
