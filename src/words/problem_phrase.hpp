@@ -19,6 +19,7 @@ struct ProblemPhrase {
 // Of recordings as text.
 
 // Of recordings in other files.
+[[nodiscard]] std::span<const ProblemPhrase> mat_uff_problem_phrases();
 
 // Of studies and responses in files.
 

@@ -388,7 +388,7 @@ std::span<const std::span<const ProblemPhrase>> problem_phrases() {
       option_problem_phrases(),
       // device files
       // recordings as text
-      // recordings in other files
+      mat_uff_problem_phrases(),
       // studies and responses in files
       // models and designs
   };
