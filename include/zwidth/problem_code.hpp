@@ -230,7 +230,6 @@ enum class ProblemCode : std::uint16_t {
   no_such_column,             ///< no column is called that
   column_name_not_unique,     ///< several columns are called that
   too_few_samples,            ///< a column has too few samples
-  sample_counts_differ,       ///< columns have different numbers of samples
   wrong_number_of_cells,      ///< a line has too few or too many cells
   line_without_header,        ///< a line comes ahead of what names its columns
   line_among_rows,            ///< a line of text stands among the rows
@@ -258,6 +257,31 @@ enum class ProblemCode : std::uint16_t {
   scale_not_possible,         ///< a scale is 0 or not finite
 
   // recordings in other files
+  damaged_file,            ///< a MAT file is damaged from its start
+  unknown_version,         ///< a MAT file is of a version that is not read
+  changed_while_read,      ///< a file changed between two reads
+  data_end_inside,         ///< the bytes end inside a part
+  bytes_missing,           ///< fewer bytes are left than are announced
+  closing_line_missing,    ///< a line -1 does not follow binary data
+  unpacks_to_more,         ///< more bytes come out than may
+  does_not_unpack,         ///< compressed bytes are damaged
+  zlib_cannot_start,       ///< zlib lacks memory, or is of another version
+  wrong_element,           ///< an element's type or bytes do not fit its part
+  wrong_field,             ///< a number of a header is out of its range
+  size_disagrees,          ///< numbers are more or fewer than their size says
+  nested_too_deep,         ///< structs stand in structs too deep
+  has_too_many,            ///< more values, columns or fields than may be
+  no_table,                ///< signals are no columns of a matrix
+  wrong_kind,              ///< what is there is of another kind than is wanted
+  lies_elsewhere,          ///< a link, or values in another file
+  not_read_by_hdf5,        ///< HDF5 refuses a part
+  holds_none,              ///< a file holds nothing of what is wanted
+  not_one_record,          ///< several records fit
+  samples_of_two_lengths,  ///< signals of one recording have different lengths
+  axes_differ,             ///< records have other times or frequencies
+  no_times_of_length,      ///< no column of times has as many samples
+  text_not_readable,       ///< a text of a universal file is not what must stand there
+  file_without_columns,    ///< a universal file has records, no columns
 
   // studies and responses in files
 

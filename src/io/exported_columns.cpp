@@ -53,8 +53,8 @@ std::optional<InputError> different_lengths(const std::vector<TimedColumn>& colu
     if (each.values.values.size() == first.values.values.size()) continue;
     return InputError{
         {.file = each.values.source, .key = shortened(each.values.name)},
-        {.code = ProblemCode::sample_counts_differ,
-         .evidence = {counted("samples", each.values.values.size()), counted("others", first.values.values.size())},
+        {.code = ProblemCode::samples_of_two_lengths,
+         .evidence = {counted("samples", each.values.values.size()), counted("expected", first.values.values.size())},
          .subjects = {{"other", shortened(first.values.name)}}}};
   }
   return std::nullopt;

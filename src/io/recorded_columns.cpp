@@ -102,8 +102,8 @@ std::optional<InputError> find_problem(const RecordedColumns& recorded) {
     const RecordedColumn& other = each.time_column ? recorded.columns[*each.time_column] : *first;
     if (each.samples.size() == other.samples.size()) continue;
     return refused(recorded, shortened(each.name),
-                   {.code = ProblemCode::sample_counts_differ,
-                    .evidence = {counted("samples", each.samples.size()), counted("others", other.samples.size())},
+                   {.code = ProblemCode::samples_of_two_lengths,
+                    .evidence = {counted("samples", each.samples.size()), counted("expected", other.samples.size())},
                     .subjects = {{"other", shortened(other.name)}}});
   }
   return std::nullopt;

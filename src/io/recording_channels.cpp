@@ -127,8 +127,6 @@ tl::expected<void, InputError> restore(const TimeAxis& axis, Recording& recordin
 
 }  // namespace
 
-InputError no_time_axis(const std::string& source) { return {{.file = source}, {.code = ProblemCode::no_times}}; }
-
 void check_recording_options(const RecordingOptions& options) {
   if (options.columns.empty()) {
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_columns, .evidence = {counted("asked", 0)}});
@@ -142,7 +140,9 @@ tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> column
   recording.source = columns.front().source;
   if (options.rate) recording.sampling_period = period_of_rate(*options.rate);
   if (!options.rate && !times && period) recording.sampling_period = period_of_rate(1.0 / *period);
-  if (!options.rate && !times && !period) return tl::unexpected(no_time_axis(recording.source));
+  if (!options.rate && !times && !period) {
+    return tl::unexpected(InputError{{.file = recording.source}, {.code = ProblemCode::no_times}});
+  }
   std::vector<Remark> remarks;
   auto channels = make_channels(std::move(columns), options, remarks);
   if (!channels) return tl::unexpected(std::move(channels.error()));

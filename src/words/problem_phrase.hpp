@@ -20,6 +20,7 @@ struct ProblemPhrase {
 [[nodiscard]] std::span<const ProblemPhrase> recording_problem_phrases();
 
 // Of recordings in other files.
+[[nodiscard]] std::span<const ProblemPhrase> mat_uff_problem_phrases();
 
 // Of studies and responses in files.
 

@@ -390,6 +390,7 @@ std::span<const std::span<const ProblemPhrase>> problem_phrases() {
       // recordings as text
       recording_problem_phrases(),
       // recordings in other files
+      mat_uff_problem_phrases(),
       // studies and responses in files
       // models and designs
   };

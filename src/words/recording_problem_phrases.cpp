@@ -61,8 +61,6 @@ std::span<const ProblemPhrase> recording_problem_phrases() {
       ProblemPhrase{too_few_samples, "too_few_samples",
                     "has {samples:n} {?lines|usable of {lines:n} lines of a response}{!lines|sample{samples:s}}",
                     "must have two at least"},
-      ProblemPhrase{sample_counts_differ, "sample_counts_differ", "has {samples:n} samples, {other} has {others:n}",
-                    "signals of one recording must have equally many"},
 
       // Lines and cells
       ProblemPhrase{wrong_number_of_cells, "wrong_number_of_cells",
