@@ -18,8 +18,10 @@ struct ProblemPhrase {
 [[nodiscard]] std::span<const ProblemPhrase> device_file_problem_phrases();
 
 // Of recordings as text.
+[[nodiscard]] std::span<const ProblemPhrase> recording_problem_phrases();
 
 // Of recordings in other files.
+[[nodiscard]] std::span<const ProblemPhrase> mat_uff_problem_phrases();
 
 // Of studies in files.
 [[nodiscard]] std::span<const ProblemPhrase> study_file_problem_phrases();
