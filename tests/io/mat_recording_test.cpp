@@ -148,7 +148,7 @@ TEST_P(MatRecording, SkipsWhatIsNoSignalAndSaysSo) {
 TEST_P(MatRecording, NamesTheRateButDoesNotUseItUnasked) {
   write_mat(MatWriter::column("fs", {2500.0}), MatWriter::column("force", {5.0, 6.0}),
             MatWriter::column("gain", {2.0}));
-  EXPECT_EQ(refusal(columns_named({"force"})), "no_times_of_length samples=2 rates=fs = 2500");
+  EXPECT_EQ(refusal(columns_named({"force"})), "no_times samples=2 rates=fs = 2500");
   EXPECT_EQ(refusal(at_1_khz({"fs"})), "fs: wrong_kind kind=a single number wanted=signal");
 }
 

@@ -104,7 +104,7 @@ TEST_F(UffRecording, FindsRecordsByIdPointEntityAndNumber) {
   const auto both = read(file, columns_named({"2", "4-X"}));
   ASSERT_TRUE(both.has_value()) << both.error().str();
   EXPECT_EQ(both->channels[1].samples, (Samples{1.0, 2.0}));
-  EXPECT_EQ(refusal(file, columns_named({"Run 7"})), "Run 7: not_one_record records=2 named=1 choices=1, 2");
+  EXPECT_EQ(refusal(file, columns_named({"Run 7"})), "Run 7: column_name_not_unique records=2 numbers=1, 2");
   const auto unknown = read(file, columns_named({"HANDEL"}));
   ASSERT_FALSE(unknown.has_value());
   EXPECT_EQ(unknown.error().place.key, "HANDEL");

@@ -48,7 +48,6 @@ TEST(MatUffProblemText, SaysWhatIsThereAndWhatIsWanted) {
   };
   EXPECT_EQ(kind("a cell array", "array"), "is a cell array; must be a real numeric array");
   EXPECT_EQ(kind("a matrix", "column"), "is a matrix; must be one of them: a.1 to a.3");
-  EXPECT_EQ(kind("a pipe", "file"), "is a pipe; must be a file: MAT is read by parts");
   EXPECT_EQ(kind("a coherence", "times"), "is a coherence; must be a real time record (function type 1)");
   EXPECT_EQ(
       told_of_file(
@@ -85,9 +84,8 @@ TEST(MatUffProblemText, SaysWhatIsTooMuch) {
 }
 
 TEST(MatUffProblemText, NamesOptionsAndTheRatesOfTheFile) {
-  const InputProblem problem = input_problem({}, {.code = ProblemCode::no_times_of_length,
-                                                  .evidence = {counted("samples", 2)},
-                                                  .subjects = {{"rates", "fs = 2500"}}});
+  const InputProblem problem = input_problem(
+      {}, {.code = ProblemCode::no_times, .evidence = {counted("samples", 2)}, .subjects = {{"rates", "fs = 2500"}}});
   EXPECT_EQ(problem.what, "has no column of 2 samples whose name says time");
   ASSERT_EQ(problem.options_of_allowed.size(), 2U);
   EXPECT_EQ(problem.options_of_allowed[0].name, "rate");
