@@ -217,6 +217,33 @@ enum class ProblemCode : std::uint16_t {
   samples_out_of_range,               ///< a number of samples is out of its range
 
   // device files
+  of_other_type,             ///< a value is a text, a number or a table where another is needed
+  is_missing,                ///< a key is missing
+  unknown_key,               ///< a table has no such key
+  key_of_other_filters,      ///< a filter of this type has no such key
+  no_such_name,              ///< no body, link or filter is called that
+  given_beside,              ///< two keys of one quantity
+  damping_of_first_order,    ///< a low-pass of order 1 has no damping ratio
+  inertia_of_linear_motion,  ///< an inertia of linear motion
+  not_two_bodies,            ///< a link is between two bodies
+  number_beyond_range,       ///< a number is neither 0 nor from 1e-30 to 1e30
+  number_without_unit,       ///< a number in quotes without a unit
+  decimal_comma,             ///< a comma for the decimal mark
+  unknown_unit,              ///< a unit that is not known
+  unit_of_other_measure,     ///< a unit of another measure
+  not_toml,                  ///< a text is not TOML
+  too_many_dots,             ///< a line nests too deep
+  text_without_quotes,       ///< a text without quotes
+  not_an_assignment,         ///< an override without a key or a value
+  not_a_toml_value,          ///< an override's value is not TOML
+  in_several_tables,         ///< an override does not tell which of several tables
+  no_table_to_override,      ///< an override of a body, link or filter that there is not
+  value_and_no_table,        ///< an override below a key that is no table
+  one_variant,               ///< one value to compare
+  variant_twice,             ///< a value to compare stands twice
+  cannot_be_read,            ///< the system refuses to read a file
+  not_a_file,                ///< a directory or a device, or no name
+  too_many_bytes_read,       ///< a file or a line is too long
 
   // recordings as text
   no_text_table,              ///< a file of another kind than a text table
@@ -276,16 +303,48 @@ enum class ProblemCode : std::uint16_t {
   lies_elsewhere,          ///< a link, or values in another file
   not_read_by_hdf5,        ///< HDF5 refuses a part
   holds_none,              ///< a file holds nothing of what is wanted
-  not_one_record,          ///< several records fit
+  not_one_record,          ///< several records are a response
   samples_of_two_lengths,  ///< signals of one recording have different lengths
   axes_differ,             ///< records have other times or frequencies
-  no_times_of_length,      ///< no column of times has as many samples
   text_not_readable,       ///< a text of a universal file is not what must stand there
   file_without_columns,    ///< a universal file has records, no columns
 
-  // studies and responses in files
+  // studies in files
+  not_told_by_uncertainty,   ///< the device's uncertainty does not have this number
+  no_relative_width,         ///< a relative deviation or tolerance leaves no width
+  weights_all_zero,          ///< every weight is 0
+  no_file_beside_study,      ///< a study that is no file names one
+  not_a_parameter_of_study,  ///< a correlation is of what does not vary
+  no_samples_in_file,        ///< a file has no samples, or a line that is none
 
   // models and designs
+  no_finite_number,               ///< a number is not above 0, below 0 or not finite
+  not_one_of,                     ///< a number or a name is none of those that there are
+  control_character,              ///< a text has a control character
+  too_many_bytes,                 ///< a text is too long
+  stands_too_often,               ///< more bodies, links or filters than there may be
+  name_empty,                     ///< a body without a name
+  names_two_bodies,               ///< two bodies of one name
+  no_body_number,                 ///< no body of the device has this number
+  tied_to_itself,                 ///< a link from a body to itself
+  link_of_nothing,                ///< a link without stiffness and damping
+  body_not_connected,             ///< no links lead from a body to the others
+  number_of_coefficients,         ///< too few or too many coefficients
+  coefficient_out_of_range,       ///< a coefficient is neither 0 nor in its range
+  all_coefficients_zero,          ///< a numerator is 0
+  begins_with_zero,               ///< a denominator's leading coefficient is 0
+  degree_not_lower,               ///< a numerator's degree is not below the denominator's
+  longer_than_denominator,        ///< a numerator with leading zeros is longer than the denominator
+  beside_transfer_function,       ///< bodies, links, a body of the loop or a user beside a transfer function
+  no_body_at_all,                 ///< a device without bodies and transfer function
+  no_such_body,                   ///< no body of the device is called that
+  delay_of_too_many_periods,      ///< a delay of more sampling periods than are kept
+  travel_per_turn_missing,        ///< a linear device's drive without its travel per turn
+  no_letter,                      ///< a drive's command is not one letter
+  filter_not_stable,              ///< a filter's pole does not die out
+  static_gain_not_positive,       ///< a filter's static gain is not above 0
+  frequency_of_digital_filter,    ///< a digital filter has no frequency of its own
+  filter_frequency_out_of_range,  ///< a filter's frequency is not below Nyquist
 
   // computations that do not come to their end
   outline_not_closed,              ///< the boundary of the region does not close

@@ -54,7 +54,8 @@ std::span<const ProblemPhrase> option_problem_phrases() {
                     "at most {most:exact} s{?periods|, {periods:exact} sampling periods}"},
       ProblemPhrase{not_below_period, "not_below_period", "is {value:exact} s",
                     "below the sampling period, {period:exact} s"},
-      ProblemPhrase{not_between, "not_between", is, "must be from {least:exact} to {most:exact}"},
+      ProblemPhrase{not_between, "not_between", is,
+                    "must be {?whole|a whole number }{?or_zero|0 or }from {least:exact} to {most:exact}"},
       ProblemPhrase{not_above_lower_end, "not_above_lower_end", is, "must be above the lower end, {least:exact}"},
       ProblemPhrase{no_part_left, "no_part_left", is, "must leave a part of the distribution"},
       ProblemPhrase{range_not_possible, "range_not_possible", "is from {least:exact} to {greatest:exact}",
@@ -172,7 +173,8 @@ std::span<const ProblemPhrase> option_problem_phrases() {
       ProblemPhrase{no_specification, "no_specification", "is given without a specification",
                     "failures need [specification]"},
       ProblemPhrase{no_number_of_device, "no_number_of_device", "{?quoted|\"{name}\" }is no number of the device",
-                    "{?quoted|must be one of {numbers}}{!quoted|the numbers of this device are {numbers}}"},
+                    "{?meant|did you mean \"{meant}\"?}"
+                    "{!meant|{?quoted|must be one of {numbers}}{!quoted|the numbers of this device are {numbers}}}"},
       ProblemPhrase{not_of_the_limit, "not_of_the_limit", "does not change the critical stiffness",
                     "sweep a number that does"},
       ProblemPhrase{range_not_finite, "range_not_finite", "runs from {first:exact} to {last:exact}",
@@ -385,14 +387,8 @@ std::span<const ProblemPhrase> option_problem_phrases() {
 
 std::span<const std::span<const ProblemPhrase>> problem_phrases() {
   static const std::array all{
-      option_problem_phrases(),
-      // device files
-      // recordings as text
-      recording_problem_phrases(),
-      // recordings in other files
-      mat_uff_problem_phrases(),
-      // studies and responses in files
-      // models and designs
+      option_problem_phrases(),  device_file_problem_phrases(), recording_problem_phrases(),
+      mat_uff_problem_phrases(), study_file_problem_phrases(),  model_problem_phrases(),
   };
   return all;
 }

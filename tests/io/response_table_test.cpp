@@ -297,25 +297,26 @@ TEST_F(ResponseTable, ReadsTheCoherenceOfAUniversalFile) {
   EXPECT_NEAR(response->points[0].coherence, 0.9, 1e-6);
   EXPECT_NEAR(response->points[1].coherence, 0.8, 1e-6);
   coherence.step = 5.0;
-  EXPECT_NE(refusal(response_text + uff_text(coherence), options).find("has other frequencies than the response"),
-            std::string::npos);
+  const auto refused = read(response_text + uff_text(coherence), options);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(data_of(refused.error()), "17:1: gamma2: axes_differ axis=frequencies other=the response");
 }
 
 TEST_F(ResponseTable, AsksForTheRecordWhereAUniversalFileHasSeveral) {
   UffFunction second = uff_response(8, {1.0, 0.0, 0.5, 0.0});
   second.id_lines[0] = "G";
   const std::string file = uff_text(uff_response(8, {2.0, 0.0, 0.25, 0.0})) + uff_text(second);
-  EXPECT_EQ(refusal(file), " holds 2 frequency responses; name one of them: H [m], G [m]");
+  EXPECT_EQ(data_of(read(file, {}).error()), "not_one_record records=2 choices=H [m], G [m]");
   ResponseTableOptions options;
   options.real = "G";
   const auto response = read(file, options);
   ASSERT_TRUE(response.has_value()) << response.error().str();
   EXPECT_EQ(response->points[0].value, std::complex(1.0, 0.0));
-  EXPECT_EQ(refusal(file, in_columns("2", "3")),
-            " 2: a universal file has no columns; name the record as that of the real parts");
+  EXPECT_EQ(data_of(read(file, in_columns("2", "3")).error()), "2: file_without_columns");
   UffFunction time;
   time.numbers = {1.0, 2.0};
-  EXPECT_NE(refusal(uff_text(time)).find("holds no frequency response, only"), std::string::npos);
+  EXPECT_EQ(data_of(read(uff_text(time), {}).error()),
+            "holds_none wanted=frequency response others=1+Z [m] (time response)");
 }
 
 class RecordedResponse : public testing::Test {
@@ -349,8 +350,8 @@ TEST_F(RecordedResponse, OfAListOfComplexNumbers) {
 TEST_F(RecordedResponse, APowerSpectralDensityIsNone) {
   const auto response = read_response_table(folder + "sample_dataset58_psd.uff", {});
   ASSERT_FALSE(response.has_value());
-  EXPECT_EQ(response.error().what,
-            "holds no frequency response, only Power Spectral Density (PSD) (power spectral density)");
+  EXPECT_EQ(data_of(response.error()),
+            "holds_none wanted=frequency response others=Power Spectral Density (PSD) (power spectral density)");
 }
 
 }  // namespace

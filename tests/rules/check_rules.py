@@ -11,7 +11,7 @@ from pathlib import Path
 
 # Room: the rooms that its files may include, besides itself and the public headers that stand in no room.
 LIBRARY = {
-    "words": ["model", "stability"],  # the problems of a device, the names of who holds it
+    "words": ["model", "stability", "design"],  # the problems of a device, the names of who holds it and of what is advised
     "model": [],
     "signal": [],
     "sampling": ["model"],

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "counted.hpp"
 #include "words/problem_phrase.hpp"
@@ -106,6 +107,31 @@ TEST(ProblemText, HasVariantsOfWholeSentences) {
   EXPECT_EQ(line(slow),
             "20 bytes per cycle at 115200 Bd leave 460 Hz at most, the loop runs at 1000 Hz; set the drive and "
             "driver.baud to 460800 or more, or loop.sampling_period to 0.0022 s or more");
+}
+
+TEST(ProblemText, HasVariantsOfDevices) {
+  const auto coefficients = [](std::vector<Evidence> evidence) {
+    return line({.code = ProblemCode::number_of_coefficients, .evidence = std::move(evidence)});
+  };
+  EXPECT_EQ(coefficients({{"count", 0.0}, {"most", 101.0}}), "is empty; must be one or more coefficients");
+  EXPECT_EQ(coefficients({{"count", 102.0}, {"most", 101.0}}),
+            "has 102 coefficients; must be at most 101 coefficients");
+  EXPECT_EQ(coefficients({{"count", 4.0}, {"least", 2.0}, {"most", 3.0}}),
+            "has 4 coefficients; must have 2 to 3, by falling powers");
+  EXPECT_EQ(coefficients({{"count", 4.0}, {"denominator", 3.0}}),
+            "has 4 coefficients; must have at least 1 and no more than the denominator");
+  const auto beside = [](const char* part) {
+    return line({.code = ProblemCode::beside_transfer_function, .subjects = {{"part", part}}});
+  };
+  EXPECT_EQ(beside("loop"), "names a body beside [transfer_function]; a transfer function has no bodies: leave it out");
+  EXPECT_EQ(beside("operator"), "stands beside [transfer_function]; an operator needs bodies: leave it out");
+  EXPECT_EQ(line({.code = ProblemCode::not_between,
+                  .evidence = {{"value", 128.0}, {"least", 0.0}, {"most", 127.0}, {"whole", 1.0}}}),
+            "is 128; must be a whole number from 0 to 127");
+  EXPECT_EQ(line({.code = ProblemCode::no_finite_number, .evidence = {{"value", -1.0}, {"from_zero", 1.0}}}),
+            "is -1; must be a finite number >= 0");
+  EXPECT_EQ(line({.code = ProblemCode::no_finite_number, .evidence = {{"value", 0.0}}}),
+            "is 0; must be a finite number > 0");
 }
 
 TEST(ProblemText, NamesOptionsWhereThePhraseDoesAndNotWhereAUserDoes) {

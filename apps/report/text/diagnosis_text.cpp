@@ -145,12 +145,12 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
     std::string effect = "-";
     if (each.limit_then) effect = limits.text(*each.limit_then);
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
-    table.rows.push_back({each.what, value_text(each, each.value_now, motion),
+    table.rows.push_back({words_of(each), value_text(each, each.value_now, motion),
                           value_text(each, each.value_then, motion), effect, end_text(diagnosis, each)});
     if (judged)
       table.rows.back().push_back(each.absolute_stability_limit_then ? limits.text(*each.absolute_stability_limit_then)
                                                                      : "-");
-    if (!each.safe.value_or(true)) lowering += (lowering.empty() ? "" : ", ") + each.what;
+    if (!each.safe.value_or(true)) lowering += (lowering.empty() ? "" : ", ") + words_of(each);
   }
   std::string now;
   if (!diagnosis.changes.empty()) {
