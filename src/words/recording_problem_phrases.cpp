@@ -78,7 +78,7 @@ std::span<const ProblemPhrase> recording_problem_phrases() {
                     "{?rows|; lines of a header can be passed over (`skip_rows`)}}"},
       ProblemPhrase{line_without_header, "line_without_header",
                     "is a line without {?format=codesys|a variable}{?format=controldesk|a section}"
-                    "{?format=labview|the header of a segment}{?format=twincat|the line of channels} above it",
+                    "{?format=labview|the header of a segment}{?format=twincat|a line of channels} above it",
                     "must follow {?format=codesys|its variable (\"0.Variable; NAME\") and \"0.Data;\"}"
                     "{?format=controldesk|the line that begins with \"trace_values\"}"
                     "{?format=labview|\"***End_of_Header***\" and a line of names; or pass the header over "

@@ -80,6 +80,16 @@ TEST(RecordingProblemText, SaysWhatIsWrongAndWhatToDo) {
   }
 }
 
+// Bytes of a file stand in a sentence as they are: none ends it, and none names an option.
+TEST(RecordingProblemText, HoldsWhateverACellHolds) {
+  using namespace std::string_literals;
+  const InputProblem told = input_problem(
+      {}, {.code = ProblemCode::no_number_in_cell, .subjects = {{"cell", "\"\0`rate`\x1a\""s}, {"decimal_mark", "."}}});
+  EXPECT_EQ(told.what, "\"\0`rate`\x1a\" is no number"s);
+  EXPECT_TRUE(told.options_of_what.empty());
+  EXPECT_EQ(told.str(), "\"\\x00`rate`\\x1A\" is no number; must be a number such as -1.5e-3");
+}
+
 TEST(RecordingProblemText, NamesTheOptionThatPassesOverAHeader) {
   const InputProblem told = input_problem({}, {.code = ProblemCode::no_number_in_cell,
                                                .evidence = {counted("line", 4)},
