@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct NamedOption {
   std::size_t length = 0;  ///< of what stands there
 };
 
+/// The members of options that stand in `backquotes`.
+[[nodiscard]] std::vector<NamedOption> options_named_in(std::string_view sentence);
+
 /// A sentence with the options that it names. Only a literal names any: no text of a user is taken for an option.
 struct OptionText {
   // NOLINTBEGIN(google-explicit-constructor): a sentence without options is a string
@@ -23,8 +27,6 @@ struct OptionText {
   /// As it is.
   OptionText(std::string sentence, std::vector<NamedOption> named)
       : text(std::move(sentence)), options(std::move(named)) {}
-  /// Of what no user wrote, with members of options in `backquotes`.
-  [[nodiscard]] static OptionText with_options(std::string sentence);
 
   std::string text;                       ///< the sentence
   std::vector<NamedOption> options = {};  ///< in the order in which they stand there

@@ -303,10 +303,9 @@ enum class ProblemCode : std::uint16_t {
   lies_elsewhere,          ///< a link, or values in another file
   not_read_by_hdf5,        ///< HDF5 refuses a part
   holds_none,              ///< a file holds nothing of what is wanted
-  not_one_record,          ///< several records fit
+  not_one_record,          ///< several records are a response
   samples_of_two_lengths,  ///< signals of one recording have different lengths
   axes_differ,             ///< records have other times or frequencies
-  no_times_of_length,      ///< no column of times has as many samples
   text_not_readable,       ///< a text of a universal file is not what must stand there
   file_without_columns,    ///< a universal file has records, no columns
 

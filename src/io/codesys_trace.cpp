@@ -1,7 +1,6 @@
 #include "io/codesys_trace.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "io/column_names.hpp"
 #include "io/export_lines.hpp"
 #include "io/prose.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -29,12 +29,7 @@ std::string_view key_of_variable(std::string_view key) {
 
 std::optional<std::uint32_t> flags_in(std::string_view cell) {
   const bool is_hexadecimal = cell.starts_with("0x") || cell.starts_with("0X");
-  const std::string_view digits = is_hexadecimal ? cell.substr(2) : cell;
-  std::uint32_t flags = 0;
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), flags, is_hexadecimal ? 16 : 10);
-  const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-  return is_number ? std::optional(flags) : std::nullopt;
+  return is_hexadecimal ? whole_text_as<std::uint32_t>(cell.substr(2), 16) : whole_text_as<std::uint32_t>(cell);
 }
 
 class TraceReader {

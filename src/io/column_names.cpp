@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "io/column_unit.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -105,10 +105,8 @@ tl::expected<std::size_t, InputError> find_column(std::span<const std::string> c
                                         .subjects = {{"numbers", numbers_of(found)}}}});
     }
   }
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
-  const bool is_number = error == std::errc() && end == asked.data() + asked.size();
-  if (is_number && number >= 1 && number <= columns.size()) return number - 1;
+  const auto number = whole_text_as<std::size_t>(asked);
+  if (number && *number >= 1 && *number <= columns.size()) return *number - 1;
   return tl::unexpected(unknown_column(columns, asked, source, shown));
 }
 

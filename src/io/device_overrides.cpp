@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/toml_text.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -27,13 +27,6 @@ struct Target {
   toml::table* table = nullptr;
   std::string key;
 };
-
-std::optional<std::size_t> as_index(std::string_view text) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return index;
-}
 
 std::vector<std::string> names_in(const toml::array& tables) {
   std::vector<std::string> names;
@@ -53,7 +46,7 @@ tl::expected<std::size_t, InputError> selected(const toml::array& tables, Device
   if (kind == DeviceTable::body && !selector.empty() && named != names.end()) {
     return static_cast<std::size_t>(named - names.begin());
   }
-  if (const auto index = as_index(selector); index && *index < tables.size()) return *index;
+  if (const auto index = whole_text_as<std::size_t>(selector); index && *index < tables.size()) return *index;
   if (selector.empty() && tables.size() == 1) return 0;
 
   const std::string table = path_of(kind);

@@ -25,7 +25,6 @@ constexpr unsigned utf8_type = 16;
 constexpr unsigned complex_flag = 0x0800;
 constexpr unsigned logical_flag = 0x0200;
 
-constexpr int deepest_nesting = 32;
 constexpr std::size_t most_dimensions = 32;
 constexpr std::size_t longest_name = 1024;
 constexpr std::size_t longest_field_name = 128;
@@ -81,17 +80,6 @@ struct MatrixHead {
   std::vector<std::size_t> dimensions;
   std::string name;
 };
-
-/// The number of elements of an array of these dimensions, or more than `most`.
-std::size_t count_of(const std::vector<std::size_t>& dimensions, std::size_t most) {
-  if (std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end()) return 0;
-  std::size_t count = 1;
-  for (const std::size_t dimension : dimensions) {
-    if (dimension > most / count) return most + 1;
-    count *= dimension;
-  }
-  return count;
-}
 
 class MatrixWalk {
  public:
@@ -156,7 +144,7 @@ tl::expected<void, Problem> MatrixWalk::add_numbers(const MatrixHead& head, cons
   if (!element) return Damage(element.error());
   const std::size_t size = bytes_per_number(element->type);
   if (size == 0) return wrong_element("numbers", *element);
-  const std::size_t count = count_of(head.dimensions, element->bytes.size());
+  const std::size_t count = mat_count(head.dimensions, element->bytes.size());
   if (element->bytes.size() % size != 0 || count != element->bytes.size() / size) {
     return Damage({.code = ProblemCode::size_disagrees,
                    .evidence = {counted("count", element->bytes.size())},
@@ -200,7 +188,7 @@ tl::expected<void, Problem> MatrixWalk::walk_struct(const MatrixHead& head, cons
                                                     int depth) {
   const auto fields = take_field_names(rest);
   if (!fields) return Damage(fields.error());
-  const std::size_t elements = count_of(head.dimensions, most_fields);
+  const std::size_t elements = mat_count(head.dimensions, most_fields);
   if (elements == 0 || fields->empty()) {
     found.contents.skip(name, Kind::no_table, wrong_kind("empty"));
     return {};
@@ -226,8 +214,8 @@ tl::expected<void, Problem> MatrixWalk::walk_struct(const MatrixHead& head, cons
 }
 
 tl::expected<void, Problem> MatrixWalk::walk(Bytes bytes, const std::string* name, int depth) {
-  if (depth > deepest_nesting) {
-    return Damage({.code = ProblemCode::nested_too_deep, .evidence = {{"most", deepest_nesting}}});
+  if (depth > mat_deepest_nesting) {
+    return Damage({.code = ProblemCode::nested_too_deep, .evidence = {{"most", mat_deepest_nesting}}});
   }
   if (bytes.empty()) {
     found.contents.skip(name != nullptr ? *name : "", Kind::no_table, wrong_kind("empty"));

@@ -23,7 +23,6 @@ namespace {
 
 using Kind = SkippedMatArray::Kind;
 
-constexpr int deepest_nesting = 32;
 constexpr std::size_t most_objects = 20000;                      // in one file, over all elements of its struct arrays
 constexpr std::size_t longest_name = 1024;                       // bytes
 constexpr std::size_t most_values = (std::size_t{1} << 30) / 8;  // in one array
@@ -105,17 +104,6 @@ std::optional<std::vector<std::size_t>> dimensions_of(const Handle& dataset) {
   return dimensions;
 }
 
-/// The number of elements, or more than `most`.
-std::size_t count_of(const std::vector<std::size_t>& dimensions, std::size_t most) {
-  std::size_t count = 1;
-  for (const std::size_t dimension : dimensions) {
-    if (dimension == 0) return 0;
-    count = dimension > most / count ? most + 1 : count * dimension;
-    if (count > most) return most + 1;
-  }
-  return count;
-}
-
 Problem not_read(std::string part) {
   return {.code = ProblemCode::not_read_by_hdf5, .subjects = {{"part", std::move(part)}}};
 }
@@ -193,7 +181,7 @@ void Walk::visit_dataset(Handle dataset, const std::string& name) {
   if (stored == H5T_COMPOUND) return contents.skip(name, Kind::complex, wrong_kind("complex"));
   if (stored != H5T_INTEGER && stored != H5T_FLOAT)
     return contents.skip(name, Kind::other_class, wrong_kind("not numeric"));
-  const std::size_t count = count_of(*dimensions, most_values);
+  const std::size_t count = mat_count(*dimensions, most_values);
   if (const auto why = why_unreadable(dataset, type, count, file_size_)) {
     return contents.skip(name, Kind::damaged, *why);
   }
@@ -207,7 +195,7 @@ void Walk::visit_struct_array(const Handle& references, const std::string& paren
                               int depth) {
   const std::string name = fmt::format("{}.{}", parent, field);
   const auto dimensions = dimensions_of(references);
-  const std::size_t count = dimensions ? count_of(*dimensions, most_objects) : 0;
+  const std::size_t count = dimensions ? mat_count(*dimensions, most_objects) : 0;
   if (count == 0) return contents.skip(name, Kind::no_table, wrong_kind("empty"));
   if (count > most_objects) {
     return contents.skip(name, Kind::no_table, has_more_than(most_objects, "elements"));
@@ -225,9 +213,9 @@ void Walk::visit_struct_array(const Handle& references, const std::string& paren
 void Walk::visit(Handle object, const std::string& name, int depth) {
   if (!may_visit(name)) return;
   if (!object) return contents.skip(name, Kind::damaged, {.code = ProblemCode::not_read_by_hdf5});
-  if (depth > deepest_nesting) {
+  if (depth > mat_deepest_nesting) {
     return contents.skip(name, Kind::damaged,
-                         {.code = ProblemCode::nested_too_deep, .evidence = {{"most", deepest_nesting}}});
+                         {.code = ProblemCode::nested_too_deep, .evidence = {{"most", mat_deepest_nesting}}});
   }
   const H5I_type_t type = H5Iget_type(object.get());
   if (type == H5I_DATASET) return visit_dataset(std::move(object), name);

@@ -25,7 +25,7 @@ void MatContents::skip(std::string name, SkippedMatArray::Kind kind, Problem why
 
 void MatContents::add(std::string name, std::string class_name, const std::vector<std::size_t>& dimensions) {
   using Kind = SkippedMatArray::Kind;
-  if (std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end()) {
+  if (std::ranges::find(dimensions, 0U) != dimensions.end()) {
     return skip(std::move(name), Kind::no_table, wrong_kind("empty"));
   }
   if (dimensions.size() != 2) {
@@ -40,6 +40,16 @@ void MatContents::add(std::string name, std::string class_name, const std::vecto
                  .evidence = {counted("rows", rows), counted("columns", columns), counted("most", most_columns)}});
   }
   arrays.push_back({std::move(name), std::move(class_name), rows, columns});
+}
+
+std::size_t mat_count(const std::vector<std::size_t>& dimensions, std::size_t most) {
+  if (std::ranges::find(dimensions, 0U) != dimensions.end()) return 0;
+  std::size_t count = 1;
+  for (const std::size_t dimension : dimensions) {
+    if (dimension > most / count) return most + 1;
+    count *= dimension;
+  }
+  return count;
 }
 
 std::string mat_field_name(const std::string& parent, std::size_t index, std::size_t elements,

@@ -50,6 +50,12 @@ struct MatFile {
   std::function<tl::expected<std::vector<double>, InputError>(std::size_t array)> values;
 };
 
+/// The number of elements of an array of these dimensions, or more than `most`.
+[[nodiscard]] std::size_t mat_count(const std::vector<std::size_t>& dimensions, std::size_t most);
+
+/// Structs in structs that are followed.
+inline constexpr int mat_deepest_nesting = 32;
+
 /// Name of an element's field: "run.position", or "run(2).position" in a struct array (`index` from 0).
 [[nodiscard]] std::string mat_field_name(const std::string& parent, std::size_t index, std::size_t elements,
                                          const std::string& field);

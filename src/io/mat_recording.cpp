@@ -66,9 +66,6 @@ tl::expected<MatFile, InputError> open_mat_file(const std::string& path, std::si
                                                 const Progress& progress) {
   auto file = InputFile::open(path, "MAT file");
   if (!file) return Refusal(std::move(file.error()));
-  if (!file->is_regular()) {
-    return Refusal(InputError({.file = file->source()}, wrong_kind("a pipe", "file")));
-  }
   std::string head(640, '\0');
   const auto size = file->read(head);
   if (!size) return Refusal(size.error());
@@ -221,7 +218,7 @@ bool names_a_rate(std::string_view name) {
 
 /// No time axis; the single numbers that may be the rate are named, but never used unasked.
 InputError no_time_axis_in(const MatTable& table, std::size_t size) {
-  Problem problem{.code = ProblemCode::no_times_of_length, .evidence = {counted("samples", size)}};
+  Problem problem{.code = ProblemCode::no_times, .evidence = {counted("samples", size)}};
   std::vector<std::string> rates;
   for (const std::size_t index : table.scalars) {
     if (!names_a_rate(table.array(index).name)) continue;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "counted.hpp"
 #include "io/prose.hpp"
 #include "io/text_lines.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/study_file.hpp"
 
@@ -25,10 +25,8 @@ constexpr std::string_view blanks = " \t\r;";
 constexpr std::string_view unit_header = "# unit:";
 
 std::optional<double> number_of(std::string_view word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto value = whole_text_as<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {

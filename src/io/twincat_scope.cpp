@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "io/column_names.hpp"
 #include "io/export_lines.hpp"
 #include "io/prose.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -57,10 +57,7 @@ std::optional<double> header_number(std::string_view cell) {
 /// A time in units of 100 ns since 1601, which a double does not hold.
 std::optional<std::uint64_t> file_time(std::string_view cell) {
   constexpr std::size_t fewest_digits = 16;  // since 1632
-  std::uint64_t ticks = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), ticks);
-  const bool is_whole = cell.size() >= fewest_digits && error == std::errc() && end == cell.data() + cell.size();
-  return is_whole ? std::optional(ticks) : std::nullopt;
+  return cell.size() >= fewest_digits ? whole_text_as<std::uint64_t>(cell) : std::nullopt;
 }
 
 class ScopeReader {

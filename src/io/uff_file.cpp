@@ -1,7 +1,6 @@
 #include "io/uff_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -12,6 +11,7 @@
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/uff_number.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -33,11 +33,8 @@ std::string_view field(std::string_view line, std::size_t column, std::size_t wi
 
 template <class Integer>
 std::optional<Integer> whole_number(std::string_view text) {
-  Integer value = 0;
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  return whole_text_as<Integer>(text);
 }
 
 /// A field of text; empty where it says NONE.

@@ -85,10 +85,10 @@ tl::expected<std::size_t, InputError> find_uff_record(const UffFile& file, const
     }
     if (numbers.size() == 1) return found;
     if (numbers.size() > 1) {
-      return tl::unexpected(InputError({.file = file.source, .key = shortened(asked)},
-                                       {.code = ProblemCode::not_one_record,
-                                        .evidence = {counted("records", numbers.size()), {"named", 1.0}},
-                                        .subjects = {{"choices", listed(numbers)}}}));
+      return tl::unexpected(
+          InputError({.file = file.source, .key = shortened(asked)}, {.code = ProblemCode::column_name_not_unique,
+                                                                      .evidence = {counted("records", numbers.size())},
+                                                                      .subjects = {{"numbers", listed(numbers)}}}));
     }
   }
   return named;

@@ -55,8 +55,8 @@ std::span<const ProblemPhrase> mat_uff_problem_phrases() {
                     "must be a vector, or a matrix whose columns are signals"},
       ProblemPhrase{wrong_kind, "wrong_kind",
                     "is {?class|of the unknown class {class:n}}{!class|{kind}{?columns| of {columns:n} columns}}",
-                    "must be {?wanted=array|a real numeric array}{?wanted=signal|a signal}{?wanted=file|a file: MAT is "
-                    "read by parts}{?wanted=column|one of them: {choices}}{?wanted=field|one of its fields: "
+                    "must be {?wanted=array|a real numeric array}{?wanted=signal|a signal}"
+                    "{?wanted=column|one of them: {choices}}{?wanted=field|one of its fields: "
                     "{choices}}{?wanted=times|a real time record (function type 1)}{?wanted=response|a complex "
                     "frequency response (function type 4)}{?wanted=coherence|a real coherence (function type 6)}"},
       ProblemPhrase{lies_elsewhere, "lies_elsewhere", "lies elsewhere: behind a link or in another file",
@@ -68,17 +68,12 @@ std::span<const ProblemPhrase> mat_uff_problem_phrases() {
                     "must hold {?objects|numeric arrays: take the data out of tables and timeseries and save them as "
                     "vectors}{!objects|{?wanted=signals|numeric arrays of two samples at least}}{?wanted=function|"
                     "dataset 58 (or 58b)}{?wanted=frequency response|a complex record of function type 4}"},
-      ProblemPhrase{not_one_record, "not_one_record",
-                    "{?named|{records:n} records have this name}{!named|holds {records:n} frequency responses}",
-                    "{?named|must be one of their numbers}{!named|name one of them}: {choices}"},
+      ProblemPhrase{not_one_record, "not_one_record", "holds {records:n} frequency responses",
+                    "name one of them: {choices}"},
       ProblemPhrase{samples_of_two_lengths, "samples_of_two_lengths",
                     "has {samples:n} samples, {other} has {expected:n}",
                     "signals of one recording must have equally many"},
       ProblemPhrase{axes_differ, "axes_differ", "has other {axis} than {other}", "must have the same"},
-      ProblemPhrase{no_times_of_length, "no_times_of_length",
-                    "has no column of {samples:n} samples whose name says time",
-                    "state the rate in Hz (`rate`) or the column of times (`time_column`){?rates|; the file has "
-                    "{rates}}"},
       ProblemPhrase{text_not_readable, "text_not_readable",
                     "{text} {?wanted=boundary|stands outside of a dataset}{?wanted=dataset|is no number of a "
                     "dataset}{?wanted=form|is no form of data}{?wanted=type|begins with no function "

@@ -22,12 +22,9 @@ const internal::ProblemPhrase& problem_phrase_of(ProblemCode code) {
 
 // The phrase filled in, with the options that it names in `backquotes`. What it is filled in with names none.
 OptionText option_text(Finding facts, const char* phrase) {
-  constexpr char quote = '`';
-  constexpr char substitute = '\x1a';  // a control character, which reaches no terminal
-  for (Subject& each : facts.subjects) std::ranges::replace(each.text, quote, substitute);
-  OptionText told = OptionText::with_options(internal::filled_in(facts, phrase));
-  std::ranges::replace(told.text, substitute, quote);
-  return told;
+  std::string sentence = internal::filled_in(facts, phrase);
+  for (Subject& each : facts.subjects) std::ranges::replace(each.text, '`', '\'');
+  return {std::move(sentence), options_named_in(internal::filled_in(facts, phrase))};
 }
 
 std::string line_of(const Problem& problem) {

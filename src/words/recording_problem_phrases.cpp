@@ -56,7 +56,8 @@ std::span<const ProblemPhrase> recording_problem_phrases() {
                     "{?format=twincat|, in a line each group of which begins with \"Name\"}}"},
       ProblemPhrase{no_such_column, "no_such_column", "no such column",
                     "{?meant|did you mean \"{meant}\"? }the file has {columns:n} column{columns:s}: {names}"},
-      ProblemPhrase{column_name_not_unique, "column_name_not_unique", "{columns:n} columns have this name",
+      ProblemPhrase{column_name_not_unique, "column_name_not_unique",
+                    "{?records|{records:n} records}{!records|{columns:n} columns} have this name",
                     "must be one of their numbers: {numbers}"},
       ProblemPhrase{too_few_samples, "too_few_samples",
                     "has {samples:n} {?lines|usable of {lines:n} lines of a response}{!lines|sample{samples:s}}",
@@ -77,7 +78,7 @@ std::span<const ProblemPhrase> recording_problem_phrases() {
                     "{?rows|; lines of a header can be passed over (`skip_rows`)}}"},
       ProblemPhrase{line_without_header, "line_without_header",
                     "is a line without {?format=codesys|a variable}{?format=controldesk|a section}"
-                    "{?format=labview|the header of a segment}{?format=twincat|the line of channels} above it",
+                    "{?format=labview|the header of a segment}{?format=twincat|a line of channels} above it",
                     "must follow {?format=codesys|its variable (\"0.Variable; NAME\") and \"0.Data;\"}"
                     "{?format=controldesk|the line that begins with \"trace_values\"}"
                     "{?format=labview|\"***End_of_Header***\" and a line of names; or pass the header over "
@@ -133,13 +134,13 @@ std::span<const ProblemPhrase> recording_problem_phrases() {
                     "{?of=flags|do not say whether times are in ms or us}"
                     "{?of=step|the segment states no Delta_X for {column}}"
                     "{?of=start|segment {segment:n} states no date and time}"
-                    "{!of|has no column whose name says time}",
+                    "{!of|has no column {?samples|of {samples:n} samples }whose name says time}",
                     "{?of=flags|must have one of the bits 16 and 32; or state the unit (`time_scale`), or the rate "
                     "(`rate`)}"
                     "{?of=step|must be above 0, or state the rate (`rate`)}"
                     "{?of=start|must be such as 2013/02/19 and 09:51:40.7; or state the rate (`rate`)}"
                     "{!of|state the rate in Hz (`rate`) or the column of times (`time_column`)"
-                    "{?names|; the file has {columns:n} column{columns:s}: {names}}}"},
+                    "{?names|; the file has {columns:n} column{columns:s}: {names}}{?rates|; the file has {rates}}}"},
       ProblemPhrase{asked_for_beside, "asked_for_beside",
                     "a column of {?of=times|times is asked for beside a rate}"
                     "{?of=frequencies|frequencies is asked for beside a step of frequency}",
