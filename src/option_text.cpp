@@ -1,6 +1,7 @@
 #include "zwidth/option_text.hpp"
 
 #include <string_view>
+#include <utility>
 
 #include "zwidth/input_problem.hpp"
 
@@ -25,14 +26,19 @@ void name_options_in(std::string& text, std::vector<NamedOption>& options,
 
 }  // namespace
 
-OptionText::OptionText(const char* literal) : text(literal) {
+OptionText::OptionText(const char* literal) : OptionText(with_options(literal)) {}
+
+OptionText OptionText::with_options(std::string sentence) {
+  OptionText told(std::move(sentence));
+  const std::string& text = told.text;
   constexpr char quote = '`';
   for (std::size_t begin = text.find(quote); begin != std::string::npos;) {
     const std::size_t end = text.find_first_not_of(letters_of_members, begin + 1);
     const bool is_member = end != std::string::npos && end > begin + 1 && text[end] == quote;
-    if (is_member) options.push_back({text.substr(begin + 1, end - begin - 1), begin, end + 1 - begin});
+    if (is_member) told.options.push_back({text.substr(begin + 1, end - begin - 1), begin, end + 1 - begin});
     begin = text.find(quote, is_member ? end + 1 : begin + 1);
   }
+  return told;
 }
 
 OptionText operator+(OptionText begin, const OptionText& end) {

@@ -23,6 +23,8 @@ struct OptionText {
   /// As it is.
   OptionText(std::string sentence, std::vector<NamedOption> named)
       : text(std::move(sentence)), options(std::move(named)) {}
+  /// Of what no user wrote, with members of options in `backquotes`.
+  [[nodiscard]] static OptionText with_options(std::string sentence);
 
   std::string text;                       ///< the sentence
   std::vector<NamedOption> options = {};  ///< in the order in which they stand there

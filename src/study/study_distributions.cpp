@@ -130,7 +130,8 @@ std::optional<DeviceProblem> find_problem(const Device& device, const StudyDistr
     }
     seen.push_back(std::move(key));
     if (const auto problem = find_problem(parameters[i].distribution)) {
-      return DeviceProblem{fmt::format("{}.{}", place, problem->member), problem->what, problem->allowed};
+      return DeviceProblem{fmt::format("{}.{}", place, problem->member), problem->what, problem->allowed,
+                           problem->problem};
     }
     if (auto problem = find_reach_problem(device, parameters[i], place)) return problem;
   }

@@ -25,7 +25,7 @@ OptionText option_text(Finding facts, const char* phrase) {
   constexpr char quote = '`';
   constexpr char substitute = '\x1a';  // a control character, which reaches no terminal
   for (Subject& each : facts.subjects) std::ranges::replace(each.text, quote, substitute);
-  OptionText told(internal::filled_in(facts, phrase).c_str());
+  OptionText told = OptionText::with_options(internal::filled_in(facts, phrase));
   std::ranges::replace(told.text, substitute, quote);
   return told;
 }
