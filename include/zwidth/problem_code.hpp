@@ -64,7 +64,6 @@ enum class ProblemCode : std::uint16_t {
   needs_any_user,                      ///< a worst user without the limit over all users
   no_body_to_hold,                     ///< a transfer function has no body
   asked_of_transfer_function,          ///< a transfer function has no body
-  user_of_transfer_function,           ///< a transfer function has no body
   any_user_goal_of_transfer_function,  ///< a transfer function has no body
   any_user_goal_needs_bodies,          ///< the device cannot be held, or has too many bodies
   any_user_goal_of_many_bodies,        ///< too many bodies
@@ -156,7 +155,6 @@ enum class ProblemCode : std::uint16_t {
   covariance_not_symmetric,    ///< a covariance is not symmetric
   covariance_too_large,        ///< a covariance is larger than two variances allow
   no_covariance,               ///< a covariance is not positive semidefinite
-  key_given_twice,             ///< a key is given twice
   values_of_two_lengths,       ///< numbers change by lists of two lengths
   nothing_changed,             ///< no number changes
 
@@ -164,10 +162,6 @@ enum class ProblemCode : std::uint16_t {
   no_body_for_user,                   ///< a transfer function has no body
   no_body_to_start_from,              ///< a transfer function has no body
   start_offset_without_bodies,        ///< a transfer function has no body
-  largest_damping_not_positive,       ///< a damping is not finite and above 0
-  region_deviation_no_fraction,       ///< a deviation is not between 0 and 1
-  outline_deviation_no_fraction,      ///< a deviation is not between 0 and 1
-  branch_factor_too_small,            ///< a factor is not above 1
   recording_without_channel,          ///< a recording has no channel
   recording_without_two_channels,     ///< a relay is recorded as force and position
   no_recording,                       ///< there is no recording
@@ -175,46 +169,29 @@ enum class ProblemCode : std::uint16_t {
   drift_not_possible,                 ///< a drift is not from above -1 to 10
   drift_without_links,                ///< the device has no link
   raster_without_walls,               ///< a raster has no wall
-  velocity_filter_below_zero,         ///< a velocity filter is not finite and at least 0
-  virtual_damper_below_zero,          ///< a damper is not at least 0
   grid_not_rising,                    ///< the stiffnesses of a grid do not rise
   other_devices_limit,                ///< a limit is of another device
   no_uncertainty,                     ///< the device has no uncertainty
-  no_draws,                           ///< no device is drawn
   force_per_count_undefined,          ///< a period or a resolution is not possible
   users_range_not_possible,           ///< a range of users is not possible
   wall_not_possible,                  ///< a wall's number is not possible
-  sampling_period_not_positive,       ///< a sampling period is not above 0
-  delay_below_zero,                   ///< a delay is below 0
-  filter_below_zero,                  ///< a velocity filter is below 0
-  floor_below_zero,                   ///< a floor is below 0
-  relay_amplitude_not_positive,       ///< a relay without force
-  relay_hysteresis_below_zero,        ///< a hysteresis is below 0
   half_periods_not_ordered,           ///< half-periods are not in order
-  delay_not_possible,                 ///< a delay is below 0
   too_many_bodies_with_friction,      ///< too many bodies rub
   motion_too_fast,                    ///< a motion is too fast to follow in time
   force_and_position_of_two_lengths,  ///< force and position have different lengths
-  force_not_finite,                   ///< a force is not finite
-  position_not_finite,                ///< a position is not finite
-  no_sampling_period,                 ///< a sampling period is not above 0
   period_or_samples_not_possible,     ///< a period or a sample is not possible
   ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
   transform_of_nothing,               ///< a transform of no samples
   transform_of_other_length,          ///< a transform of another length
   power_density_not_possible,         ///< a rate or a sample is not possible
-  signal_period_not_positive,         ///< a sampling period is not above 0
   samples_of_channel_not_finite,      ///< a sample is not finite
   cutoff_not_possible,                ///< a cutoff is not below half the rate
-  share_not_possible,                 ///< a share is not between 0 and 1
   count_no_share,                     ///< more than all
   weights_not_possible,               ///< weights are not possible
   answers_not_one_a_point,            ///< as many answers as points are needed
-  answer_not_finite,                  ///< an answer is not finite
   indices_not_possible,               ///< too few samples, or too many dimensions
   too_many_samples_in_memory,         ///< too many samples to keep
   specification_missing,              ///< failures need a specification
-  samples_out_of_range,               ///< a number of samples is out of its range
 
   // device files
   of_other_type,             ///< a value is a text, a number or a table where another is needed

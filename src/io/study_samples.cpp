@@ -89,9 +89,10 @@ tl::expected<Distribution, InputError> internal::read_study_samples(const std::s
           InputError(place, {.code = ProblemCode::no_samples_in_file, .subjects = {{"text", shortened(text)}}}));
     }
     if (values.size() == most_samples) {
-      return tl::unexpected(InputError(place, {.code = ProblemCode::samples_out_of_range,
-                                               .evidence = {counted("value", most_samples + 1), counted("least", 1),
-                                                            counted("most", most_samples)}}));
+      return tl::unexpected(InputError(
+          place, {.code = ProblemCode::count_out_of_range,
+                  .evidence = {counted("value", most_samples + 1), counted("least", 1), counted("most", most_samples)},
+                  .subjects = {{"name", "samples"}}}));
     }
     values.push_back(*value * scale);
     weights.push_back(*weight);

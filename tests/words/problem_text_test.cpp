@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "counted.hpp"
+#include "require_argument.hpp"
 #include "words/problem_phrase.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/input_problem.hpp"
@@ -132,6 +133,31 @@ TEST(ProblemText, HasVariantsOfDevices) {
             "is -1; must be a finite number >= 0");
   EXPECT_EQ(line({.code = ProblemCode::no_finite_number, .evidence = {{"value", 0.0}}}),
             "is 0; must be a finite number > 0");
+}
+
+TEST(ProblemText, NamesTheArgumentOfACall) {
+  const auto refused = [](const auto& call) {
+    try {
+      call();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused([] {
+              internal::require_positive({"sampling period", -1.0, "s"});
+            }),
+            "sampling period is -1 s; must be finite and > 0");
+  EXPECT_EQ(refused([] { internal::require_not_negative({"floor", -1.0}); }), "floor is -1; must be >= 0");
+  EXPECT_EQ(refused([] {
+              internal::require_fraction({"coverage", 1.0});
+            }),
+            "coverage is 1; must be above 0 and below 1");
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_NE(refused([=] { internal::require_positive({"period", infinite}); }), "");
+  EXPECT_NE(refused([=] { internal::require_not_negative({"delay", infinite}); }), "");
+  EXPECT_EQ(refused([] { internal::require_not_negative({"delay", 0.0}); }), "");
 }
 
 TEST(ProblemText, NamesOptionsWhereThePhraseDoesAndNotWhereAUserDoes) {

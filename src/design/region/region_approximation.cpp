@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "zwidth/error.hpp"
+#include "require_argument.hpp"
 
 namespace zwidth {
 namespace {
@@ -84,10 +84,7 @@ std::vector<UnmetAssumption> unmet_assumptions(Formula formula, const Device& de
 }  // namespace
 
 std::vector<RegionApproximation> region_approximations(const Device& device, double velocity_filter_hz) {
-  if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::velocity_filter_below_zero, .evidence = {{"value", velocity_filter_hz}}});
-  }
+  internal::require_not_negative({"velocity filter", velocity_filter_hz, "Hz"});
   if (!device.has_bodies()) return {};
   double damping = 0.0;
   for (const Body& body : device.bodies()) damping += body.damping;
