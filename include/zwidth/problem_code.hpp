@@ -217,12 +217,106 @@ enum class ProblemCode : std::uint16_t {
   samples_out_of_range,               ///< a number of samples is out of its range
 
   // device files
+  of_other_type,             ///< a value is a text, a number or a table where another is needed
+  is_missing,                ///< a key is missing
+  unknown_key,               ///< a table has no such key
+  key_of_other_filters,      ///< a filter of this type has no such key
+  no_such_name,              ///< no body, link or filter is called that
+  given_beside,              ///< two keys of one quantity
+  damping_of_first_order,    ///< a low-pass of order 1 has no damping ratio
+  inertia_of_linear_motion,  ///< an inertia of linear motion
+  not_two_bodies,            ///< a link is between two bodies
+  number_beyond_range,       ///< a number is neither 0 nor from 1e-30 to 1e30
+  number_without_unit,       ///< a number in quotes without a unit
+  decimal_comma,             ///< a comma for the decimal mark
+  unknown_unit,              ///< a unit that is not known
+  unit_of_other_measure,     ///< a unit of another measure
+  not_toml,                  ///< a text is not TOML
+  too_many_dots,             ///< a line nests too deep
+  text_without_quotes,       ///< a text without quotes
+  not_an_assignment,         ///< an override without a key or a value
+  not_a_toml_value,          ///< an override's value is not TOML
+  in_several_tables,         ///< an override does not tell which of several tables
+  no_table_to_override,      ///< an override of a body, link or filter that there is not
+  value_and_no_table,        ///< an override below a key that is no table
+  one_variant,               ///< one value to compare
+  variant_twice,             ///< a value to compare stands twice
+  cannot_be_read,            ///< the system refuses to read a file
+  not_a_file,                ///< a directory or a device, or no name
+  too_many_bytes_read,       ///< a file or a line is too long
 
   // recordings as text
+  no_text_table,              ///< a file of another kind than a text table
+  no_rows_of_numbers,         ///< a text has no row of numbers
+  format_needs_a_file,        ///< a format cannot be read from a pipe
+  does_not_fit_in_memory,     ///< a recording does not fit into memory
+  too_many_rows_skipped,      ///< more rows are skipped than there are
+  separator_not_possible,     ///< a separator or a decimal mark is not known
+  decimal_mark_is_delimiter,  ///< the decimal mark is the delimiter
+  no_columns,                 ///< a recording has no columns, or none is asked for
+  no_such_column,             ///< no column is called that
+  column_name_not_unique,     ///< several columns are called that
+  too_few_samples,            ///< a column has too few samples
+  wrong_number_of_cells,      ///< a line has too few or too many cells
+  line_without_header,        ///< a line comes ahead of what names its columns
+  line_among_rows,            ///< a line of text stands among the rows
+  section_incomplete,         ///< a section lacks names or values
+  ends_in_header,             ///< a file ends in its header
+  segment_of_other_columns,   ///< segments have different columns
+  no_number_in_cell,          ///< a cell is no number
+  too_many_samples_missing,   ///< too many samples are missing
+  sample_too_large,           ///< a sample is too large
+  too_many_rows_lost,         ///< too many rows are lost
+  no_times,                   ///< nothing states the times
+  asked_for_beside,           ///< a column and what makes it superfluous
+  no_column_of_times,         ///< a column of times that is none
+  times_not_rising,           ///< times do not rise
+  no_timer_count,             ///< a time that the timer cannot show
+  no_period_in_times,         ///< times without a sampling period
+  value_without_time,         ///< a value has no time
+  columns_of_other_times,     ///< columns have different times
+  response_column_ambiguous,  ///< several columns may be a part of a response
+  no_response_column,         ///< a part of a response has no column
+  frequency_out_of_range,     ///< a frequency is out of its range
+  response_line_twice,        ///< a line of a response comes twice
+  magnitude_below_zero,       ///< a magnitude is negative
+  no_line_in_band,            ///< no line of a response is in the band
+  scale_not_possible,         ///< a scale is 0 or not finite
 
   // recordings in other files
+  damaged_file,            ///< a MAT file is damaged from its start
+  unknown_version,         ///< a MAT file is of a version that is not read
+  changed_while_read,      ///< a file changed between two reads
+  data_end_inside,         ///< the bytes end inside a part
+  bytes_missing,           ///< fewer bytes are left than are announced
+  closing_line_missing,    ///< a line -1 does not follow binary data
+  unpacks_to_more,         ///< more bytes come out than may
+  does_not_unpack,         ///< compressed bytes are damaged
+  zlib_cannot_start,       ///< zlib lacks memory, or is of another version
+  wrong_element,           ///< an element's type or bytes do not fit its part
+  wrong_field,             ///< a number of a header is out of its range
+  size_disagrees,          ///< numbers are more or fewer than their size says
+  nested_too_deep,         ///< structs stand in structs too deep
+  has_too_many,            ///< more values, columns or fields than may be
+  no_table,                ///< signals are no columns of a matrix
+  wrong_kind,              ///< what is there is of another kind than is wanted
+  lies_elsewhere,          ///< a link, or values in another file
+  not_read_by_hdf5,        ///< HDF5 refuses a part
+  holds_none,              ///< a file holds nothing of what is wanted
+  not_one_record,          ///< several records fit
+  samples_of_two_lengths,  ///< signals of one recording have different lengths
+  axes_differ,             ///< records have other times or frequencies
+  no_times_of_length,      ///< no column of times has as many samples
+  text_not_readable,       ///< a text of a universal file is not what must stand there
+  file_without_columns,    ///< a universal file has records, no columns
 
-  // studies and responses in files
+  // studies in files
+  not_told_by_uncertainty,   ///< the device's uncertainty does not have this number
+  no_relative_width,         ///< a relative deviation or tolerance leaves no width
+  weights_all_zero,          ///< every weight is 0
+  no_file_beside_study,      ///< a study that is no file names one
+  not_a_parameter_of_study,  ///< a correlation is of what does not vary
+  no_samples_in_file,        ///< a file has no samples, or a line that is none
 
   // models and designs
   no_finite_number,               ///< a number is not above 0, below 0 or not finite

@@ -29,14 +29,17 @@ struct SkippedMatArray {
   };
   std::string name;
   Kind kind = Kind::other_class;
-  std::string why;  ///< "is text"
+  Problem why;  ///< as one that was asked for
 };
+
+/// It is "text", "a cell array", "empty", where an array of numbers is wanted: or what else the phrase names.
+[[nodiscard]] Problem wrong_kind(std::string kind, std::string wanted = "array");
 
 struct MatContents {
   std::vector<MatArray> arrays;
   std::vector<SkippedMatArray> skipped;
 
-  void skip(std::string name, SkippedMatArray::Kind kind, std::string why);
+  void skip(std::string name, SkippedMatArray::Kind kind, Problem why);
   /// Adds an array, or skips it where it cannot hold signals side by side.
   void add(std::string name, std::string class_name, const std::vector<std::size_t>& dimensions);
 };

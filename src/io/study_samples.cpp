@@ -10,9 +10,10 @@
 #include <string_view>
 #include <utility>
 
+#include "counted.hpp"
+#include "io/prose.hpp"
 #include "io/text_lines.hpp"
 #include "zwidth/io/device_file.hpp"
-#include "zwidth/io/message_words.hpp"
 #include "zwidth/io/study_file.hpp"
 
 namespace zwidth {
@@ -75,12 +76,10 @@ tl::expected<Distribution, InputError> internal::read_study_samples(const std::s
     if (!line) return tl::unexpected(line.error());
     if (!*line) break;
     const std::string_view text = (*line)->text;
-    const auto refusal = [&](std::string what, std::string allowed) {
-      return tl::unexpected(InputError{path, (*line)->number, 1, "", std::move(what), std::move(allowed)});
-    };
+    const InputPlace place{path, (*line)->number, 1};
     if (text.starts_with(unit_header)) {
       const auto unit = number_with_unit(fmt::format("1 {}", text.substr(unit_header.size())), measure, motion);
-      if (!unit) return refusal(unit.error().what, unit.error().allowed);
+      if (!unit) return tl::unexpected(InputError(place, *unit.error().problem));
       scale = *unit;
     }
     const auto words = words_of(text);
@@ -88,17 +87,20 @@ tl::expected<Distribution, InputError> internal::read_study_samples(const std::s
     const auto value = number_of(words[0]);
     const auto weight = words.size() > 1 ? number_of(words[1]) : 1.0;
     if (!value || !weight || *weight < 0.0 || words.size() > 2) {
-      return refusal(fmt::format("{} is no sample", in_quotes(text)),
-                     "must be a number, or a number, a blank and how often it was seen; decimals have a point");
+      return tl::unexpected(
+          InputError(place, {.code = ProblemCode::no_samples_in_file, .subjects = {{"text", shortened(text)}}}));
     }
-    if (values.size() == most_samples)
-      return refusal("has too many samples", fmt::format("must be at most {}", most_samples));
+    if (values.size() == most_samples) {
+      return tl::unexpected(InputError(place, {.code = ProblemCode::samples_out_of_range,
+                                               .evidence = {counted("value", most_samples + 1), counted("least", 1),
+                                                            counted("most", most_samples)}}));
+    }
     values.push_back(*value * scale);
     weights.push_back(*weight);
   }
   Distribution result = discrete_of(values, weights);
   if (result.values.empty()) {
-    return tl::unexpected(InputError{path, 0, 0, "", "has no samples", "must have a number per line"});
+    return tl::unexpected(InputError({.file = path}, {.code = ProblemCode::no_samples_in_file}));
   }
   return result;
 }
@@ -110,9 +112,10 @@ tl::expected<StudyFile, InputError> read_study_file(const std::string& path, con
   const auto size = file->read(text);
   if (!size) return tl::unexpected(size.error());
   if (*size > device_file_size_limit) {
-    return tl::unexpected(InputError{file->source(), 0, 0, "",
-                                     fmt::format("is larger than {} MiB", device_file_size_limit >> 20),
-                                     "must be a study file, which takes a few hundred bytes"});
+    return tl::unexpected(
+        InputError({.file = file->source()}, {.code = ProblemCode::too_many_bytes_read,
+                                              .evidence = {counted("most", device_file_size_limit >> 20)},
+                                              .subjects = {{"kind", "study file"}}}));
   }
   text.resize(*size);
   const std::string folder = std::filesystem::path(path).parent_path().string();

@@ -10,7 +10,8 @@ std::span<const ProblemPhrase> model_problem_phrases() {
   static constexpr std::array phrases{
       ProblemPhrase{no_finite_number, "no_finite_number", is,
                     "must be a finite number {?from_zero|>=}{!from_zero|>} 0"},
-      ProblemPhrase{not_one_of, "not_one_of", "is {?value|{value:exact}}{!value|\"{given}\"}", "must be {choices}"},
+      ProblemPhrase{not_one_of, "not_one_of", "is {?value|{value:exact}}{!value|\"{given}\"}",
+                    "{?meant|did you mean \"{meant}\"?}{!meant|must be {choices}}"},
       ProblemPhrase{control_character, "control_character", "has a control character",
                     "must be one line of plain text"},
       ProblemPhrase{too_many_bytes, "too_many_bytes", "has {bytes:n} bytes", "must be at most {most:n} bytes long"},

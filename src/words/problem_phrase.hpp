@@ -15,12 +15,16 @@ struct ProblemPhrase {
 };
 
 // Of device files.
+[[nodiscard]] std::span<const ProblemPhrase> device_file_problem_phrases();
 
 // Of recordings as text.
+[[nodiscard]] std::span<const ProblemPhrase> recording_problem_phrases();
 
 // Of recordings in other files.
+[[nodiscard]] std::span<const ProblemPhrase> mat_uff_problem_phrases();
 
-// Of studies and responses in files.
+// Of studies in files.
+[[nodiscard]] std::span<const ProblemPhrase> study_file_problem_phrases();
 
 // Of models and designs.
 [[nodiscard]] std::span<const ProblemPhrase> model_problem_phrases();

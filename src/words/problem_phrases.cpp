@@ -173,7 +173,8 @@ std::span<const ProblemPhrase> option_problem_phrases() {
       ProblemPhrase{no_specification, "no_specification", "is given without a specification",
                     "failures need [specification]"},
       ProblemPhrase{no_number_of_device, "no_number_of_device", "{?quoted|\"{name}\" }is no number of the device",
-                    "{?quoted|must be one of {numbers}}{!quoted|the numbers of this device are {numbers}}"},
+                    "{?meant|did you mean \"{meant}\"?}"
+                    "{!meant|{?quoted|must be one of {numbers}}{!quoted|the numbers of this device are {numbers}}}"},
       ProblemPhrase{not_of_the_limit, "not_of_the_limit", "does not change the critical stiffness",
                     "sweep a number that does"},
       ProblemPhrase{range_not_finite, "range_not_finite", "runs from {first:exact} to {last:exact}",
@@ -386,13 +387,8 @@ std::span<const ProblemPhrase> option_problem_phrases() {
 
 std::span<const std::span<const ProblemPhrase>> problem_phrases() {
   static const std::array all{
-      option_problem_phrases(),
-      // device files
-      // recordings as text
-      // recordings in other files
-      // studies and responses in files
-      // models and designs
-      model_problem_phrases(),
+      option_problem_phrases(),  device_file_problem_phrases(), recording_problem_phrases(),
+      mat_uff_problem_phrases(), study_file_problem_phrases(),  model_problem_phrases(),
   };
   return all;
 }
