@@ -116,7 +116,7 @@ inline constexpr double max_delay_samples = 10000;            ///< whole device:
 /// Checks: all numbers finite and in the ranges given with each member, and 0 or within 1e-30..1e30 in magnitude
 /// (coefficients of a transfer function: 1e-100..1e100), so that no product of a few of them overflows; body names
 /// unique and not empty; link ends distinct and existing; every body connected to every other through links; either
-/// bodies or a transfer function; no operator, link or second body with a transfer function; uncertain parameters
+/// bodies or a transfer function; no user, link or second body with a transfer function; uncertain parameters
 /// known, present and each once, their covariance square, symmetric and positive semidefinite.
 [[nodiscard]] std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters);
 

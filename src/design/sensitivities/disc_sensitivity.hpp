@@ -26,7 +26,7 @@ struct DiscSensitivity {
 ///
 ///     T c_T + t_d c_td + tau c_tau + sum (2 m c_m + b c_b) = 0.
 ///
-/// `free` is the device without its operator, `discs` are its discs; 0 < angle <= pi.
+/// `free` is the device without its user, `discs` are its discs; 0 < angle <= pi.
 [[nodiscard]] DiscSensitivity disc_sensitivity(const Device& free, const TerminationDiscs& discs, double angle,
                                                std::span<const DesignParameter> parameters);
 

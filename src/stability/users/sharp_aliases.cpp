@@ -1,4 +1,4 @@
-// The aliases of passive termination circles in which a zero of Re Y lies on the axis of frequencies or nearly so.
+// The aliases of termination discs in which a zero of Re Y lies on the axis of frequencies or nearly so.
 
 #include <algorithm>
 #include <cmath>

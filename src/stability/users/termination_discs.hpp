@@ -21,7 +21,7 @@ inline constexpr double clear_angle = 0.1;
 /// The passive termination circles of the sampled plant: at each frequency the disc |p - centre| <= radius (see absolute_stability.hpp).
 class TerminationDiscs {
  public:
-  /// The device must have bodies; its operator is left out.
+  /// The device must have bodies; its user is left out.
   explicit TerminationDiscs(const Device& device, const Progress& progress = {});
 
   struct Disc {

@@ -253,7 +253,7 @@ std::optional<WorstUser> tuned_user(const Device& device, const TerminationDiscs
 Device held_by(const Device& device, const UserNetwork& user) {
   if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_for_user});
   DeviceParameters parameters = device.parameters();
-  parameters.uncertainty.reset();  // it may be of the operator that is replaced
+  parameters.uncertainty.reset();  // it may be of the user who is replaced
   parameters.user = {user.mass, 0.0, user.stiffness};
   const auto is_taken = [&](const std::string& name) {
     return std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
