@@ -107,7 +107,6 @@ enum class ProblemCode : std::uint16_t {
   of_the_device,                     ///< the device that the option makes is refused, for `what`
   no_stiffness_for_drive,            ///< a drive's wall without a stiffness
   filter_unknown_to_drive,           ///< a filter that the firmware lacks
-  travel_missing,                    ///< a linear device without its travel per turn
   damping_needed_by_drive,           ///< a cascade without damping
   torque_per_volt_missing,           ///< a motor constant is missing
   force_limit_missing,               ///< the largest force is missing

@@ -153,7 +153,6 @@ std::span<const ProblemPhrase> option_problem_phrases() {
                     "the wall that the drive is to make needs one"},
       ProblemPhrase{filter_unknown_to_drive, "filter_unknown_to_drive", "is given",
                     "the firmware has no such filter: leave it out"},
-      ProblemPhrase{travel_missing, "travel_missing", "is missing", "a linear device needs its travel per turn"},
       ProblemPhrase{damping_needed_by_drive, "damping_needed_by_drive", "is 0",
                     "the firmware's stiffness is a gain of its damping: give one > 0"},
       ProblemPhrase{torque_per_volt_missing, "torque_per_volt_missing", "is missing",

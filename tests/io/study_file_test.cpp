@@ -1,14 +1,14 @@
 #include "zwidth/io/study_file.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/refused_problem.hpp"
 #include "lhifam.hpp"
 
 namespace zwidth {
@@ -69,91 +69,116 @@ TEST(StudyFile, SaysWhatVaries) {
   EXPECT_EQ(study->distributions.correlation[0][1], 0.0);
 }
 
-InputProblem refusal(const std::string& text) {
-  const auto study = parse_study(text, "study.toml", device);
-  return study ? InputProblem{{}, "is read", "", {}} : InputProblem(study.error());
-}
-
 std::string parameter_with(const std::string& lines) { return "[[parameter]]\n" + lines; }
 
-TEST(StudyFile, RefusesWithThePlace) {
+struct RefusedStudy {
+  std::string text;
+  std::string place;  // "LINE:COLUMN KEY"
+  ProblemCode code;
+};
+
+std::vector<RefusedStudy> refused_studies() {
   using enum ProblemCode;
-  const auto expect = [](const std::string& text, std::size_t line, std::size_t column, const std::string& key,
-                         ProblemCode code, std::vector<Evidence> numbers = {}, std::vector<Subject> names = {}) {
-    test::expect_refused(refusal(text),
-                         {{"study.toml", line, column, key}, {code, std::move(numbers), std::move(names)}});
-  };
-  expect("sample = 3\n", 1, 1, "sample", unknown_key, {}, {{"name", "sample"}, {"meant", "samples"}});
-  expect("samples = 3.5\n", 1, 11, "samples", no_whole_number, {{"value", 3.5}, {"least", 0.0}});
-  expect("sampling = \"sobel\"\n", 1, 12, "sampling", not_one_of, {}, {{"given", "sobel"}});
-  expect("", 1, 1, "parameter", no_parameters);
-  expect("[specification]\ncritical_stiffness = \"3 kg\"\n", 2, 22, "specification.critical_stiffness",
-         unit_of_other_measure);
-  expect("[specification]\nany_user = 0\n", 2, 12, "specification.any_user", not_finite_and_positive, {{"value", 0.0}});
-  expect(parameter_with("key = \"link.stifness\"\n"), 2, 7, "parameter.0.key", no_number_of_device, {},
-         {{"name", "link.stifness"}, {"meant", "link.0.stiffness"}});
-  expect(parameter_with("key = \"link.stiffness\"\ndistribution = \"gauss\"\n"), 3, 16, "parameter.0.distribution",
-         not_one_of, {}, {{"given", "gauss"}});
-  expect(parameter_with("key = \"link.stiffness\"\n"), 1, 1, "parameter.0.distribution", is_missing, {},
-         {{"needed", "choice"}});
-  expect(parameter_with("key = \"link.stiffness\"\ndistribution = \"normal\"\n"), 1, 1,
-         "parameter.0.standard_deviation", is_missing, {}, {{"needed", "number"}});
-  expect(parameter_with("key = \"link.stiffness\"\ndistribution = \"normal\"\nmode = 3\n"), 4, 1, "parameter.0.mode",
-         unknown_key);
-  expect(parameter_with("key = \"link.stiffness\"\ndistribution = \"normal\"\nstandard_deviation = 2e4\n"), 1, 1,
-         "parameter.0", reaches_no_device, {}, {{"name", "link.stiffness"}});
-  expect(parameter_with("key = \"link.stiffness\"\ndistribution = \"uniform\"\nlower = 2\nupper = 1\n"), 5, 9,
-         "parameter.0.upper", not_above_lower_end, {{"value", 1.0}, {"least", 2.0}});
-  expect(parameter_with("key = \"link.stiffness\"\ndistribution = \"device\"\n"), 3, 16, "parameter.0.distribution",
-         not_told_by_uncertainty, {}, {{"name", "link.stiffness"}});
-  expect(parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"), 4, 8,
-         "parameter.0.file", cannot_be_read, {}, {{"kind", "file of samples"}});
-  std::string twice = whole;
-  twice += "[[parameter]]\nkey = \"link.0.stiffness\"\ndistribution = \"uniform\"\nlower = 1\nupper = 2\n";
-  expect(twice, 30, 7, "parameter.4.key", parameter_given_twice);
-  std::string definite = whole;
-  definite.replace(definite.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 1.0], [1.0, 1]]");
-  expect(definite, 28, 10, "correlation.matrix", not_positive_definite);
-  std::string flat = whole;
-  flat.replace(flat.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 0.5], [0.5]]");
-  expect(flat, 28, 10, "correlation.matrix", row_of_other_length, {{"length", 1.0}, {"parameters", 2.0}});
-  EXPECT_EQ(refusal("a = 1\na = 2\n").place.line, 2U);
-  const InputProblem no_toml = refusal("a = [\n");
-  ASSERT_TRUE(no_toml.problem);
-  EXPECT_EQ(no_toml.problem->code, not_toml);
-  EXPECT_EQ(no_toml.problem->subjects.back(), (Subject{"of", "a study"}));
-  const std::string normal = "key = \"link.stiffness\"\ndistribution = \"normal\"\n";
-  expect(parameter_with(normal + "mean = nan\nstandard_deviation = 1\n"), 4, 8, "parameter.0.mean", not_finite);
-  expect(parameter_with(normal + "standard_deviation = 1\nlower = nan\n"), 5, 9, "parameter.0.lower", not_a_number);
-  expect(parameter_with(normal + "standard_deviation = 1\nupper = nan\n"), 5, 9, "parameter.0.upper", not_a_number);
-  expect(parameter_with(normal + "standard_deviation = inf\n"), 4, 22, "parameter.0.standard_deviation",
-         not_finite_and_positive);
-  expect(parameter_with(normal + "relative_deviation = -0.1\n"), 4, 22, "parameter.0.relative_deviation",
-         no_relative_width, {{"value", -0.1}, {"of", 79500.0}});
-  expect(parameter_with(normal + "relative_deviation = 0.1\nstandard_deviation = 1\n"), 4, 22,
-         "parameter.0.relative_deviation", given_beside, {}, {{"other", "standard_deviation"}});
-  const std::string uniform = "key = \"link.stiffness\"\ndistribution = \"uniform\"\n";
-  expect(parameter_with(uniform + "relative_tolerance = -0.1\n"), 4, 22, "parameter.0.relative_tolerance",
-         no_relative_width, {{"value", -0.1}, {"of", 79500.0}});
-  expect(parameter_with(uniform + "relative_tolerance = 0.1\nupper = 1\n"), 4, 22, "parameter.0.relative_tolerance",
-         given_beside, {}, {{"other", "upper"}});
-  expect(parameter_with("key = \"link.stiffness\"\ndistribution = \"lognormal\"\nlog_deviation = 0\n"), 4, 17,
-         "parameter.0.log_deviation", not_finite_and_positive, {{"value", 0.0}});
-  const InputProblem mode = refusal(
-      parameter_with("key = \"loop.delay\"\ndistribution = \"triangular\"\nlower = 1e-4\nupper = 2e-4\nmode = 1\n"));
-  EXPECT_EQ(mode.place.line, 6U);
-  EXPECT_EQ(mode.place.key, "parameter.0.mode");
+  const std::string link = "key = \"link.stiffness\"\n";
+  const std::string normal = link + "distribution = \"normal\"\n";
   const std::string discrete = "key = \"body.motor.mass\"\ndistribution = \"discrete\"\n";
-  expect(parameter_with(discrete + "values = [1, 2]\nweights = [0, 0]\n"), 5, 11, "parameter.0.weights",
-         weights_all_zero);
-  expect(parameter_with(discrete + "values = [1, 2]\nweights = [1]\n"), 5, 11, "parameter.0.weights",
-         weights_not_one_a_value, {{"weights", 1.0}, {"values", 2.0}});
-  const InputProblem reached = refusal(parameter_with(discrete + "values = [-1, 2]\n"));
-  ASSERT_TRUE(reached.problem) << reached.str();
-  EXPECT_EQ(reached.problem->code, reaches_no_device);
-  EXPECT_TRUE(std::ranges::count(reached.problem->evidence, Evidence{"discrete", 1.0}));
-  expect(parameter_with(discrete + "values = [1, \"2 m\"]\n"), 4, 14, "parameter.0.values", unit_of_other_measure, {},
-         {{"unit", "m"}});
+  const std::string twice =
+      "[[parameter]]\nkey = \"link.0.stiffness\"\ndistribution = \"uniform\"\nlower = 1\nupper = 2\n";
+  std::string indefinite = whole;
+  indefinite.replace(indefinite.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 1.0], [1.0, 1]]");
+  std::string not_square = whole;
+  not_square.replace(not_square.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 0.5]]");
+  std::string of_none = whole;
+  of_none.replace(of_none.find("[\"body.motor.mass\", "), 20, "[\"loop.sampling_period\", ");
+  return {
+      {"sample = 3\n", "1:1 sample", unknown_key},
+      {"samples = 3.5\n", "1:11 samples", no_whole_number},
+      {"sampling = \"sobel\"\n", "1:12 sampling", not_one_of},
+      {"", "1:1 parameter", no_parameters},
+      {"[specification]\ncritical_stiffness = \"3 kg\"\n", "2:22 specification.critical_stiffness",
+       unit_of_other_measure},
+      {"[specification]\nany_user = 0\n", "2:12 specification.any_user", not_finite_and_positive},
+      {parameter_with("distribution = \"normal\"\n"), "1:1 parameter.0.key", is_missing},
+      {parameter_with("key = \"link.stifness\"\n"), "2:7 parameter.0.key", no_number_of_device},
+      {parameter_with(link), "1:1 parameter.0.distribution", is_missing},
+      {parameter_with(link + "distribution = \"gauss\"\n"), "3:16 parameter.0.distribution", not_one_of},
+      {parameter_with(normal), "1:1 parameter.0.standard_deviation", is_missing},
+      {parameter_with(normal + "mode = 3\n"), "4:1 parameter.0.mode", unknown_key},
+      {parameter_with(normal + "standard_deviation = 2e4\n"), "1:1 parameter.0", reaches_no_device},
+      {parameter_with(link + "distribution = \"uniform\"\nlower = 2\nupper = 1\n"), "5:9 parameter.0.upper",
+       not_above_lower_end},
+      {parameter_with(link + "distribution = \"uniform\"\nrelative_tolerance = 0.1\nupper = 1\n"),
+       "4:22 parameter.0.relative_tolerance", given_beside},
+      {parameter_with(link + "distribution = \"device\"\n"), "3:16 parameter.0.distribution", not_told_by_uncertainty},
+      {parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\n"), "1:1 parameter.0.file", is_missing},
+      {parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"), "4:8 parameter.0.file",
+       cannot_be_read},
+      {whole + twice, "30:7 parameter.4.key", parameter_given_twice},
+      {indefinite, "28:10 correlation.matrix", not_positive_definite},
+      {not_square, "28:10 correlation.matrix", rows_not_one_a_parameter},
+      {of_none, "27:14 correlation.parameters", not_a_parameter_of_study},
+      {parameter_with(normal + "mean = nan\nstandard_deviation = 1\n"), "4:8 parameter.0.mean", not_finite},
+      {parameter_with(normal + "standard_deviation = 1\nlower = nan\n"), "5:9 parameter.0.lower", not_a_number},
+      {parameter_with(normal + "standard_deviation = 1\nupper = nan\n"), "5:9 parameter.0.upper", not_a_number},
+      {parameter_with(normal + "standard_deviation = inf\n"), "4:22 parameter.0.standard_deviation",
+       not_finite_and_positive},
+      {parameter_with(normal + "relative_deviation = -0.1\n"), "4:22 parameter.0.relative_deviation",
+       no_relative_width},
+      {parameter_with(normal + "relative_deviation = 0.1\nstandard_deviation = 1\n"),
+       "4:22 parameter.0.relative_deviation", given_beside},
+      {parameter_with(link + "distribution = \"uniform\"\nrelative_tolerance = -0.1\n"),
+       "4:22 parameter.0.relative_tolerance", no_relative_width},
+      {parameter_with(link + "distribution = \"lognormal\"\nlog_deviation = 0\n"), "4:17 parameter.0.log_deviation",
+       not_finite_and_positive},
+      {parameter_with("key = \"loop.delay\"\ndistribution = \"triangular\"\nlower = 1e-4\nupper = 2e-4\nmode = 1\n"),
+       "6:8 parameter.0.mode", not_between},
+      {parameter_with(discrete + "values = [1, 2]\nweights = [1]\n"), "5:11 parameter.0.weights",
+       weights_not_one_a_value},
+      {parameter_with(discrete + "values = [1, 2]\nweights = [0, 0]\n"), "5:11 parameter.0.weights", weights_all_zero},
+      {parameter_with(discrete + "values = [-1, 2]\n"), "1:1 parameter.0", reaches_no_device},
+      {parameter_with(discrete + "values = [1, \"2 m\"]\n"), "4:14 parameter.0.values", unit_of_other_measure},
+  };
+}
+
+TEST(StudyFile, RefusesWithThePlace) {
+  for (const RefusedStudy& each : refused_studies()) {
+    SCOPED_TRACE(each.text);
+    const auto study = parse_study(each.text, "study.toml", device, ".");
+    ASSERT_FALSE(study);
+    const InputError& error = study.error();
+    EXPECT_EQ(error.place.file, "study.toml");
+    EXPECT_EQ(fmt::format("{}:{} {}", error.place.line, error.place.column, error.place.key), each.place);
+    ASSERT_TRUE(error.problem) << error.str();
+    EXPECT_EQ(error.problem->code, each.code) << error.str();
+  }
+}
+
+TEST(StudyFile, RefusesWhatIsNoToml) {
+  for (const auto& [text, line] : {std::pair{"a = [\n", 0U}, {"a = 1\na = 2\n", 2U}}) {
+    const auto study = parse_study(text, "study.toml", device);
+    ASSERT_FALSE(study);
+    EXPECT_EQ(study.error().place.file, "study.toml");
+    if (line > 0) {
+      EXPECT_EQ(study.error().place.line, line);
+    }
+    ASSERT_TRUE(study.error().problem) << study.error().str();
+    EXPECT_EQ(study.error().problem->code, ProblemCode::not_toml);
+  }
+}
+
+TEST(StudyFile, NamesTheFileThatIsNotThere) {
+  const auto study = parse_study(parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"),
+                                 "study.toml", device, ".");
+  ASSERT_FALSE(study);
+  EXPECT_TRUE(study.error().what.starts_with("./none.txt: ")) << study.error().what;
+}
+
+TEST(StudyFile, NeedsAFolderForAFile) {
+  const auto study = parse_study(parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"),
+                                 "study.toml", device, std::nullopt);
+  ASSERT_FALSE(study);
+  ASSERT_TRUE(study.error().problem);
+  EXPECT_EQ(study.error().problem->code, ProblemCode::no_file_beside_study);
 }
 
 TEST(StudyFile, TakesValuesWithUnits) {
@@ -197,6 +222,7 @@ TEST(StudyFile, TakesNoCommaBetweenDigitsForASeparator) {
   std::ofstream(folder + "/commas.txt") << "# unit: ms\n0,25\n0,5\n";
   const auto refused = parse_study(text, "study.toml", device, folder);
   ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, ::testing::HasSubstr("commas.txt:2: "));
   ASSERT_TRUE(refused.error().problem);
   EXPECT_EQ(*refused.error().problem,
             (Problem{.code = ProblemCode::no_samples_in_file, .subjects = {{"text", "0,25"}}}));

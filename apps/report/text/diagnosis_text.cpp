@@ -23,7 +23,7 @@ std::string cause_text(OscillationCause cause) {
     case OscillationCause::device:
       return "the device itself, nobody holding";
     case OscillationCause::with_user:
-      return "the device with its operator";
+      return "the device with its user";
     case OscillationCause::passive_user:
       return "the grasp of a user";
     case OscillationCause::quantisation:
@@ -74,7 +74,7 @@ std::string otherwise_text(const OscillationCandidate& candidate, const Units& u
                                 quantity(hertz(candidate.frequency), "Hz")));
   }
   if (needed.amplitude != 1.0) parts.push_back(fmt::format("its swing is {}", moved_text(needed.amplitude)));
-  if (parts.empty()) return "it fits where the operator lets go";
+  if (parts.empty()) return "it fits where the user lets go";
   return fmt::format("it fits where {}", fmt::join(parts, " and "));
 }
 
