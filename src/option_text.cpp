@@ -25,16 +25,16 @@ void name_options_in(std::string& text, std::vector<NamedOption>& options,
 
 }  // namespace
 
-std::vector<NamedOption> options_named_in(std::string_view sentence) {
+std::vector<NamedOption> options_named_in(std::string_view phrase) {
   constexpr char quote = '`';
   std::vector<NamedOption> options;
-  for (std::size_t begin = sentence.find(quote); begin != std::string_view::npos;) {
-    const std::size_t end = sentence.find_first_not_of(letters_of_members, begin + 1);
-    const bool is_member = end != std::string_view::npos && end > begin + 1 && sentence[end] == quote;
+  for (std::size_t begin = phrase.find(quote); begin != std::string_view::npos;) {
+    const std::size_t end = phrase.find_first_not_of(letters_of_members, begin + 1);
+    const bool is_member = end != std::string_view::npos && end > begin + 1 && phrase[end] == quote;
     if (is_member) {
-      options.push_back({std::string(sentence.substr(begin + 1, end - begin - 1)), begin, end + 1 - begin});
+      options.push_back({std::string(phrase.substr(begin + 1, end - begin - 1)), begin, end + 1 - begin});
     }
-    begin = sentence.find(quote, is_member ? end + 1 : begin + 1);
+    begin = phrase.find(quote, is_member ? end + 1 : begin + 1);
   }
   return options;
 }

@@ -16,7 +16,7 @@ struct NamedOption {
 };
 
 /// The members of options that stand in `backquotes`.
-[[nodiscard]] std::vector<NamedOption> options_named_in(std::string_view sentence);
+[[nodiscard]] std::vector<NamedOption> options_named_in(std::string_view phrase);
 
 /// A sentence with the options that it names. Only a literal names any: no text of a user is taken for an option.
 struct OptionText {
