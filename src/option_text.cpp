@@ -25,15 +25,21 @@ void name_options_in(std::string& text, std::vector<NamedOption>& options,
 
 }  // namespace
 
-OptionText::OptionText(const char* literal) : text(literal) {
+std::vector<NamedOption> options_named_in(std::string_view phrase) {
   constexpr char quote = '`';
-  for (std::size_t begin = text.find(quote); begin != std::string::npos;) {
-    const std::size_t end = text.find_first_not_of(letters_of_members, begin + 1);
-    const bool is_member = end != std::string::npos && end > begin + 1 && text[end] == quote;
-    if (is_member) options.push_back({text.substr(begin + 1, end - begin - 1), begin, end + 1 - begin});
-    begin = text.find(quote, is_member ? end + 1 : begin + 1);
+  std::vector<NamedOption> options;
+  for (std::size_t begin = phrase.find(quote); begin != std::string_view::npos;) {
+    const std::size_t end = phrase.find_first_not_of(letters_of_members, begin + 1);
+    const bool is_member = end != std::string_view::npos && end > begin + 1 && phrase[end] == quote;
+    if (is_member) {
+      options.push_back({std::string(phrase.substr(begin + 1, end - begin - 1)), begin, end + 1 - begin});
+    }
+    begin = phrase.find(quote, is_member ? end + 1 : begin + 1);
   }
+  return options;
 }
+
+OptionText::OptionText(const char* literal) : text(literal), options(options_named_in(text)) {}
 
 OptionText operator+(OptionText begin, const OptionText& end) {
   for (NamedOption option : end.options) {

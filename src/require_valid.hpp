@@ -13,6 +13,7 @@ inline void require_valid(const std::optional<OptionProblem>& problem) {
   if (!problem) return;
   const std::string member = problem->member + (problem->member.empty() ? "" : " ");
   InputProblem told{{}, problem->what, problem->allowed, {}};
+  told.problem = problem->problem;
   told.place.option = problem->member;
   throw Error(ErrorCode::invalid_argument, member + problem->what + "; " + problem->allowed, {std::move(told)});
 }

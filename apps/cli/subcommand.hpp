@@ -45,7 +45,9 @@ struct CommandText : OptionText {
 }
 
 [[nodiscard]] inline InputProblem problem_of_value(std::string_view option, const UnitProblem& problem) {
-  return problem_of_value(option, problem.what, problem.allowed, problem.suggestion);
+  InputProblem told = problem_of_value(option, problem.what, problem.allowed, problem.suggestion);
+  told.problem = problem.problem;
+  return told;
 }
 
 /// Wrong usage or bad input: main prints every problem on a line of its own and exits with status 2.

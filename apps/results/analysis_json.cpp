@@ -52,7 +52,7 @@ Json quantisation_json(const std::optional<QuantisationPassivity>& bound) {
   return {{"stiffness", bound->stiffness},
           {"friction_stiffness", bound->friction_stiffness},
           {"damping_stiffness", bound->damping_stiffness},
-          {"not_met", bound->not_met},
+          {"not_met", words_of(bound->not_met)},
           {"source", "Abbott & Okamura 2005"}};
 }
 

@@ -27,7 +27,7 @@ static void to_json(Json& json, const OscillationCandidate& candidate) {
 }
 
 static void to_json(Json& json, const DiagnosisChange& change) {
-  json = {{"what", change.what},
+  json = {{"what", words_of(change)},
           {"parameter", change.key},
           {"value_now", change.value_now},
           {"value_then", change.value_then},

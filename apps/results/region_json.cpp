@@ -73,7 +73,7 @@ static void to_json(Json& json, const ComparedApproximation& compared) {
   json = {{"formula", formula.formula},
           {"source", facts.source},
           {"valid_for", facts.valid_for},
-          {"not_met", formula.not_met},
+          {"not_met", words_of(formula.not_met)},
           {"about", formula.any_user ? "any_user" : "device"},
           {"stiffness_at_zero_damping", formula.at_zero_damping},
           {"slope", formula.slope},

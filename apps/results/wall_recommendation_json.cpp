@@ -59,7 +59,7 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
   json["alternatives"] = Json::array();
   for (const RecommendedWall& each : recommendation.alternatives) {
     Json alternative = Json::object();
-    alternative["what"] = each.what;
+    alternative["what"] = words_of(each.kind);
     add_wall(alternative, each, period);
     json["alternatives"].push_back(std::move(alternative));
   }

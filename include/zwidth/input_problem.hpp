@@ -6,17 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/option_problem.hpp"
 #include "zwidth/option_text.hpp"
 
 namespace zwidth {
 
 /// Where a problem of the input lies, as far as it is known.
 struct InputPlace {
-  std::string file;        ///< file name, "standard input", or the name of what came in its place; may be empty
-  std::size_t line = 0;    ///< from 1; 0 where there is no line
-  std::size_t column = 0;  ///< from 1, in bytes; 0 where there is none
-  std::string key;         ///< dotted key as in an override, or the name of a recording's column; may be empty
-  std::string option;      ///< member of an options struct, "duration"; in a front, its name for that; may be empty
+  std::string file = {};    ///< file name, "standard input", or the name of what came in its place; may be empty
+  std::size_t line = 0;     ///< from 1; 0 where there is no line
+  std::size_t column = 0;   ///< from 1, in bytes; 0 where there is none
+  std::string key = {};     ///< dotted key as in an override, or the name of a recording's column; may be empty
+  std::string option = {};  ///< member of an options struct, "duration"; in a front, its name for that; may be empty
 };
 
 /// What is wrong with an input, and what to write instead: the one form in which refusals travel.
@@ -27,6 +28,7 @@ struct InputProblem {
   std::optional<std::string> suggestion;          ///< a value to put there, as an override takes it: "0.5 ms", "handle"
   std::vector<NamedOption> options_of_what = {};  ///< that `what` names
   std::vector<NamedOption> options_of_allowed = {};  ///< that `allowed` names
+  std::optional<Problem> problem = {};               ///< what these are the words of, where it is data
 
   /// What is allowed, and the options that it names.
   void allow(OptionText remedy);
@@ -38,5 +40,8 @@ struct InputProblem {
   /// One line: "OPTION: FILE:LINE:COLUMN: KEY: WHAT; ALLOWED", as far as there is each.
   [[nodiscard]] std::string str() const;
 };
+
+/// A place's problem, in the words of words/problem_text.hpp. What its phrase has in `backquotes` are options.
+[[nodiscard]] InputProblem input_problem(InputPlace place, Problem problem, std::optional<std::string> suggestion = {});
 
 }  // namespace zwidth

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct NamedOption {
   std::size_t at = 0;      ///< of the sentence, in bytes: where it stands
   std::size_t length = 0;  ///< of what stands there
 };
+
+/// The members of options that stand in `backquotes`.
+[[nodiscard]] std::vector<NamedOption> options_named_in(std::string_view phrase);
 
 /// A sentence with the options that it names. Only a literal names any: no text of a user is taken for an option.
 struct OptionText {

@@ -64,7 +64,6 @@ enum class ProblemCode : std::uint16_t {
   needs_any_user,                      ///< a worst user without the limit over all users
   no_body_to_hold,                     ///< a transfer function has no body
   asked_of_transfer_function,          ///< a transfer function has no body
-  user_of_transfer_function,           ///< a transfer function has no body
   any_user_goal_of_transfer_function,  ///< a transfer function has no body
   any_user_goal_needs_bodies,          ///< the device cannot be held, or has too many bodies
   any_user_goal_of_many_bodies,        ///< too many bodies
@@ -108,7 +107,6 @@ enum class ProblemCode : std::uint16_t {
   of_the_device,                     ///< the device that the option makes is refused, for `what`
   no_stiffness_for_drive,            ///< a drive's wall without a stiffness
   filter_unknown_to_drive,           ///< a filter that the firmware lacks
-  travel_missing,                    ///< a linear device without its travel per turn
   damping_needed_by_drive,           ///< a cascade without damping
   torque_per_volt_missing,           ///< a motor constant is missing
   force_limit_missing,               ///< the largest force is missing
@@ -156,7 +154,6 @@ enum class ProblemCode : std::uint16_t {
   covariance_not_symmetric,    ///< a covariance is not symmetric
   covariance_too_large,        ///< a covariance is larger than two variances allow
   no_covariance,               ///< a covariance is not positive semidefinite
-  key_given_twice,             ///< a key is given twice
   values_of_two_lengths,       ///< numbers change by lists of two lengths
   nothing_changed,             ///< no number changes
 
@@ -164,10 +161,6 @@ enum class ProblemCode : std::uint16_t {
   no_body_for_user,                   ///< a transfer function has no body
   no_body_to_start_from,              ///< a transfer function has no body
   start_offset_without_bodies,        ///< a transfer function has no body
-  largest_damping_not_positive,       ///< a damping is not finite and above 0
-  region_deviation_no_fraction,       ///< a deviation is not between 0 and 1
-  outline_deviation_no_fraction,      ///< a deviation is not between 0 and 1
-  branch_factor_too_small,            ///< a factor is not above 1
   recording_without_channel,          ///< a recording has no channel
   recording_without_two_channels,     ///< a relay is recorded as force and position
   no_recording,                       ///< there is no recording
@@ -175,46 +168,159 @@ enum class ProblemCode : std::uint16_t {
   drift_not_possible,                 ///< a drift is not from above -1 to 10
   drift_without_links,                ///< the device has no link
   raster_without_walls,               ///< a raster has no wall
-  velocity_filter_below_zero,         ///< a velocity filter is not finite and at least 0
-  virtual_damper_below_zero,          ///< a damper is not at least 0
   grid_not_rising,                    ///< the stiffnesses of a grid do not rise
   other_devices_limit,                ///< a limit is of another device
   no_uncertainty,                     ///< the device has no uncertainty
-  no_draws,                           ///< no device is drawn
   force_per_count_undefined,          ///< a period or a resolution is not possible
   users_range_not_possible,           ///< a range of users is not possible
   wall_not_possible,                  ///< a wall's number is not possible
-  sampling_period_not_positive,       ///< a sampling period is not above 0
-  delay_below_zero,                   ///< a delay is below 0
-  filter_below_zero,                  ///< a velocity filter is below 0
-  floor_below_zero,                   ///< a floor is below 0
-  relay_amplitude_not_positive,       ///< a relay without force
-  relay_hysteresis_below_zero,        ///< a hysteresis is below 0
   half_periods_not_ordered,           ///< half-periods are not in order
-  delay_not_possible,                 ///< a delay is below 0
   too_many_bodies_with_friction,      ///< too many bodies rub
   motion_too_fast,                    ///< a motion is too fast to follow in time
   force_and_position_of_two_lengths,  ///< force and position have different lengths
-  force_not_finite,                   ///< a force is not finite
-  position_not_finite,                ///< a position is not finite
-  no_sampling_period,                 ///< a sampling period is not above 0
   period_or_samples_not_possible,     ///< a period or a sample is not possible
   ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
   transform_of_nothing,               ///< a transform of no samples
   transform_of_other_length,          ///< a transform of another length
   power_density_not_possible,         ///< a rate or a sample is not possible
-  signal_period_not_positive,         ///< a sampling period is not above 0
   samples_of_channel_not_finite,      ///< a sample is not finite
   cutoff_not_possible,                ///< a cutoff is not below half the rate
-  share_not_possible,                 ///< a share is not between 0 and 1
   count_no_share,                     ///< more than all
   weights_not_possible,               ///< weights are not possible
   answers_not_one_a_point,            ///< as many answers as points are needed
-  answer_not_finite,                  ///< an answer is not finite
   indices_not_possible,               ///< too few samples, or too many dimensions
   too_many_samples_in_memory,         ///< too many samples to keep
   specification_missing,              ///< failures need a specification
-  samples_out_of_range,               ///< a number of samples is out of its range
+
+  // device files
+  of_other_type,             ///< a value is a text, a number or a table where another is needed
+  is_missing,                ///< a key is missing
+  unknown_key,               ///< a table has no such key
+  key_of_other_filters,      ///< a filter of this type has no such key
+  no_such_name,              ///< no body, link or filter is called that
+  given_beside,              ///< two keys of one quantity
+  damping_of_first_order,    ///< a low-pass of order 1 has no damping ratio
+  inertia_of_linear_motion,  ///< an inertia of linear motion
+  not_two_bodies,            ///< a link is between two bodies
+  number_beyond_range,       ///< a number is neither 0 nor from 1e-30 to 1e30
+  number_without_unit,       ///< a number in quotes without a unit
+  decimal_comma,             ///< a comma for the decimal mark
+  unknown_unit,              ///< a unit that is not known
+  unit_of_other_measure,     ///< a unit of another measure
+  not_toml,                  ///< a text is not TOML
+  too_many_dots,             ///< a line nests too deep
+  text_without_quotes,       ///< a text without quotes
+  not_an_assignment,         ///< an override without a key or a value
+  not_a_toml_value,          ///< an override's value is not TOML
+  in_several_tables,         ///< an override does not tell which of several tables
+  no_table_to_override,      ///< an override of a body, link or filter that there is not
+  value_and_no_table,        ///< an override below a key that is no table
+  one_variant,               ///< one value to compare
+  variant_twice,             ///< a value to compare stands twice
+  cannot_be_read,            ///< the system refuses to read a file
+  not_a_file,                ///< a directory or a device, or no name
+  too_many_bytes_read,       ///< a file or a line is too long
+
+  // recordings as text
+  no_text_table,              ///< a file of another kind than a text table
+  no_rows_of_numbers,         ///< a text has no row of numbers
+  format_needs_a_file,        ///< a format cannot be read from a pipe
+  does_not_fit_in_memory,     ///< a recording does not fit into memory
+  too_many_rows_skipped,      ///< more rows are skipped than there are
+  separator_not_possible,     ///< a separator or a decimal mark is not known
+  decimal_mark_is_delimiter,  ///< the decimal mark is the delimiter
+  no_columns,                 ///< a recording has no columns, or none is asked for
+  no_such_column,             ///< no column is called that
+  column_name_not_unique,     ///< several columns are called that
+  too_few_samples,            ///< a column has too few samples
+  wrong_number_of_cells,      ///< a line has too few or too many cells
+  line_without_header,        ///< a line comes ahead of what names its columns
+  line_among_rows,            ///< a line of text stands among the rows
+  section_incomplete,         ///< a section lacks names or values
+  ends_in_header,             ///< a file ends in its header
+  segment_of_other_columns,   ///< segments have different columns
+  no_number_in_cell,          ///< a cell is no number
+  too_many_samples_missing,   ///< too many samples are missing
+  sample_too_large,           ///< a sample is too large
+  too_many_rows_lost,         ///< too many rows are lost
+  no_times,                   ///< nothing states the times
+  asked_for_beside,           ///< a column and what makes it superfluous
+  no_column_of_times,         ///< a column of times that is none
+  times_not_rising,           ///< times do not rise
+  no_timer_count,             ///< a time that the timer cannot show
+  no_period_in_times,         ///< times without a sampling period
+  value_without_time,         ///< a value has no time
+  columns_of_other_times,     ///< columns have different times
+  response_column_ambiguous,  ///< several columns may be a part of a response
+  no_response_column,         ///< a part of a response has no column
+  frequency_out_of_range,     ///< a frequency is out of its range
+  response_line_twice,        ///< a line of a response comes twice
+  magnitude_below_zero,       ///< a magnitude is negative
+  no_line_in_band,            ///< no line of a response is in the band
+  scale_not_possible,         ///< a scale is 0 or not finite
+
+  // recordings in other files
+  damaged_file,            ///< a MAT file is damaged from its start
+  unknown_version,         ///< a MAT file is of a version that is not read
+  changed_while_read,      ///< a file changed between two reads
+  data_end_inside,         ///< the bytes end inside a part
+  bytes_missing,           ///< fewer bytes are left than are announced
+  closing_line_missing,    ///< a line -1 does not follow binary data
+  unpacks_to_more,         ///< more bytes come out than may
+  does_not_unpack,         ///< compressed bytes are damaged
+  zlib_cannot_start,       ///< zlib lacks memory, or is of another version
+  wrong_element,           ///< an element's type or bytes do not fit its part
+  wrong_field,             ///< a number of a header is out of its range
+  size_disagrees,          ///< numbers are more or fewer than their size says
+  nested_too_deep,         ///< structs stand in structs too deep
+  has_too_many,            ///< more values, columns or fields than may be
+  no_table,                ///< signals are no columns of a matrix
+  wrong_kind,              ///< what is there is of another kind than is wanted
+  lies_elsewhere,          ///< a link, or values in another file
+  not_read_by_hdf5,        ///< HDF5 refuses a part
+  holds_none,              ///< a file holds nothing of what is wanted
+  not_one_record,          ///< several records are a response
+  samples_of_two_lengths,  ///< signals of one recording have different lengths
+  axes_differ,             ///< records have other times or frequencies
+  text_not_readable,       ///< a text of a universal file is not what must stand there
+  file_without_columns,    ///< a universal file has records, no columns
+
+  // studies in files
+  not_told_by_uncertainty,   ///< the device's uncertainty does not have this number
+  no_relative_width,         ///< a relative deviation or tolerance leaves no width
+  weights_all_zero,          ///< every weight is 0
+  no_file_beside_study,      ///< a study that is no file names one
+  not_a_parameter_of_study,  ///< a correlation is of what does not vary
+  no_samples_in_file,        ///< a file has no samples, or a line that is none
+
+  // models and designs
+  no_finite_number,               ///< a number is not above 0, below 0 or not finite
+  not_one_of,                     ///< a number or a name is none of those that there are
+  control_character,              ///< a text has a control character
+  too_many_bytes,                 ///< a text is too long
+  stands_too_often,               ///< more bodies, links or filters than there may be
+  name_empty,                     ///< a body without a name
+  names_two_bodies,               ///< two bodies of one name
+  no_body_number,                 ///< no body of the device has this number
+  tied_to_itself,                 ///< a link from a body to itself
+  link_of_nothing,                ///< a link without stiffness and damping
+  body_not_connected,             ///< no links lead from a body to the others
+  number_of_coefficients,         ///< too few or too many coefficients
+  coefficient_out_of_range,       ///< a coefficient is neither 0 nor in its range
+  all_coefficients_zero,          ///< a numerator is 0
+  begins_with_zero,               ///< a denominator's leading coefficient is 0
+  degree_not_lower,               ///< a numerator's degree is not below the denominator's
+  longer_than_denominator,        ///< a numerator with leading zeros is longer than the denominator
+  beside_transfer_function,       ///< bodies, links, a body of the loop or a user beside a transfer function
+  no_body_at_all,                 ///< a device without bodies and transfer function
+  no_such_body,                   ///< no body of the device is called that
+  delay_of_too_many_periods,      ///< a delay of more sampling periods than are kept
+  travel_per_turn_missing,        ///< a linear device's drive without its travel per turn
+  no_letter,                      ///< a drive's command is not one letter
+  filter_not_stable,              ///< a filter's pole does not die out
+  static_gain_not_positive,       ///< a filter's static gain is not above 0
+  frequency_of_digital_filter,    ///< a digital filter has no frequency of its own
+  filter_frequency_out_of_range,  ///< a filter's frequency is not below Nyquist
 
   // computations that do not come to their end
   outline_not_closed,              ///< the boundary of the region does not close

@@ -107,6 +107,7 @@
 #include "zwidth/stability/holding.hpp"
 #include "zwidth/stability/quantisation_passivity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
+#include "zwidth/stability/unmet_assumption.hpp"
 #include "zwidth/stability/user_family.hpp"
 #include "zwidth/stability/wall_margins.hpp"
 #include "zwidth/stability/worst_user.hpp"

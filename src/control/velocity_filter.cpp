@@ -1,22 +1,13 @@
 #include "zwidth/control/velocity_filter.hpp"
 
-#include <cmath>
-
-#include "zwidth/error.hpp"
+#include "require_argument.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth {
 
 VelocityFilter::VelocityFilter(double cutoff_hz, double sampling_period) : rate_(1.0 / sampling_period) {
-  if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::sampling_period_not_positive,
-                                              .evidence = {{"value", sampling_period}},
-                                              .subjects = {{"unit", "s"}}});
-  }
-  if (!(std::isfinite(cutoff_hz) && cutoff_hz >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::filter_below_zero, .evidence = {{"value", cutoff_hz}}});
-  }
+  internal::require_positive({"sampling period", sampling_period, "s"});
+  internal::require_not_negative({"velocity filter", cutoff_hz, "Hz"});
   pole_ = velocity_filter_pole(cutoff_hz, sampling_period);
 }
 

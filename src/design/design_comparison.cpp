@@ -55,7 +55,7 @@ std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const 
   if (!user) return std::nullopt;
   for (const DeviceVariant& each : variants.variants) {
     if (!each.device.has_bodies() && is_present(*user)) {
-      return option_problem("user", {.code = ProblemCode::user_of_transfer_function});
+      return option_problem("user", {.code = ProblemCode::asked_of_transfer_function});
     }
     DeviceParameters held = each.device.parameters();
     held.user = *user;

@@ -1,9 +1,6 @@
 #include "io/codesys_trace.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -13,6 +10,7 @@
 #include "io/column_names.hpp"
 #include "io/export_lines.hpp"
 #include "io/prose.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -31,12 +29,7 @@ std::string_view key_of_variable(std::string_view key) {
 
 std::optional<std::uint32_t> flags_in(std::string_view cell) {
   const bool is_hexadecimal = cell.starts_with("0x") || cell.starts_with("0X");
-  const std::string_view digits = is_hexadecimal ? cell.substr(2) : cell;
-  std::uint32_t flags = 0;
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), flags, is_hexadecimal ? 16 : 10);
-  const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-  return is_number ? std::optional(flags) : std::nullopt;
+  return is_hexadecimal ? whole_text_as<std::uint32_t>(cell.substr(2), 16) : whole_text_as<std::uint32_t>(cell);
 }
 
 class TraceReader {
@@ -70,8 +63,7 @@ class TraceReader {
     }
     if (own == "Data") {
       if (exported_.columns.empty() || exported_.columns.back().samples > 0) {
-        return tl::unexpected(lines_.refused(line, fmt::format("{} has no variable above it", in_quotes(key)),
-                                             "must follow its variable (\"0.Variable; NAME\")"));
+        return tl::unexpected(without_variable(line));
       }
       is_in_data_ = true;
     }
@@ -80,16 +72,14 @@ class TraceReader {
 
   TraceRead add_sample(const ExportLine& line) {
     if (!is_in_data_) {
-      return tl::unexpected(lines_.refused(line, "is a sample without a variable",
-                                           "must stand in a variable's block, below \"0.Data;\""));
+      return tl::unexpected(without_variable(line));
     }
     ExportedColumn& column = exported_.columns.back();
     constexpr std::size_t cells = 3;  // nothing, time, value
     const bool has_cells = line.cells.size() == cells || (line.cells.size() == cells + 1 && line.cells.back().empty());
     if (!has_cells && line.may_be_cut_off && line.cells.size() < cells) return leave_out(line);
     if (!has_cells) {
-      return tl::unexpected(
-          lines_.refused(line, fmt::format("has {} cells", line.cells.size()), "must be a sample: \"; time; value\""));
+      return tl::unexpected(lines_.wrong_cells(line, line.cells.size(), cells, "sample"));
     }
     const NumberCell time = lines_.number(line.cells[1]);
     if (time.kind != NumberCell::Kind::number) {
@@ -106,6 +96,10 @@ class TraceReader {
     return {};
   }
 
+  InputError without_variable(const ExportLine& line) const {
+    return lines_.refused(line, {.code = ProblemCode::line_without_header, .subjects = {{"format", "codesys"}}});
+  }
+
   TraceRead leave_out(const ExportLine& line) {
     exported_.remarks.push_back(
         warning({.code = FindingCode::last_line_cut_off, .evidence = {counted("line", line.line.number)}}));
@@ -116,24 +110,16 @@ class TraceReader {
   std::optional<InputError> finish() {
     const std::size_t variables = exported_.columns.size();
     if (variables == 0) {
-      return InputError{exported_.source,
-                        0,
-                        0,
-                        "",
-                        "is a trace of CODESYS without variables",
-                        "must have one at least (\"0.Variable; NAME\")"};
+      return InputError{{.file = exported_.source},
+                        {.code = ProblemCode::no_columns, .subjects = {{"format", "codesys"}}}};
     }
     constexpr std::uint32_t in_ms = 0x10;
     constexpr std::uint32_t in_us = 0x20;
     const std::uint32_t flags = flags_.value_or(0);
     const bool is_stated = ((flags & in_ms) != 0) != ((flags & in_us) != 0);
     if (!is_stated && !options_.columns.empty() && !options_.time_scale && !options_.rate) {
-      return InputError{exported_.source,
-                        0,
-                        0,
-                        "Flags",
-                        "do not say whether times are in ms or us",
-                        "must have one of the bits 16 and 32; or state the unit (`time_scale`), or the rate (`rate`)"};
+      return InputError{{.file = exported_.source, .key = "Flags"},
+                        {.code = ProblemCode::no_times, .subjects = {{"of", "flags"}}}};
     }
     const std::string unit = !is_stated ? "" : (flags & in_ms) != 0 ? "ms" : "us";
     for (std::size_t c = 0; c < variables; ++c) {

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/column_unit.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -41,13 +42,9 @@ InputError unknown_column(std::span<const std::string> columns, const std::strin
     if (const auto [name, unit] = name_and_unit(column); !unit.empty()) names.emplace_back(name);
   }
   const std::string meant = nearest_word(asked, names);
-  const std::string question = meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant);
-  return {source,
-          0,
-          0,
-          shortened(asked),
-          "no such column",
-          fmt::format("{}the file has {}", question, listed_columns(shown.empty() ? columns : shown))};
+  Problem problem = with_columns({.code = ProblemCode::no_such_column}, shown.empty() ? columns : shown);
+  if (!meant.empty()) problem.subjects.push_back({"meant", meant});
+  return {{.file = source, .key = shortened(asked)}, std::move(problem)};
 }
 
 }  // namespace
@@ -75,12 +72,13 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.front() == '[' || unit.front() == '(' ? name + " " + unit : fmt::format("{} [{}]", name, unit);
 }
 
-std::string listed_columns(std::span<const std::string> columns) {
+Problem with_columns(Problem problem, std::span<const std::string> columns) {
   std::vector<std::string> shown;
   shown.reserve(columns.size());
   for (const std::string& column : columns) shown.push_back(shortened(column));
-  return fmt::format("{}: {}", columns.size() == 1 ? "1 column" : fmt::format("{} columns", columns.size()),
-                     listed(shown));
+  problem.evidence.push_back(counted("columns", columns.size()));
+  problem.subjects.push_back({"names", listed(shown)});
+  return problem;
 }
 
 tl::expected<std::size_t, InputError> find_column(std::span<const std::string> columns, const std::string& asked,
@@ -101,15 +99,14 @@ tl::expected<std::size_t, InputError> find_column(std::span<const std::string> c
     const auto found = where(columns, reading);
     if (found.size() == 1) return found.front();
     if (found.size() > 1) {
-      return tl::unexpected(InputError{source, 0, 0, shortened(asked),
-                                       fmt::format("{} columns have this name", found.size()),
-                                       fmt::format("must be one of their numbers: {}", numbers_of(found))});
+      return tl::unexpected(InputError{{.file = source, .key = shortened(asked)},
+                                       {.code = ProblemCode::column_name_not_unique,
+                                        .evidence = {counted("columns", found.size())},
+                                        .subjects = {{"numbers", numbers_of(found)}}}});
     }
   }
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
-  const bool is_number = error == std::errc() && end == asked.data() + asked.size();
-  if (is_number && number >= 1 && number <= columns.size()) return number - 1;
+  const auto number = whole_text_as<std::size_t>(asked);
+  if (number && *number >= 1 && *number <= columns.size()) return *number - 1;
   return tl::unexpected(unknown_column(columns, asked, source, shown));
 }
 

@@ -23,8 +23,8 @@ struct NameAndUnit {
 /// "F [N]" of F and N (or "[N]", "(N)").
 [[nodiscard]] std::string with_unit(const std::string& name, const std::string& unit);
 
-/// "3 columns: t, F [N], x"; the first of them where there are many.
-[[nodiscard]] std::string listed_columns(std::span<const std::string> columns);
+/// The problem with the `columns` that there are and their `names`, the first of them where there are many.
+[[nodiscard]] Problem with_columns(Problem problem, std::span<const std::string> columns);
 
 /// Index (from 0) of the column that is asked for: by its exact name, by its name without the unit, by either without
 /// regard to case, or by its number from 1 -- the first of these that fits one column.

@@ -67,13 +67,13 @@ class DeskReader {
     }
     if (is_in_rows_ && key.empty()) return add_row(line);
     if (key.empty() || read_number(key, '.').kind == NumberCell::Kind::number) {
-      return tl::unexpected(lines_.refused(line, "is a row outside of a section",
-                                           "must follow the line that begins with \"trace_values\""));
+      return tl::unexpected(
+          lines_.refused(line, {.code = ProblemCode::line_without_header, .subjects = {{"format", "controldesk"}}}));
     }
     if (is_in_rows_) {
       return tl::unexpected(
-          lines_.refused(line, fmt::format("begins with {} among the rows", in_quotes(as_utf8(line.cell(0)))),
-                         "must begin with an empty cell, or follow an empty line"));
+          lines_.refused(line, {.code = ProblemCode::line_among_rows,
+                                .subjects = {{"format", "controldesk"}, {"beginning", beginning_of(line)}}}));
     }
     auto& cells = metadata_[key];
     cells.clear();
@@ -97,9 +97,8 @@ class DeskReader {
     std::size_t cells = line.cells.size();
     while (cells > fewest && line.cells[cells - 1].empty() && name_of_signal(cells - 1).empty()) --cells;
     if (!has_names || cells < fewest) {
-      return tl::unexpected(
-          lines_.refused(line, has_names ? "has no values" : "has values of signals without names",
-                         "must follow a line \"trace_names\" or \"path\", with a time and a value for each signal"));
+      return tl::unexpected(lines_.refused(
+          line, {.code = ProblemCode::section_incomplete, .evidence = {counted("values", has_names ? 0 : cells - 1)}}));
     }
     ++sections_;
     cells_ = cells;
@@ -141,8 +140,7 @@ class DeskReader {
              .subjects = {{"document", "export"}}}));
         return {};
       }
-      return tl::unexpected(lines_.refused(line, fmt::format("has {} cells", size),
-                                           fmt::format("must have {}, as the section's first row", cells_)));
+      return tl::unexpected(lines_.wrong_cells(line, size, cells_, "section"));
     }
     const NumberCell time = lines_.number(line.cells[1]);
     if (time.kind != NumberCell::Kind::number)

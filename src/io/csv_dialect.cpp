@@ -1,7 +1,5 @@
 #include "io/csv_dialect.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -262,13 +260,10 @@ Remark description(const CsvDialect& dialect, const Reading& reading) {
 }
 
 tl::unexpected<InputError> no_table(std::span<const TextLine> content, const std::string& source) {
-  const std::string beginning = in_quotes(as_utf8(content.front().text));
-  std::string what = content.size() == 1 ? fmt::format("has one line, {}, and no row of numbers", beginning)
-                                         : fmt::format("has no rows of numbers; it begins with {}", beginning);
-  return tl::unexpected(
-      InputError{source, 0, 0, "", std::move(what),
-                 "must be a table: columns of numbers separated by commas, semicolons, tabs or blanks, below a header "
-                 "that may be passed over (`skip_rows`)"});
+  return tl::unexpected(InputError{{.file = source},
+                                   {.code = ProblemCode::no_rows_of_numbers,
+                                    .evidence = {counted("lines", content.size())},
+                                    .subjects = {{"beginning", in_quotes(as_utf8(content.front().text))}}}});
 }
 
 /// A line of text above the rows, in a column that holds numbers: never a sample, whichever columns are asked for.
@@ -277,14 +272,14 @@ std::optional<InputError> text_above_the_rows(const Reading& reading, const std:
   const Line& line = reading.lines()[reading.first_row()];
   for (std::size_t c = 0; c < std::min(reading.columns(), line.cells.size()); ++c) {
     if (!reading.is_no_cell_of_a_row(line, c)) continue;
-    return InputError{source,
-                      line.number,
-                      1,
-                      reading.names() ? shortened(header_names(reading)[c]) : std::to_string(c + 1),
-                      why_no_number(line.cells[c], reading.notation().decimal_mark),
-                      OptionText("must be a number; where the line is part of a header, pass over all of it "
-                                 "(`skip_rows` ") +
-                          fmt::format("{})", reading.lines()[reading.first_clean_row()].number - 1)};
+    Problem problem = no_number_in(line.cells[c], reading.notation().decimal_mark);
+    problem.evidence.push_back(counted("line", reading.lines()[reading.first_clean_row()].number - 1));
+    problem.subjects.push_back({"as", "header"});
+    return InputError{{.file = source,
+                       .line = line.number,
+                       .column = 1,
+                       .key = reading.names() ? shortened(header_names(reading)[c]) : std::to_string(c + 1)},
+                      std::move(problem)};
   }
   return std::nullopt;
 }
@@ -292,13 +287,15 @@ std::optional<InputError> text_above_the_rows(const Reading& reading, const std:
 std::optional<InputError> refused_options(const RecordingOptions& options, const std::string& source) {
   constexpr std::string_view delimiters = ",;\t ";
   if (options.delimiter && delimiters.find(*options.delimiter) == std::string_view::npos) {
-    return InputError{source, 0, 0, "delimiter", "is none of the known ones", "must be , or ; or a tab or a blank"};
+    return InputError{{.file = source, .key = "delimiter"},
+                      {.code = ProblemCode::separator_not_possible, .subjects = {{"of", "delimiter"}}}};
   }
   if (options.decimal_mark && *options.decimal_mark != '.' && *options.decimal_mark != ',') {
-    return InputError{source, 0, 0, "decimal mark", "is none of the known ones", "must be a point or a comma"};
+    return InputError{{.file = source, .key = "decimal mark"},
+                      {.code = ProblemCode::separator_not_possible, .subjects = {{"of", "decimal_mark"}}}};
   }
   if (options.delimiter == ',' && options.decimal_mark == ',') {
-    return InputError{source, 0, 0, "decimal mark", "is the delimiter", "must differ from it"};
+    return InputError{{.file = source, .key = "decimal mark"}, {.code = ProblemCode::decimal_mark_is_delimiter}};
   }
   return std::nullopt;
 }
@@ -336,8 +333,8 @@ tl::expected<CsvDialect, InputError> detect_csv_dialect(std::span<const TextLine
     if (!is_empty_line(line.text) && !is_comment_line(line.text, options.comment)) content.push_back(line);
   }
   if (content.empty()) {
-    return tl::unexpected(InputError{source, 0, 0, "", head.empty() ? "is empty" : "has comments or empty lines only",
-                                     "must be a table with a row of numbers for each sample"});
+    return tl::unexpected(InputError{
+        {.file = source}, {.code = ProblemCode::no_rows_of_numbers, .evidence = {counted("lines", head.size())}}});
   }
   Reading reading = best_reading(content, options);
   reading.take_header_as(options.header);
@@ -345,10 +342,11 @@ tl::expected<CsvDialect, InputError> detect_csv_dialect(std::span<const TextLine
   if (reading.names() && !reading.fits(reading.lines()[*reading.names()])) {
     const Line& header = reading.lines()[*reading.names()];
     return tl::unexpected(
-        InputError{source, header.number, 1, "",
-                   fmt::format("the header has {} cells and the rows have {}", header.cells.size(), reading.columns()),
-                   OptionText("must have a name for each column; where it is no header, pass it over (`skip_rows` ") +
-                       fmt::format("{})", header.number)});
+        InputError{{.file = source, .line = header.number, .column = 1},
+                   {.code = ProblemCode::wrong_number_of_cells,
+                    .evidence = {counted("cells", header.cells.size()), counted("expected", reading.columns()),
+                                 counted("line", header.number)},
+                    .subjects = {{"as", "rows"}}}});
   }
   if (auto refusal = text_above_the_rows(reading, source)) return tl::unexpected(std::move(*refusal));
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/device_overrides.hpp"
 #include "io/device_reading.hpp"
 #include "io/prose.hpp"
@@ -21,6 +22,10 @@
 namespace zwidth {
 using namespace internal;
 namespace {
+
+Problem beside_transfer_function(const char* part) {
+  return {.code = ProblemCode::beside_transfer_function, .subjects = {{"part", part}}};
+}
 
 /// Reads the tables of one document, in the order in which later ones need earlier ones.
 class DeviceReader {
@@ -48,8 +53,7 @@ class DeviceReader {
     reading_.set_motion(device_.motion);
     if (motion && motion != "linear" && motion != "rotary") {
       const std::string meant = nearest_word(lower_case(*motion), std::vector<std::string>{"linear", "rotary"});
-      root_.refuse("motion", fmt::format("is {}", in_quotes(*motion)), "must be \"linear\" or \"rotary\"",
-                   meant.empty() ? std::nullopt : std::optional(meant));
+      root_.refuse("motion", not_one_of(*motion, R"("linear" or "rotary")"), suggested(meant));
       if (meant == "rotary") reading_.set_motion(device_.motion = Motion::rotary);  // its units are no further problem
     }
   }
@@ -61,7 +65,7 @@ class DeviceReader {
       body.name = reader.text("name").value_or("");
       if (!body.name.empty()) reader.rename(fmt::format("body.{}", body.name));
       reader.refuse_keys_not_of(DeviceTable::body);
-      if (!reader.has("name")) reader.refuse_missing("name", "must be given as text in quotes");
+      if (!reader.has("name")) reader.refuse_missing("name", {"text"});
       read_members(reader, DeviceTable::body, body);
       names_.push_back(body.name);
       device_.bodies.push_back(std::move(body));
@@ -72,9 +76,10 @@ class DeviceReader {
     for (const toml::table* table : root_.tables(DeviceTable::link)) {
       TableReader reader(reading_, *table, fmt::format("link.{}", device_.links.size()));
       reader.refuse_keys_not_of(DeviceTable::link);
-      const auto between = reader.required_texts("between", "an array of two body names");
+      const auto between = reader.required_texts("between", {"bodies"});
       if (between.size() != 2) {
-        reader.refuse("between", fmt::format("has length {}", between.size()), "must name two bodies");
+        reader.refuse("between",
+                      {.code = ProblemCode::not_two_bodies, .evidence = {counted("length", between.size())}});
       }
       Link link;
       if (between.size() == 2) {
@@ -83,7 +88,7 @@ class DeviceReader {
       }
       read_members(reader, DeviceTable::link, link);
       if (!reader.has("stiffness") && !reader.has("damping")) {
-        reader.refuse_missing("stiffness", "must be given, or damping, or both");
+        reader.refuse_missing("stiffness", {"gain"});
       }
       device_.links.push_back(link);
     }
@@ -96,12 +101,11 @@ class DeviceReader {
     device_.transfer_function = {reader.required_numbers("numerator"), reader.required_numbers("denominator")};
     for (const std::string_view key : {"body", "link"}) {
       if (root_.has(key)) {
-        root_.refuse(key, "stands beside [transfer_function]",
-                     "must be either bodies and links or a transfer function");
+        root_.refuse(key, beside_transfer_function("bodies"));
       }
     }
     if (root_.has("operator")) {
-      root_.refuse("operator", "stands beside [transfer_function]", "an operator needs bodies: leave it out");
+      root_.refuse("operator", beside_transfer_function("operator"));
     }
   }
 
@@ -109,7 +113,7 @@ class DeviceReader {
     const toml::table* table = root_.table(DeviceTable::loop);
     if (!table) {
       if (!device_.bodies.empty() || device_.transfer_function) {
-        root_.refuse_missing("loop", "must be given as [loop] with sampling_period in seconds");
+        root_.refuse_missing("loop", {"loop"});
       }
       return;
     }
@@ -137,10 +141,12 @@ class DeviceReader {
     if (!tau) return;
     const double period = device_.loop.sampling_period;
     if (wall.has("velocity_filter_hz")) {
-      wall.refuse("velocity_filter_tau", "is given beside velocity_filter_hz, which is the same filter",
-                  "must be one of the two");
+      wall.refuse("velocity_filter_tau",
+                  {.code = ProblemCode::given_beside, .subjects = {{"other", "velocity_filter_hz"}}});
     } else if (!not_negative_numbers.contains(*tau)) {
-      wall.refuse("velocity_filter_tau", fmt::format("is {}", *tau), "must be 0 or from 1e-30 to 1e30 (in s)");
+      wall.refuse("velocity_filter_tau", {.code = ProblemCode::number_beyond_range,
+                                          .evidence = {{"value", *tau}},
+                                          .subjects = {{"in", std::string(si_unit(Measure::time, device_.motion))}}});
     } else if (*tau > 0.0 && period > 0.0) {
       device_.wall.velocity_filter_hz = std::log1p(period / *tau) / (2.0 * std::numbers::pi * period);
     }
@@ -164,18 +170,18 @@ class DeviceReader {
     TableReader reader = table_reader(DeviceTable::uncertainty, *table);
     Uncertainty& uncertainty = device_.uncertainty.emplace();
     uncertainty.warning = reader.text("warning").value_or("");
-    if (reader.has("reasons")) uncertainty.reasons = reader.required_texts("reasons", "an array of texts");
+    if (reader.has("reasons")) uncertainty.reasons = reader.required_texts("reasons", {"texts"});
     uncertainty.verdict = read_verdict(reader);
     const bool is_of_parameters = reader.has("parameters") || reader.has("covariance");
     const bool says_why = reader.has("warning") || reader.has("reasons") || reader.has("verdict");
     if (reader.has("assumed")) {
-      uncertainty.assumed = reader.required_texts("assumed", "an array of keys such as \"body.motor.mass\"");
+      uncertainty.assumed = reader.required_texts("assumed", {"keys", "body.motor.mass"});
       // An empty list is that of a device whose numbers have all been given.
       if (!is_of_parameters && !says_why && uncertainty.assumed.empty()) device_.uncertainty.reset();
       if (!is_of_parameters) return;
     }
     if (!is_of_parameters && says_why) return;
-    uncertainty.parameters = reader.required_texts("parameters", "an array of keys such as \"link.0.stiffness\"");
+    uncertainty.parameters = reader.required_texts("parameters", {"keys", "link.0.stiffness"});
     uncertainty.covariance = reader.required_rows("covariance");
   }
 
@@ -184,8 +190,7 @@ class DeviceReader {
     if (!text || *text == "sound") return Trust::Verdict::sound;
     if (*text == "doubtful") return Trust::Verdict::doubtful;
     if (*text != "refused") {
-      reader.refuse("verdict", fmt::format("is {}", in_quotes(*text)),
-                    "must be \"sound\", \"doubtful\" or \"refused\"");
+      reader.refuse("verdict", not_one_of(*text, R"("sound", "doubtful" or "refused")"));
     }
     return Trust::Verdict::refused;
   }
@@ -210,7 +215,7 @@ class DeviceReader {
     const auto name = reader.text(key);
     if (!name) return otherwise;
     if (device_.transfer_function) {
-      reader.refuse(key, "names a body beside [transfer_function]", "a transfer function has no bodies: leave it out");
+      reader.refuse(key, beside_transfer_function("loop"));
       return otherwise;
     }
     return body_index(reader, key, *name);
@@ -226,13 +231,8 @@ class DeviceReader {
       return 0;
     }
     const std::string meant = nearest_word(name, names_);
-    const std::string what = fmt::format("there is no body {}", in_quotes(name));
-    if (meant.empty()) {
-      reader.refuse(key, what, fmt::format("the bodies are {}", listed(names_)));
-    } else {  // of the two of a link there is no one value to put
-      reader.refuse(key, what, fmt::format("did you mean \"{}\"?", meant),
-                    key == "between" ? std::nullopt : std::optional(meant));
-    }
+    // Of the two of a link there is no one value to put.
+    reader.refuse(key, no_such_body(name, names_, meant), suggested(key == "between" ? "" : meant));
     return 0;
   }
 

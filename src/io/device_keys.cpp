@@ -32,16 +32,27 @@ const DeviceTableKey& entry_of(DeviceTable table) { return device_tables()[stati
 
 bool is_key_of(DeviceTable table, std::string_view key) { return std::ranges::count(keys_of(table), key) > 0; }
 
-std::string remedy_for_unknown_key(DeviceTable table, std::string_view key) {
-  if (auto remedy = remedy_for_synonym(table, key)) return *std::move(remedy);
+Problem unknown_key_of(DeviceTable table, std::string_view key) {
+  Problem problem{.code = ProblemCode::unknown_key, .subjects = remedy_for_synonym(table, key)};
   std::vector<std::string> homes;
   for (const DeviceTableKey& other : device_tables()) {
     if (is_key_of(other.table, key)) homes.push_back(header_of(other.table));
   }
-  if (!homes.empty()) return fmt::format("it belongs in {}", fmt::join(homes, " or "));
-  const std::string meant = nearest_word(key, keys_of(table));
-  if (!meant.empty()) return fmt::format("did you mean \"{}\"?", meant);
-  return fmt::format("the keys of {} are {}", header_of(table), listed(keys_of(table)));
+  if (problem.subjects.empty() && homes.empty()) {
+    problem = unknown_key_beside(keys_of(table), key);
+    problem.subjects.push_back({"table", header_of(table)});
+    return problem;
+  }
+  if (problem.subjects.empty()) problem.subjects.push_back({"homes", fmt::format("{}", fmt::join(homes, " or "))});
+  problem.subjects.push_back({"name", shortened(key)});
+  return problem;
+}
+
+Problem unknown_key_beside(std::span<const std::string> keys, std::string_view key) {
+  Problem problem{.code = ProblemCode::unknown_key, .subjects = {{"name", shortened(key)}}};
+  const std::string meant = nearest_word(key, keys);
+  problem.subjects.push_back(meant.empty() ? Subject{"keys", listed(keys)} : Subject{"meant", meant});
+  return problem;
 }
 
 }  // namespace zwidth::internal

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "zwidth/model/device_key.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth::internal {
 
@@ -16,8 +17,9 @@ namespace zwidth::internal {
 
 [[nodiscard]] bool is_key_of(DeviceTable table, std::string_view key);
 
-/// What to do about a key that does not stand in the table: the key that was meant, the table where it belongs, or the
-/// list of keys.
-[[nodiscard]] std::string remedy_for_unknown_key(DeviceTable table, std::string_view key);
+/// A key that does not stand in the table, with the key that was meant, the table where it belongs, or the list of keys.
+[[nodiscard]] Problem unknown_key_of(DeviceTable table, std::string_view key);
+/// The same of a table that has these keys.
+[[nodiscard]] Problem unknown_key_beside(std::span<const std::string> keys, std::string_view key);
 
 }  // namespace zwidth::internal

@@ -3,22 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/device_keys.hpp"
 #include "io/device_reading.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/toml_text.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-InputError refusal(std::string_view key, std::string what, std::string allowed) {
-  return {override_source, 0, 0, std::string(key), std::move(what), std::move(allowed)};
+InputError refusal(std::string_view key, Problem problem) {
+  return {InputPlace{.file = override_source, .key = std::string(key)}, std::move(problem)};
 }
 
 /// Where an override goes: a table of the document (null: the document is malformed there) and a key in it.
@@ -26,13 +27,6 @@ struct Target {
   toml::table* table = nullptr;
   std::string key;
 };
-
-std::optional<std::size_t> as_index(std::string_view text) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return index;
-}
 
 std::vector<std::string> names_in(const toml::array& tables) {
   std::vector<std::string> names;
@@ -52,22 +46,22 @@ tl::expected<std::size_t, InputError> selected(const toml::array& tables, Device
   if (kind == DeviceTable::body && !selector.empty() && named != names.end()) {
     return static_cast<std::size_t>(named - names.begin());
   }
-  if (const auto index = as_index(selector); index && *index < tables.size()) return *index;
+  if (const auto index = whole_text_as<std::size_t>(selector); index && *index < tables.size()) return *index;
   if (selector.empty() && tables.size() == 1) return 0;
 
   const std::string table = path_of(kind);
   if (selector.empty()) {
-    return tl::unexpected(refusal(whole_key, fmt::format("could be in any of {} {}", tables.size(), header_of(kind)),
-                                  fmt::format("write for instance {}.0.{}", table, key)));
+    return tl::unexpected(refusal(
+        whole_key, {.code = ProblemCode::in_several_tables,
+                    .evidence = {counted("count", tables.size())},
+                    .subjects = {{"header", header_of(kind)}, {"example", fmt::format("{}.0.{}", table, key)}}}));
   }
-  const std::string meant = kind == DeviceTable::body ? nearest_word(selector, names) : std::string{};
-  std::string allowed = fmt::format("must be {0}.0 to {0}.{1}", table, tables.size() - 1);
-  if (!meant.empty()) {
-    allowed = fmt::format("did you mean \"{}\"?", meant);
-  } else if (kind == DeviceTable::body) {
-    allowed = fmt::format("the bodies are {}", listed(names));
+  if (kind == DeviceTable::body) {
+    return tl::unexpected(refusal(whole_key, no_such_body(selector, names, nearest_word(selector, names))));
   }
-  return tl::unexpected(refusal(whole_key, fmt::format("there is no {} {}", table, in_quotes(selector)), allowed));
+  return tl::unexpected(refusal(whole_key, {.code = ProblemCode::no_such_name,
+                                            .evidence = {counted("last", tables.size() - 1)},
+                                            .subjects = {{"what", table}, {"name", shortened(selector)}}}));
 }
 
 /// The node of the table or the [[tables]]; null where the file left it out, the one that holds it where that is no table.
@@ -84,11 +78,6 @@ toml::node* made_node(toml::table& document, DeviceTable kind) {
   return &parent.insert_or_assign(toml::key(entry_of(kind).name, override_region()), toml::table{}).first->second;
 }
 
-std::string remedy_without_tables(DeviceTable kind) {
-  if (kind == DeviceTable::filter) return "to add one write wall.filter=[{type=\"low_pass\", frequency_hz=60}]";
-  return "an override changes what the file has; it adds no body or link";
-}
-
 /// Resolves body.NAME.key, body.0.key, link.0.key, link.key, wall.filter.0.key, wall.filter.key.
 tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceTable kind, std::string_view path,
                                                   std::string_view whole_key) {
@@ -96,13 +85,15 @@ tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceT
   const std::string_view selector = dot == std::string_view::npos ? std::string_view{} : path.substr(0, dot);
   const std::string_view key = dot == std::string_view::npos ? path : path.substr(dot + 1);
   if (!is_key_of(kind, key)) {
-    return tl::unexpected(
-        refusal(whole_key, fmt::format("unknown key {}", in_quotes(key)), remedy_for_unknown_key(kind, key)));
+    return tl::unexpected(refusal(whole_key, unknown_key_of(kind, key)));
   }
   toml::node* node = node_of(document, kind);
   if (!node) {
-    return tl::unexpected(
-        refusal(whole_key, fmt::format("the device has no {}", header_of(kind)), remedy_without_tables(kind)));
+    Problem problem{.code = ProblemCode::no_table_to_override, .subjects = {{"header", header_of(kind)}}};
+    if (kind == DeviceTable::filter) {
+      problem.subjects.push_back({"example", R"(wall.filter=[{type="low_pass", frequency_hz=60}])"});
+    }
+    return tl::unexpected(refusal(whole_key, std::move(problem)));
   }
   toml::array* tables = node->as_array();
   if (!tables || tables->empty()) return Target{};
@@ -117,8 +108,7 @@ tl::expected<Target, InputError> target_in_table(toml::table& document, DeviceTa
   if (!is_key_of(kind, key)) {
     const std::string_view head = key.substr(0, key.find('.'));  // of wall.fliter.0.depth, what is misspelt
     const std::string_view unknown = is_key_of(kind, head) ? key : head;
-    return tl::unexpected(
-        refusal(whole_key, fmt::format("unknown key {}", in_quotes(unknown)), remedy_for_unknown_key(kind, unknown)));
+    return tl::unexpected(refusal(whole_key, unknown_key_of(kind, unknown)));
   }
   return Target{made_node(document, kind)->as_table(), std::string(key)};
 }
@@ -127,8 +117,7 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
   const auto dot = whole_key.find('.');
   const std::string_view first = whole_key.substr(0, dot);
   if (!is_key_of(DeviceTable::root, first)) {
-    return tl::unexpected(refusal(whole_key, fmt::format("unknown key {}", in_quotes(first)),
-                                  remedy_for_unknown_key(DeviceTable::root, first)));
+    return tl::unexpected(refusal(whole_key, unknown_key_of(DeviceTable::root, first)));
   }
   if (dot == std::string_view::npos) return Target{&document, std::string(first)};
   const DeviceTableKey* table = nullptr;  // the innermost
@@ -139,8 +128,8 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
     const std::string_view rest = whole_key.substr(path_of(table->table).size() + 1);
     return (table->is_many ? target_in_tables : target_in_table)(document, table->table, rest, whole_key);
   }
-  return tl::unexpected(refusal(whole_key, fmt::format("{} is one value, not a table", in_quotes(first)),
-                                fmt::format("write {}=VALUE", first)));
+  return tl::unexpected(
+      refusal(whole_key, {.code = ProblemCode::value_and_no_table, .subjects = {{"name", std::string(first)}}}));
 }
 
 /// A TOML document with the one key "value", or why the text is no TOML value.
@@ -150,17 +139,15 @@ tl::expected<toml::table, InputError> parse_value(std::string_view key, std::str
   if (!document && is_bare_text(text)) {
     document = parse_toml(fmt::format("value = \"{}\"", text), override_source);
   }
-  if (!document && document.error().what == number_out_of_range) {
-    return tl::unexpected(refusal(key, document.error().what, document.error().allowed));
-  }
-  if (!document && document.error().suggestion) {
-    document.error().place = {override_source, 0, 0, std::string(key), ""};
+  const bool is_beyond_range =
+      !document && document.error().problem && document.error().problem->code == ProblemCode::number_beyond_range;
+  if (!document && (is_beyond_range || document.error().suggestion)) {
+    document.error().place = {.file = override_source, .key = std::string(key)};
     return document;
   }
   if (!document || document->size() != 1) {
     return tl::unexpected(
-        refusal(key, fmt::format("cannot read the value {}", in_quotes(text)),
-                "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2], or a number with its unit"));
+        refusal(key, {.code = ProblemCode::not_a_toml_value, .subjects = {{"text", shortened(text)}}}));
   }
   return std::move(*document);
 }
@@ -172,7 +159,9 @@ std::optional<InputError> apply_override(toml::table& document, const std::strin
   const auto equals = whole.find('=');
   const std::string_view key = trimmed(whole.substr(0, equals));
   if (equals == std::string_view::npos || key.empty()) {
-    return refusal("", fmt::format("{} is not KEY=VALUE", in_quotes(whole)), "write for instance loop.delay=0.25e-3");
+    return refusal(
+        "", {.code = ProblemCode::not_an_assignment,
+             .subjects = {{"text", shortened(whole)}, {"form", "KEY=VALUE"}, {"example", "loop.delay=0.25e-3"}}});
   }
   auto value = parse_value(key, trimmed(whole.substr(equals + 1)));
   if (!value) return value.error();

@@ -7,25 +7,27 @@
 #include <utility>
 
 #include "io/prose.hpp"
-#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-std::string description(const toml::node& node) {
-  if (const auto* text = node.as_string()) return fmt::format("is the text {}", in_quotes(text->get()));
-  if (const auto* number = node.as_integer()) return fmt::format("is the number {}", number->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("is the number {}", number->get());
-  if (const auto* truth = node.as_boolean()) return truth->get() ? "is true" : "is false";
-  if (node.is_array()) return "is an array";
-  if (node.is_table()) return "is a table";
-  return "is a date or time";
-}
 
 std::optional<double> as_number(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return number->get();
   if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
   return std::nullopt;
+}
+
+/// What stands there instead, as the phrase of `of_other_type` names it.
+void describe(const toml::node& node, Problem& problem) {
+  if (const auto* text = node.as_string()) {
+    problem.subjects.push_back({"text", shortened(text->get())});
+  } else if (const auto number = as_number(node)) {
+    problem.evidence.push_back({"number", *number});
+  } else if (const auto* truth = node.as_boolean()) {
+    problem.subjects.push_back({"kind", truth->get() ? "true" : "false"});
+  } else {
+    problem.subjects.push_back({"kind", node.is_array() ? "array" : node.is_table() ? "table" : "time"});
+  }
 }
 
 /// The key of the table that holds `key`: body names may contain dots, which only adds a look-up or two.
@@ -36,8 +38,7 @@ std::string parent(const std::string& key) {
 
 }  // namespace
 
-void DeviceReading::refuse(const toml::source_region& place, const std::string& key, std::string what,
-                           std::string allowed, std::optional<std::string> suggestion) {
+void DeviceReading::refuse(const toml::source_region& place, const std::string& key, InputProblem problem) {
   constexpr std::size_t most = 100;
   for (std::string above = key; !above.empty(); above = parent(above)) {
     if (left_.contains(above)) return;
@@ -47,7 +48,8 @@ void DeviceReading::refuse(const toml::source_region& place, const std::string& 
   InputPlace where{source_, std::max<std::size_t>(1, place.begin.line), std::max<std::size_t>(1, place.begin.column),
                    key, ""};
   if (place.path && *place.path == override_source) where = {override_source, 0, 0, key, ""};
-  problems_.push_back({std::move(where), std::move(what), std::move(allowed), std::move(suggestion)});
+  problem.place = std::move(where);
+  problems_.push_back(std::move(problem));
 }
 
 InputError DeviceReading::error() const {
@@ -69,7 +71,9 @@ void DeviceReading::refuse(const DeviceProblem& problem) {
     key = parent(key);
     found = places_.find(key);
   }
-  refuse(found == places_.end() ? toml::source_region{} : found->second, named, problem.what, problem.allowed);
+  InputProblem told{{}, problem.what, problem.allowed, {}};
+  told.problem = problem.problem;
+  refuse(found == places_.end() ? toml::source_region{} : found->second, named, std::move(told));
 }
 
 TableReader::TableReader(DeviceReading& reading, const toml::table& table, std::string key)
@@ -81,9 +85,7 @@ void TableReader::refuse_keys_not_of(DeviceTable kind) {
   for (const auto& [name, node] : table_) {
     if (is_key_of(kind, name.str())) continue;
     has_unknown_key_ = true;
-    const std::string shown = shortened(name.str());
-    reading_.refuse(name.source(), full_key(shown), fmt::format("unknown key \"{}\"", shown),
-                    remedy_for_unknown_key(kind, name.str()));
+    reading_.refuse(name.source(), full_key(shortened(name.str())), unknown_key_of(kind, name.str()));
   }
 }
 
@@ -91,11 +93,7 @@ void TableReader::refuse_keys_not_in(std::span<const std::string> keys) {
   for (const auto& [name, node] : table_) {
     if (std::ranges::find(keys, name.str()) != keys.end()) continue;
     has_unknown_key_ = true;
-    const std::string shown = shortened(name.str());
-    const std::string meant = nearest_word(name.str(), keys);
-    reading_.refuse(
-        name.source(), full_key(shown), fmt::format("unknown key \"{}\"", shown),
-        meant.empty() ? fmt::format("the keys are {}", listed(keys)) : fmt::format("did you mean \"{}\"?", meant));
+    reading_.refuse(name.source(), full_key(shortened(name.str())), unknown_key_beside(keys, name.str()));
   }
 }
 
@@ -114,43 +112,50 @@ const toml::node* TableReader::find(std::string_view key) {
   return node;
 }
 
-void TableReader::refuse(std::string_view key, std::string what, std::string allowed,
-                         std::optional<std::string> suggestion) {
+void TableReader::refuse(std::string_view key, InputProblem problem) {
   const toml::node* node = table_.get(key);
-  reading_.refuse(node ? node->source() : table_.source(), full_key(key), std::move(what), std::move(allowed),
-                  std::move(suggestion));
+  reading_.refuse(node ? node->source() : table_.source(), full_key(key), std::move(problem));
 }
 
-void TableReader::refuse_missing(std::string_view key, std::string allowed) {
+void TableReader::refuse_missing(std::string_view key, const NeededValue& needed) {
   if (has_unknown_key_) return leave(key);
-  refuse(key, "is missing", std::move(allowed));
+  Problem problem = needs(ProblemCode::is_missing, needed);
+  problem.evidence.push_back({"missing", 1.0});
+  refuse(key, std::move(problem));
 }
 
-void TableReader::refuse_type(const toml::node& node, std::string_view key, std::string_view allowed) {
-  reading_.refuse(node.source(), full_key(key), description(node), std::string(allowed));
+void TableReader::refuse_type(const toml::node& node, std::string_view key, const NeededValue& needed,
+                              std::string_view each) {
+  Problem problem = needs(ProblemCode::of_other_type, needed);
+  describe(node, problem);
+  if (!each.empty()) problem.evidence.push_back({each, 1.0});
+  reading_.refuse(node.source(), full_key(key), std::move(problem));
 }
 
 std::optional<double> TableReader::number(std::string_view key, std::optional<Measure> measure) {
   const toml::node* node = find(key);
-  return node ? number_of(*node, key, measure, "must be a number") : std::nullopt;
+  return node ? number_of(*node, key, measure) : std::nullopt;
 }
 
 std::optional<double> TableReader::number_of(const toml::node& node, std::string_view key,
-                                             std::optional<Measure> measure, std::string_view allowed) {
+                                             std::optional<Measure> measure, bool is_element) {
   if (const auto value = as_number(node)) return value;
   if (!measure || !node.is_string()) {
-    refuse_type(node, key, measure ? allowed_numbers(*measure, reading_.motion()) : allowed);
+    const bool names_elements = is_element && !measure;
+    refuse_type(node, key, measure ? needed_number(*measure, reading_.motion()) : NeededValue{"number"},
+                names_elements ? "element" : "");
     return std::nullopt;
   }
   auto value = number_with_unit(node.as_string()->get(), *measure, reading_.motion());
   if (value) return *value;
-  reading_.refuse(node.source(), full_key(key), std::move(value.error().what), std::move(value.error().allowed),
-                  std::move(value.error().suggestion));
+  InputProblem told{{}, std::move(value.error().what), std::move(value.error().allowed), value.error().suggestion};
+  told.problem = std::move(value.error().problem);
+  reading_.refuse(node.source(), full_key(key), std::move(told));
   return std::nullopt;
 }
 
 double TableReader::required_positive_number(std::string_view key, std::optional<Measure> measure) {
-  if (!has(key)) refuse_missing(key, "must be given as a number > 0");
+  if (!has(key)) refuse_missing(key, {"positive"});
   return number(key, measure).value_or(0.0);
 }
 
@@ -160,7 +165,8 @@ std::optional<int> TableReader::whole_number(std::string_view key) {
   if (!value || (std::abs(*value) <= largest && std::trunc(*value) == *value)) {
     return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
   }
-  refuse(key, fmt::format("is {}", *value), "must be a whole number of at most 1e9");
+  refuse(key, {.code = ProblemCode::no_whole_number,
+               .evidence = {{"value", *value}, {"least", -largest}, {"most", largest}}});
   return std::nullopt;
 }
 
@@ -168,9 +174,9 @@ std::string_view TableReader::spelling_of(const DeviceKey& key) {
   constexpr std::string_view inertia = "inertia";
   if (key.measure != Measure::mass || !has(inertia)) return key.name;
   if (reading_.motion() == Motion::linear) {
-    refuse(inertia, "is for rotary motion", "must be \"mass\", or set motion = \"rotary\"");
+    refuse(inertia, {.code = ProblemCode::inertia_of_linear_motion});
   } else if (has(key.name)) {
-    refuse(inertia, "is given beside mass, which means the same", "must be one of the two");
+    refuse(inertia, {.code = ProblemCode::given_beside, .subjects = {{"other", std::string(key.name)}}});
   }
   return inertia;
 }
@@ -179,34 +185,34 @@ std::optional<std::string> TableReader::text(std::string_view key) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   if (const auto* text = node->as_string()) {
-    if (has_controls(text->get())) refuse(key, "has a control character", "must be one line of plain text");
+    if (has_controls(text->get())) refuse(key, {.code = ProblemCode::control_character});
     return text->get();
   }
-  refuse_type(*node, key, "must be text in quotes");
+  refuse_type(*node, key, {"text"});
   return std::nullopt;
 }
 
-const toml::array* TableReader::required_array(std::string_view key, std::string_view allowed) {
+const toml::array* TableReader::required_array(std::string_view key, const NeededValue& needed) {
   const toml::node* node = find(key);
   if (!node) {
-    refuse_missing(key, fmt::format("must be given as {}", allowed));
+    refuse_missing(key, needed);
     return nullptr;
   }
-  if (!node->is_array()) refuse_type(*node, key, fmt::format("must be {}", allowed));
+  if (!node->is_array()) refuse_type(*node, key, needed);
   return node->as_array();
 }
 
 std::vector<double> TableReader::required_numbers(std::string_view key, std::optional<Measure> measure) {
-  const toml::array* array = required_array(key, "an array of numbers");
+  const toml::array* array = required_array(key, {"numbers"});
   return array ? numbers_of(*array, key, measure) : std::vector<double>{};
 }
 
 std::vector<std::vector<double>> TableReader::required_rows(std::string_view key) {
   std::vector<std::vector<double>> rows;
-  const toml::array* array = required_array(key, "an array of rows, each an array of numbers");
+  const toml::array* array = required_array(key, {"rows"});
   if (!array) return rows;
   for (const toml::node& row : *array) {
-    if (!row.is_array()) refuse_type(row, key, "every row must be an array of numbers");
+    if (!row.is_array()) refuse_type(row, key, {"numbers"}, "row");
     rows.push_back(row.is_array() ? numbers_of(*row.as_array(), key) : std::vector<double>{});
   }
   return rows;
@@ -216,18 +222,18 @@ std::vector<double> TableReader::numbers_of(const toml::array& array, std::strin
                                             std::optional<Measure> measure) {
   std::vector<double> numbers;
   for (const toml::node& element : array) {
-    numbers.push_back(number_of(element, key, measure, "every element must be a number").value_or(0.0));
+    numbers.push_back(number_of(element, key, measure, true).value_or(0.0));
   }
   return numbers;
 }
 
-std::vector<std::string> TableReader::required_texts(std::string_view key, std::string_view allowed) {
+std::vector<std::string> TableReader::required_texts(std::string_view key, const NeededValue& needed) {
   std::vector<std::string> texts;
-  const toml::array* array = required_array(key, allowed);
+  const toml::array* array = required_array(key, needed);
   if (!array) return texts;
   for (const toml::node& element : *array) {
     const auto* text = element.as_string();
-    if (!text) refuse_type(element, key, "every element must be text in quotes");
+    if (!text) refuse_type(element, key, {"text"}, "element");
     texts.push_back(text ? text->get() : std::string{});
   }
   return texts;
@@ -238,7 +244,7 @@ const toml::table* TableReader::table(DeviceTable kind) { return table(entry_of(
 const toml::table* TableReader::table(std::string_view name, std::string_view header) {
   const toml::node* node = find(name);
   if (!node) return nullptr;
-  if (!node->is_table()) refuse_type(*node, name, fmt::format("must be a table, {}", header));
+  if (!node->is_table()) refuse_type(*node, name, {"table", std::string(header)});
   return node->as_table();
 }
 
@@ -250,16 +256,16 @@ std::vector<const toml::table*> TableReader::tables(std::string_view name, std::
   std::vector<const toml::table*> result;
   const toml::node* node = find(name);
   if (!node) return result;
-  const std::string allowed = fmt::format("must be tables, {}", header);
+  const NeededValue needed{"tables", std::string(header)};
   if (!node->is_array()) {
-    refuse_type(*node, name, allowed);
+    refuse_type(*node, name, needed);
     return result;
   }
   for (const toml::node& element : *node->as_array()) {
     if (element.is_table()) {
       result.push_back(element.as_table());
     } else {
-      refuse_type(element, name, allowed);
+      refuse_type(element, name, needed);
     }
   }
   return result;

@@ -7,9 +7,11 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "io/device_keys.hpp"
+#include "io/needed_value.hpp"
 #include "io/toml.hpp"
 #include "model/key_members.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -29,8 +31,11 @@ class DeviceReading {
   [[nodiscard]] Motion motion() const { return motion_; }
 
   /// Keeps the first refusal of every key, and none of a key below one that is refused: it would follow from that.
-  void refuse(const toml::source_region& place, const std::string& key, std::string what, std::string allowed,
-              std::optional<std::string> suggestion = std::nullopt);
+  void refuse(const toml::source_region& place, const std::string& key, InputProblem problem);
+  void refuse(const toml::source_region& place, const std::string& key, Problem problem,
+              std::optional<std::string> suggestion = std::nullopt) {
+    refuse(place, key, input_problem({}, std::move(problem), std::move(suggestion)));
+  }
   /// Nothing is refused of the key any more: what is wrong with it follows from another refusal.
   void leave(const std::string& key) { left_.insert(key); }
   void note_place(const std::string& key, const toml::source_region& place) { places_.emplace(key, place); }
@@ -78,8 +83,8 @@ class TableReader {
   /// All elements, each required to be what the name says; empty (and refused) when the key is missing.
   [[nodiscard]] std::vector<double> required_numbers(std::string_view key,
                                                      std::optional<Measure> measure = std::nullopt);
-  /// `allowed` says what the array is of: "an array of two body names".
-  [[nodiscard]] std::vector<std::string> required_texts(std::string_view key, std::string_view allowed);
+  /// `needed` says what the array is of: "texts", "keys", "bodies".
+  [[nodiscard]] std::vector<std::string> required_texts(std::string_view key, const NeededValue& needed);
   [[nodiscard]] std::vector<std::vector<double>> required_rows(std::string_view key);
   /// The table of that kind below this one, or null.
   [[nodiscard]] const toml::table* table(DeviceTable kind);
@@ -89,10 +94,12 @@ class TableReader {
   [[nodiscard]] const toml::table* table(std::string_view name, std::string_view header);
   [[nodiscard]] std::vector<const toml::table*> tables(std::string_view name, std::string_view header);
 
-  void refuse(std::string_view key, std::string what, std::string allowed,
-              std::optional<std::string> suggestion = std::nullopt);
-  /// "is missing"; not beside an unknown key, which may be the one that is missed.
-  void refuse_missing(std::string_view key, std::string allowed);
+  void refuse(std::string_view key, InputProblem problem);
+  void refuse(std::string_view key, Problem problem, std::optional<std::string> suggestion = std::nullopt) {
+    refuse(key, input_problem({}, std::move(problem), std::move(suggestion)));
+  }
+  /// Refuses the table that lacks the key; not beside an unknown key, which may be the one that is missed.
+  void refuse_missing(std::string_view key, const NeededValue& needed);
   /// Nothing is refused of the key, or of the whole table, any more.
   void leave(std::string_view key) { reading_.leave(full_key(key)); }
   void leave() { reading_.leave(key_); }
@@ -100,12 +107,13 @@ class TableReader {
  private:
   [[nodiscard]] const toml::node* find(std::string_view key);
   [[nodiscard]] std::optional<double> number_of(const toml::node& node, std::string_view key,
-                                                std::optional<Measure> measure, std::string_view allowed);
+                                                std::optional<Measure> measure, bool is_element = false);
   [[nodiscard]] std::vector<double> numbers_of(const toml::array& array, std::string_view key,
                                                std::optional<Measure> measure = std::nullopt);
-  [[nodiscard]] const toml::array* required_array(std::string_view key, std::string_view allowed);
+  [[nodiscard]] const toml::array* required_array(std::string_view key, const NeededValue& needed);
   [[nodiscard]] std::string full_key(std::string_view key) const;
-  void refuse_type(const toml::node& node, std::string_view key, std::string_view allowed);
+  /// `each` of an array: "element", "row".
+  void refuse_type(const toml::node& node, std::string_view key, const NeededValue& needed, std::string_view each = {});
 
   DeviceReading& reading_;
   const toml::table& table_;

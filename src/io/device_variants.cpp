@@ -1,7 +1,5 @@
 #include "zwidth/io/device_variants.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -25,8 +23,8 @@ std::vector<std::string> listed_values(std::string_view text) {
   return values;
 }
 
-InputError variants_refusal(std::string key, std::string what, std::string allowed) {
-  return {override_source, 0, 0, std::move(key), std::move(what), std::move(allowed)};
+InputError variants_refusal(const std::string& key, Problem problem) {
+  return {InputPlace{.file = override_source, .key = key}, std::move(problem)};
 }
 
 }  // namespace
@@ -37,15 +35,17 @@ tl::expected<DeviceVariants, std::vector<InputError>> device_variants(const Devi
   const std::size_t equals = assignment.find('=');
   DeviceVariants all{std::string(assignment.substr(0, equals)), {}};
   if (equals == std::string_view::npos || all.key.empty()) {
-    return refused(variants_refusal("", "is not KEY=VALUE,VALUE", "write for instance sensed=motor,handle"));
+    return refused(
+        variants_refusal("", {.code = ProblemCode::not_an_assignment,
+                              .subjects = {{"form", "KEY=VALUE,VALUE"}, {"example", "sensed=motor,handle"}}}));
   }
   constexpr std::array<std::string_view, 3> of_the_loop{"actuated", "sensed", "held"};
   if (std::ranges::find(of_the_loop, all.key) != of_the_loop.end()) all.key = "loop." + all.key;
   const std::vector<std::string> values = listed_values(assignment.substr(equals + 1));
-  if (values.size() < 2) return refused(variants_refusal(all.key, "has one value", "give two or more"));
+  if (values.size() < 2) return refused(variants_refusal(all.key, {.code = ProblemCode::one_variant}));
   for (const std::string& value : values) {
     if (std::ranges::count(values, value) > 1) {
-      return refused(variants_refusal(all.key, fmt::format("has {} twice", value), "give each value once"));
+      return refused(variants_refusal(all.key, {.code = ProblemCode::variant_twice, .subjects = {{"value", value}}}));
     }
   }
   const std::string text = write_device(device.parameters());

@@ -1,17 +1,19 @@
 #include "io/export_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
 
 bool ExportLine::is_empty() const {
   return std::all_of(cells.begin(), cells.end(), [](std::string_view each) { return trimmed(each).empty(); });
 }
+
+std::string beginning_of(const ExportLine& line) { return in_quotes(as_utf8(line.cell(0))); }
 
 tl::expected<std::optional<ExportLine>, InputError> ExportLines::next() {
   const auto line = lines_.next(progress_);
@@ -28,21 +30,23 @@ NumberCell ExportLines::number(std::string_view cell) {
   return read_number(cell, decimal_mark_.value_or('.'));
 }
 
-InputError ExportLines::refused(const ExportLine& line, std::string what, OptionText allowed) const {
-  return {source(), line.line.number, 1, "", std::move(what), std::move(allowed)};
+InputError ExportLines::refused(const ExportLine& line, Problem problem) const {
+  return {{.file = source(), .line = line.line.number, .column = 1}, std::move(problem)};
+}
+
+InputError ExportLines::wrong_cells(const ExportLine& line, std::size_t cells, std::size_t expected,
+                                    std::string what) const {
+  return refused(line, {.code = ProblemCode::wrong_number_of_cells,
+                        .evidence = {counted("cells", cells), counted("expected", expected)},
+                        .subjects = {{"as", std::move(what)}}});
 }
 
 InputError ExportLines::no_number(const ExportLine& line, std::size_t cell, const std::string& column) const {
   const std::string_view text = line.cell(cell);
-  const char mark = decimal_mark_.value_or('.');
   const std::size_t place =
       text.data() == nullptr ? 1 : static_cast<std::size_t>(text.data() - line.line.text.data()) + 1;
-  return {source(),
-          line.line.number,
-          place,
-          shortened(column),
-          why_no_number(text, mark),
-          fmt::format("must be a number such as {}", mark == ',' ? "-1,5e-3" : "-1.5e-3")};
+  return {{.file = source(), .line = line.line.number, .column = place, .key = shortened(column)},
+          no_number_in(text, decimal_mark_.value_or('.'))};
 }
 
 }  // namespace zwidth::internal

@@ -27,6 +27,9 @@ struct ExportLine {
   }
 };
 
+/// What the line begins with, in quotes.
+[[nodiscard]] std::string beginning_of(const ExportLine& line);
+
 /// The lines of the export of a measuring program, cut into cells.
 class ExportLines {
  public:
@@ -56,7 +59,10 @@ class ExportLines {
   void set_decimal_mark(char mark) { decimal_mark_ = mark; }
 
   [[nodiscard]] const std::string& source() const { return lines_.file().source(); }
-  [[nodiscard]] InputError refused(const ExportLine& line, std::string what, OptionText allowed) const;
+  [[nodiscard]] InputError refused(const ExportLine& line, Problem problem) const;
+  /// The refusal of a line of another number of cells than `expected` of `what` has: "sample", "section".
+  [[nodiscard]] InputError wrong_cells(const ExportLine& line, std::size_t cells, std::size_t expected,
+                                       std::string what) const;
   /// The refusal of a cell in which a number must stand.
   [[nodiscard]] InputError no_number(const ExportLine& line, std::size_t cell, const std::string& column) const;
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/paired_times.hpp"
 #include "io/prose.hpp"
@@ -33,8 +34,8 @@ tl::expected<TimedColumn, InputError> timed_column(const ExportedColumns& export
   const ExportedColumn& column = exported.columns[*found];
   if (column.unreadable) return Refusal(*column.unreadable);
   if (column.values.empty()) {
-    return Refusal(
-        InputError{exported.source, 0, 0, shortened(column.name), "has no samples", "must have two at least"});
+    return Refusal(InputError{{.file = exported.source, .key = shortened(column.name)},
+                              {.code = ProblemCode::too_few_samples, .evidence = {counted("samples", 0)}}});
   }
   std::function<std::size_t(std::size_t)> line;
   if (column.has_lines) {
@@ -50,13 +51,11 @@ std::optional<InputError> different_lengths(const std::vector<TimedColumn>& colu
   const TimedColumn& first = columns.front();
   for (const TimedColumn& each : columns) {
     if (each.values.values.size() == first.values.values.size()) continue;
-    return InputError{each.values.source,
-                      0,
-                      0,
-                      shortened(each.values.name),
-                      fmt::format("has {} samples, {} has {}", each.values.values.size(), shortened(first.values.name),
-                                  first.values.values.size()),
-                      "signals of one recording must have equally many"};
+    return InputError{
+        {.file = each.values.source, .key = shortened(each.values.name)},
+        {.code = ProblemCode::samples_of_two_lengths,
+         .evidence = {counted("samples", each.values.values.size()), counted("expected", first.values.values.size())},
+         .subjects = {{"other", shortened(first.values.name)}}}};
   }
   return std::nullopt;
 }

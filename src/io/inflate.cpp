@@ -1,6 +1,5 @@
 #include "io/inflate.hpp"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@ constexpr std::size_t most_at_once = std::size_t{1} << 30;  // zlib counts in 32
 class Stream {
  public:
   Stream() {
-    if (inflateInit(&z_) != Z_OK) throw Error(ErrorCode::did_not_converge, "zlib cannot start");
+    if (inflateInit(&z_) != Z_OK) throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::zlib_cannot_start});
   }
   ~Stream() { inflateEnd(&z_); }
   Stream(const Stream&) = delete;
@@ -45,9 +44,7 @@ tl::expected<std::vector<unsigned char>, InflateFailure> inflate_all(std::span<c
       input = input.subspan(taken);
     }
     if (size == output.size()) {
-      if (size >= limit) {
-        return tl::unexpected(InflateFailure{fmt::format("it unpacks to more than {} bytes", limit), true});
-      }
+      if (size >= limit) return tl::unexpected(InflateFailure::too_large);
       output.resize(std::min(limit, std::max(least_room, 2 * size)));
     }
     const std::size_t room = std::min(output.size() - size, most_at_once);
@@ -55,8 +52,7 @@ tl::expected<std::vector<unsigned char>, InflateFailure> inflate_all(std::span<c
     z.avail_out = static_cast<uInt>(room);
     state = ::inflate(&z, Z_NO_FLUSH);
     size += room - z.avail_out;
-    if (state != Z_OK && state != Z_STREAM_END)
-      return tl::unexpected(InflateFailure{"its compressed bytes are damaged"});
+    if (state != Z_OK && state != Z_STREAM_END) return tl::unexpected(InflateFailure::damaged);
   }
   output.resize(size);
   return output;

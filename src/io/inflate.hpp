@@ -2,15 +2,14 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
 namespace zwidth::internal {
 
-struct InflateFailure {
-  std::string why;
-  bool is_too_large = false;  ///< more than the limit came out; else the stream is damaged or unfinished
+enum class InflateFailure {
+  too_large,  ///< more than the limit came out
+  damaged,    ///< or unfinished
 };
 
 /// The bytes that a zlib stream holds. Memory grows with what comes out, never with what the stream claims.

@@ -1,6 +1,5 @@
 #include "io/input_file.hpp"
 
-#include <fmt/format.h>
 #include <sys/types.h>
 
 #include <algorithm>
@@ -17,19 +16,16 @@ void InputFile::Close::operator()(std::FILE* file) const noexcept {
 }
 
 InputError InputFile::refusal(int error) const {
-  return {source_,
-          0,
-          0,
-          "",
-          fmt::format("cannot be read: {}", std::generic_category().message(error)),
-          fmt::format("must be a readable {}, or \"-\" for standard input", kind_)};
+  return {InputPlace{.file = source_},
+          Problem{.code = ProblemCode::cannot_be_read,
+                  .subjects = {{"reason", std::generic_category().message(error)}, {"kind", kind_}}}};
 }
 
 tl::expected<InputFile, InputError> InputFile::open(const std::string& path, const std::string& kind) {
-  const auto refused = [](const std::string& source, std::string what, std::string allowed) {
-    return tl::unexpected(InputError{source, 0, 0, "", std::move(what), std::move(allowed)});
+  const auto refused = [&kind](const std::string& source, const char* found) {
+    return tl::unexpected(InputError(
+        {.file = source}, {.code = ProblemCode::not_a_file, .subjects = {{"found", found}, {"kind", kind}}}));
   };
-  const std::string or_standard_input = fmt::format("must be a {}, or \"-\" for standard input", kind);
   InputFile input;
   input.kind_ = kind;
   if (path == "-") {
@@ -37,16 +33,16 @@ tl::expected<InputFile, InputError> InputFile::open(const std::string& path, con
     input.file_.reset(stdin);
     return input;
   }
-  if (path.empty()) return refused("\"\"", "is no file name", or_standard_input);
+  if (path.empty()) return refused("\"\"", "nothing");
   namespace fs = std::filesystem;
   input.source_ = path;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (error) return tl::unexpected(input.refusal(error.value()));
-  if (fs::is_directory(status)) return refused(path, "is a directory", fmt::format("must be a {}", kind));
+  if (fs::is_directory(status)) return refused(path, "directory");
   input.regular_ = fs::is_regular_file(status);
   if (!input.regular_ && !fs::is_fifo(status)) {
-    return refused(path, "is neither a file nor a pipe", or_standard_input);
+    return refused(path, "device");
   }
   input.file_.reset(std::fopen(path.c_str(), "rb"));
   if (!input.file_) return tl::unexpected(input.refusal(errno));

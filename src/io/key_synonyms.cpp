@@ -1,7 +1,6 @@
 #include "io/key_synonyms.hpp"
 
 #include <algorithm>
-#include <vector>
 
 namespace zwidth::internal {
 namespace {
@@ -11,68 +10,72 @@ using enum DeviceTable;
 struct Synonyms {
   std::vector<DeviceTable> tables;  ///< where they are taken for the key
   std::vector<std::string_view> names;
-  std::string_view remedy;
+  std::vector<Subject> remedy;
 };
 
 const std::vector<Synonyms>& all_synonyms() {
   static const std::vector<Synonyms> all = {
       {{root, loop},
        {"sampling_frequency", "sample_frequency", "sampling_rate", "sample_rate", "rate", "frequency", "fs", "f_s"},
-       "write sampling_period of [loop], which is 1/frequency: 2 kHz is \"500 us\" or 0.5e-3 (s)"},
+       {{"result", "sampling_period"},
+        {"of", "[loop]"},
+        {"in", "s"},
+        {"formula", "1/frequency"},
+        {"example", "\"500 us\" of 2 kHz"}}},
       {{root, loop},
        {"sample_time", "sampling_time", "sample_period", "period", "step_time", "time_step", "Ts", "T_s", "T", "ts",
         "dt", "cycle_time"},
-       "did you mean \"sampling_period\" of [loop]? A number of s, or a text with its unit such as \"500 us\""},
-      {{root, loop}, {"latency", "dead_time", "deadtime", "lag", "time_delay"}, "did you mean \"delay\" of [loop]?"},
-      {{body, user},
-       {"m", "M", "J", "I", "weight", "moment_of_inertia"},
-       "did you mean \"mass\", or of rotary motion \"inertia\"?"},
+       {{"same", "sampling_period"}, {"of", "[loop]"}, {"in", "s"}}},
+      {{root, loop}, {"latency", "dead_time", "deadtime", "lag", "time_delay"}, {{"same", "delay"}, {"of", "[loop]"}}},
+      {{body, user}, {"m", "M", "J", "I", "weight", "moment_of_inertia"}, {{"same", "mass"}, {"rotary", "inertia"}}},
       {{body},
        {"friction", "coulomb_friction", "dry_friction", "static_friction", "stiction", "fc", "f_c"},
-       "write damping for viscous friction (N s/m), coulomb for dry friction (N)"},
+       {{"kinds", "friction"}}},
       {{body, link, user, wall},
        {"viscosity", "viscous", "viscous_friction", "viscous_damping", "damping_coefficient", "damper", "b", "B", "c",
         "d"},
-       "did you mean \"damping\"? N s/m, or of rotary motion N m s/rad"},
+       {{"same", "damping"}, {"in", "N s/m"}, {"in_rotary", "N m s/rad"}}},
       {{body, link, user, wall},
        {"k", "K", "spring", "spring_constant", "spring_rate", "elasticity"},
-       "did you mean \"stiffness\"? N/m, or of rotary motion N m/rad"},
+       {{"same", "stiffness"}, {"in", "N/m"}, {"in_rotary", "N m/rad"}}},
       {{link},
        {"damping_ratio", "zeta", "loss_factor", "quality_factor"},
-       "write damping in N s/m (N m s/rad): 2 damping_ratio sqrt(stiffness m), m = m1 m2/(m1 + m2) of its two bodies"},
-      {{link}, {"compliance", "flexibility"}, "write stiffness, which is 1/compliance"},
-      {{link}, {"bodies", "body", "connects", "from", "to"}, "write between = [\"BODY\", \"BODY\"]"},
+       {{"result", "damping"},
+        {"in", "N s/m (N m s/rad)"},
+        {"formula", "2 damping_ratio sqrt(stiffness m1 m2/(m1 + m2))"}}},
+      {{link}, {"compliance", "flexibility"}, {{"result", "stiffness"}, {"formula", "1/compliance"}}},
+      {{link}, {"bodies", "body", "connects", "from", "to"}, {{"kinds", "ends"}}},
       {{body, user},
        {"damping_ratio", "zeta"},
-       "write damping in N s/m (N m s/rad): 2 damping_ratio sqrt(stiffness mass)"},
+       {{"result", "damping"}, {"in", "N s/m (N m s/rad)"}, {"formula", "2 damping_ratio sqrt(stiffness mass)"}}},
       {{sensor},
        {"counts_per_turn", "counts_per_rev", "counts_per_revolution", "counts", "cpr", "ppr", "lines", "pulses"},
-       "write resolution, one count: resolution = \"1 turn/4096\" (of N lines with quadrature: 4 N counts)"},
-      {{sensor}, {"step", "quantum", "quantization", "lsb"}, "did you mean \"resolution\"?"},
+       {{"result", "resolution"}, {"formula", "1 turn/counts"}, {"example", "\"1 turn/4096\""}, {"per_line", "4"}}},
+      {{sensor}, {"step", "quantum", "quantization", "lsb"}, {{"same", "resolution"}}},
       {{actuator},
        {"bandwidth", "bandwidth_hz", "cutoff", "cutoff_hz", "frequency_hz"},
-       "write time_constant in s, which is 1/(2 pi frequency)"},
+       {{"result", "time_constant"}, {"in", "s"}, {"formula", "1/(2 pi frequency)"}}},
       {{actuator},
        {"limit", "saturation", "max_force", "max_torque", "torque_limit", "peak_torque", "stall_torque"},
-       "did you mean \"force_limit\"?"},
-      {{actuator}, {"tau", "lag"}, "did you mean \"time_constant\"?"},
+       {{"same", "force_limit"}}},
+      {{actuator}, {"tau", "lag"}, {{"same", "time_constant"}}},
       {{wall},
        {"velocity_filter", "filter_hz", "cutoff", "cutoff_hz", "cutoff_frequency", "tau", "filter_time_constant",
         "velocity_filter_cutoff", "velocity_filter_cutoff_hz", "velocity_filter_frequency"},
-       "write velocity_filter_hz, or velocity_filter_tau for backward Euler's time constant in s"},
+       {{"kinds", "velocity_filter"}}},
   };
   return all;
 }
 
 }  // namespace
 
-std::optional<std::string> remedy_for_synonym(DeviceTable table, std::string_view key) {
+std::vector<Subject> remedy_for_synonym(DeviceTable table, std::string_view key) {
   for (const Synonyms& synonyms : all_synonyms()) {
     if (std::ranges::count(synonyms.tables, table) > 0 && std::ranges::count(synonyms.names, key) > 0) {
-      return std::string(synonyms.remedy);
+      return synonyms.remedy;
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace zwidth::internal

@@ -1,7 +1,5 @@
 #include "io/labview_measurement.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,8 +45,7 @@ class LvmReader {
     const auto take_row_or_tag = [this](const ExportLine& line) { return line.is_empty() ? LvmRead() : take(line); };
     if (auto taken = lines_.for_each(take_row_or_tag); !taken) return tl::unexpected(std::move(taken.error()));
     if (state_ != State::rows) {
-      return tl::unexpected(InputError{exported_.source, 0, 0, "", "ends in the header of a LabVIEW measurement file",
-                                       "must go on with a line of names and rows"});
+      return tl::unexpected(InputError{{.file = exported_.source}, {.code = ProblemCode::ends_in_header}});
     }
     end_segment();
     describe();
@@ -83,9 +80,9 @@ class LvmReader {
       x_columns_ = value == "No" ? LabviewX::no : value == "Multi" ? LabviewX::multi : LabviewX::one;
     if (tag == "Decimal_Separator" && !options_.decimal_mark) {
       if (value != "." && value != ",") {
-        return tl::unexpected(lines_.refused(line,
-                                             fmt::format("states the decimal separator {}", in_quotes(as_utf8(value))),
-                                             "must be a point or a comma"));
+        return tl::unexpected(
+            lines_.refused(line, {.code = ProblemCode::separator_not_possible,
+                                  .subjects = {{"of", "decimal_mark"}, {"separator", in_quotes(as_utf8(value))}}}));
       }
       lines_.set_decimal_mark(value.front());
     }
@@ -104,9 +101,7 @@ class LvmReader {
     }
     if (read_number(tag, '.').kind != Kind::text) {
       return tl::unexpected(
-          lines_.refused(line, "is a row without the header of a segment above it",
-                         "must follow \"***End_of_Header***\" and a line of names; or pass the header "
-                         "over (`skip_rows`)"));
+          lines_.refused(line, {.code = ProblemCode::line_without_header, .subjects = {{"format", "labview"}}}));
     }
     segment_.add(tag, texts(line));
     return {};
@@ -129,9 +124,9 @@ class LvmReader {
     if (has_comments_) names.pop_back();
     const bool is_whole = names.size() >= 2 && (x_columns_ != LabviewX::multi || names.size() % 2 == 0);
     if (!is_whole) {
-      return tl::unexpected(lines_.refused(line, fmt::format("names {} columns", names.size()),
-                                           x_columns_ == LabviewX::multi ? "must name X_Value and a channel, in turn"
-                                                                         : "must name X_Value and a channel at least"));
+      Problem problem{.code = ProblemCode::section_incomplete, .evidence = {counted("names", names.size())}};
+      if (x_columns_ == LabviewX::multi) problem.evidence.push_back(counted("in_turn", 2));
+      return tl::unexpected(lines_.refused(line, std::move(problem)));
     }
     ++segments_;
     state_ = State::rows;
@@ -141,9 +136,8 @@ class LvmReader {
       for (std::size_t c = 0; c < names.size(); ++c) add_column(c, names[c]);
       mark_columns_to_keep(exported_, options_);
     } else if (names != names_) {
-      return tl::unexpected(
-          lines_.refused(line, fmt::format("begins segment {} with other columns", segments_),
-                         "segments of one file must have the same columns, or be files of their own"));
+      return tl::unexpected(lines_.refused(
+          line, {.code = ProblemCode::segment_of_other_columns, .evidence = {counted("segment", segments_)}}));
     }
     return begin_segment(line);
   }
@@ -210,9 +204,8 @@ class LvmReader {
       channel.is_even = x_columns_ == LabviewX::no || channel.first != most->first || channel.step != most->step;
       if (!channel.is_even || channel.step > 0.0 || !is_time(c) || options_.rate || !exported_.columns[c].is_kept)
         continue;
-      return tl::unexpected(lines_.refused(line,
-                                           fmt::format("the segment states no Delta_X for {}", shortened(names_[c])),
-                                           "must be above 0, or state the rate (`rate`)"));
+      return tl::unexpected(lines_.refused(
+          line, {.code = ProblemCode::no_times, .subjects = {{"of", "step"}, {"column", shortened(names_[c])}}}));
     }
     return {};
   }
@@ -232,8 +225,9 @@ class LvmReader {
     if (seconds && begins_[c]) {
       channel.start = (*seconds - *begins_[c]) / unit;
     } else if (segments_ > 1 && !options_.rate && exported_.columns[c].is_kept) {
-      return tl::unexpected(lines_.refused(line, fmt::format("segment {} states no date and time", segments_),
-                                           "must be such as 2013/02/19 and 09:51:40.7; or state the rate (`rate`)"));
+      return tl::unexpected(lines_.refused(
+          line,
+          {.code = ProblemCode::no_times, .evidence = {counted("segment", segments_)}, .subjects = {{"of", "start"}}}));
     }
     return {};
   }
@@ -288,8 +282,7 @@ class LvmReader {
     widest_ = std::max(widest_, line.cells.size());
     for (std::size_t c = names_.size(); c < line.cells.size() && !has_comments_; ++c) {
       if (line.cells[c].empty()) continue;
-      return tl::unexpected(lines_.refused(line, fmt::format("has {} cells", line.cells.size()),
-                                           fmt::format("must have {} as the line of names has", names_.size())));
+      return tl::unexpected(lines_.wrong_cells(line, line.cells.size(), names_.size(), "names"));
     }
     for (std::size_t c = 0; c < names_.size(); ++c) {
       if (holds_x(c)) continue;
@@ -376,8 +369,8 @@ tl::expected<ExportedColumns, InputError> read_labview_measurement(TextLines tex
                                                                    const Progress& progress) {
   const char separator = labview_separator(text.buffered());
   if (std::string_view("\t,;").find(separator) == std::string_view::npos) {
-    return tl::unexpected(InputError{text.file().source(), 0, 0, "Separator", "is none of the known ones",
-                                     "must be a tab, a comma or a semicolon"});
+    return tl::unexpected(InputError{{.file = text.file().source(), .key = "Separator"},
+                                     {.code = ProblemCode::separator_not_possible, .subjects = {{"of", "labview"}}}});
   }
   ExportLines lines(std::move(text), separator, options.decimal_mark, progress);
   return LvmReader(lines, options).read();

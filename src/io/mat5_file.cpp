@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/inflate.hpp"
 #include "io/mat5_matrix.hpp"
 
@@ -32,8 +33,8 @@ class Variables {
  public:
   static tl::expected<Variables, InputError> start(InputFile file, std::size_t most_unpacked);
 
-  /// The next variable; nothing at the file's end. A variable that does not unpack is the inner refusal, saying why.
-  using Result = tl::expected<Variable, std::string>;
+  /// The next variable; nothing at the file's end. A variable that does not unpack is the inner refusal.
+  using Result = tl::expected<Variable, Problem>;
   [[nodiscard]] tl::expected<std::optional<Result>, InputError> next();
   [[nodiscard]] tl::expected<Variable, InputError> at(std::uintmax_t offset);
 
@@ -46,9 +47,9 @@ class Variables {
 
  private:
   Variables(InputFile file, std::size_t most_unpacked) : file_(std::move(file)), most_unpacked_(most_unpacked) {}
-  [[nodiscard]] tl::unexpected<InputError> damaged(const std::string& how) const {
-    return tl::unexpected(InputError{file_.source(), 0, 0, "", fmt::format("is damaged at byte {}: {}", position_, how),
-                                     "save or copy it again"});
+  [[nodiscard]] tl::unexpected<InputError> damaged(Problem how) const {
+    how.evidence.push_back(counted("byte", position_));
+    return tl::unexpected(InputError({.file = file_.source()}, std::move(how)));
   }
 
   InputFile file_;
@@ -58,6 +59,18 @@ class Variables {
   std::uintmax_t position_ = header_size;
   std::uintmax_t subsystem_ = 0;
 };
+
+Problem ends_inside(std::string part) {
+  return {.code = ProblemCode::data_end_inside, .subjects = {{"part", std::move(part)}}};
+}
+
+Problem unpacks_to_more(std::size_t most) {
+  return {.code = ProblemCode::unpacks_to_more, .evidence = {counted("most", most)}};
+}
+
+InputError changed_while_read(const InputFile& file) {
+  return {{.file = file.source()}, {.code = ProblemCode::changed_while_read}};
+}
 
 std::span<char> as_characters(std::span<unsigned char> bytes) {
   return {reinterpret_cast<char*>(bytes.data()), bytes.size()};
@@ -72,7 +85,7 @@ tl::expected<Variables, InputError> Variables::start(InputFile file, std::size_t
   variables.subsystem_ = load<std::uint64_t>(header.data() + 116, variables.order_);
   if (*size < header_size) {
     variables.position_ = *size;
-    return variables.damaged("it ends inside its header");
+    return variables.damaged(ends_inside("its header"));
   }
   return variables;
 }
@@ -82,36 +95,39 @@ tl::expected<std::optional<Variables::Result>, InputError> Variables::next() {
   const auto tag_size = file_.read(as_characters(tag));
   if (!tag_size) return tl::unexpected(tag_size.error());
   if (*tag_size == 0) return std::nullopt;
-  if (*tag_size < tag.size()) return damaged("the file ends inside a variable");
+  if (*tag_size < tag.size()) return damaged(ends_inside("a variable"));
   const auto type = load<std::uint32_t>(tag.data(), order_);
   const std::size_t size = load<std::uint32_t>(tag.data() + 4, order_);
   if (type != mat5_matrix && type != mat5_compressed) {
-    return damaged(fmt::format("an element of type {} where a variable must stand", type));
+    return damaged({.code = ProblemCode::wrong_element,
+                    .evidence = {counted("type", type), counted("bytes", size)},
+                    .subjects = {{"part", "variable"}}});
   }
   if (size > file_.size() || position_ + tag.size() > file_.size() - size) {
-    return damaged(fmt::format("a variable of {} bytes, where the file ends after {}", size,
-                               file_.size() - std::min<std::uintmax_t>(file_.size(), position_ + tag.size())));
+    const std::uintmax_t left = file_.size() - std::min<std::uintmax_t>(file_.size(), position_ + tag.size());
+    return damaged({.code = ProblemCode::bytes_missing, .evidence = {counted("bytes", size), counted("left", left)}});
   }
   Variable variable{position_, Bytes(size)};
   const auto read = file_.read(as_characters(variable.matrix));
   if (!read) return tl::unexpected(read.error());
-  if (*read < size) return damaged("the file ends inside a variable");
+  if (*read < size) return damaged(ends_inside("a variable"));
   position_ += tag.size() + size;
   if (type == mat5_matrix) return Result(std::move(variable));
 
   const std::size_t left = most_unpacked_ - unpacked_;
   auto unpacked = inflate_all(variable.matrix, std::min(largest_variable, left));
-  if (!unpacked && unpacked.error().is_too_large && left < largest_variable) {
-    return tl::unexpected(InputError{file_.source(), 0, 0, "",
-                                     fmt::format("unpacks to more than {} bytes", most_unpacked_),
-                                     fmt::format("at most {} bytes in all", most_unpacked_)});
+  if (!unpacked && unpacked.error() == InflateFailure::too_large) {
+    if (left >= largest_variable) return Result(tl::unexpected(unpacks_to_more(largest_variable)));
+    Problem in_all = unpacks_to_more(most_unpacked_);
+    in_all.evidence.push_back({"in_all", 1.0});
+    return tl::unexpected(InputError({.file = file_.source()}, std::move(in_all)));
   }
-  if (!unpacked) return Result(tl::unexpected(std::move(unpacked.error().why)));
+  if (!unpacked) return Result(tl::unexpected(Problem{.code = ProblemCode::does_not_unpack}));
   unpacked_ += unpacked->size();
   // The outermost size is not used: matio writes one too large for text, and what is inside is checked anyway.
   constexpr std::ptrdiff_t tag_bytes = 8;
   if (unpacked->size() < tag_bytes || load<std::uint32_t>(unpacked->data(), order_) != mat5_matrix) {
-    return Result(tl::unexpected(std::string("it does not unpack to a variable")));
+    return Result(tl::unexpected(Problem{.code = ProblemCode::does_not_unpack}));
   }
   unpacked->erase(unpacked->begin(), unpacked->begin() + tag_bytes);
   variable.matrix = std::move(*unpacked);
@@ -124,7 +140,7 @@ tl::expected<Variable, InputError> Variables::at(std::uintmax_t offset) {
   unpacked_ = 0;
   auto variable = next();
   if (!variable) return tl::unexpected(std::move(variable.error()));
-  if (!*variable || !**variable) return damaged("the file has changed while it was read");
+  if (!*variable || !**variable) return tl::unexpected(changed_while_read(file_));
   return std::move(***variable);
 }
 
@@ -150,7 +166,7 @@ class ArrayReader {
     }
     const auto matrix = read_mat5_matrix(last_->matrix, variables_.order());
     if (!matrix || place.index >= matrix->numbers.size()) {
-      return tl::unexpected(InputError{variables_.file().source(), 0, 0, "", "has changed while it was read", ""});
+      return tl::unexpected(changed_while_read(variables_.file()));
     }
     return mat5_numbers(matrix->numbers[place.index], variables_.order());
   }
@@ -172,8 +188,8 @@ tl::expected<MatFile, InputError> open_mat5_file(InputFile file, std::size_t mos
   if (!variables) return tl::unexpected(std::move(variables.error()));
   MatContents contents;
   std::vector<Place> places;
-  const auto skip_damaged = [&](std::uintmax_t offset, const std::string& why) {
-    contents.skip(fmt::format("the variable at byte {}", offset), SkippedMatArray::Kind::damaged, why);
+  const auto skip_damaged = [&](std::uintmax_t offset, Problem why) {
+    contents.skip(fmt::format("byte {}", offset), SkippedMatArray::Kind::damaged, std::move(why));
   };
   for (;;) {
     const std::uintmax_t offset = variables->position();

@@ -1,20 +1,19 @@
 #include "io/mat5_matrix.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/number_cell.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 using Bytes = std::span<const unsigned char>;
-using Damage = tl::unexpected<std::string>;
+using Damage = tl::unexpected<Problem>;
 using Kind = SkippedMatArray::Kind;
 
 constexpr unsigned int8_type = 1;
@@ -26,7 +25,6 @@ constexpr unsigned utf8_type = 16;
 constexpr unsigned complex_flag = 0x0800;
 constexpr unsigned logical_flag = 0x0200;
 
-constexpr int deepest_nesting = 32;
 constexpr std::size_t most_dimensions = 32;
 constexpr std::size_t longest_name = 1024;
 constexpr std::size_t longest_field_name = 128;
@@ -58,6 +56,22 @@ std::string text_of(Bytes bytes) {
   return as_utf8(std::string(bytes.begin(), end));
 }
 
+Damage wrong_element(std::string part, const Mat5Element& element) {
+  return Damage({.code = ProblemCode::wrong_element,
+                 .evidence = {counted("type", element.type), counted("bytes", element.bytes.size())},
+                 .subjects = {{"part", std::move(part)}}});
+}
+
+Problem wrong_field(std::string field, std::int32_t value) {
+  return {.code = ProblemCode::wrong_field,
+          .evidence = {{"value", static_cast<double>(value)}},
+          .subjects = {{"field", std::move(field)}}};
+}
+
+Problem bytes_missing(std::size_t announced, std::size_t left) {
+  return {.code = ProblemCode::bytes_missing, .evidence = {counted("bytes", announced), counted("left", left)}};
+}
+
 /// What stands at the front of every matrix element but an opaque one.
 struct MatrixHead {
   unsigned matlab_class = 0;
@@ -67,53 +81,40 @@ struct MatrixHead {
   std::string name;
 };
 
-/// The number of elements of an array of these dimensions, or more than `most`.
-std::size_t count_of(const std::vector<std::size_t>& dimensions, std::size_t most) {
-  if (std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end()) return 0;
-  std::size_t count = 1;
-  for (const std::size_t dimension : dimensions) {
-    if (dimension > most / count) return most + 1;
-    count *= dimension;
-  }
-  return count;
-}
-
 class MatrixWalk {
  public:
   explicit MatrixWalk(ByteOrder order) : order_(order) {}
 
   /// `name` names what is inside a struct; a variable has its own.
-  tl::expected<void, std::string> walk(Bytes bytes, const std::string* name, int depth);
+  tl::expected<void, Problem> walk(Bytes bytes, const std::string* name, int depth);
 
   Mat5Matrix found;
 
  private:
-  tl::expected<MatrixHead, std::string> take_head(Bytes& rest) const;
-  tl::expected<std::string, std::string> take_text(Bytes& rest, std::string_view what) const;
-  tl::expected<void, std::string> add_numbers(const MatrixHead& head, const std::string& name, Bytes rest);
-  tl::expected<void, std::string> walk_struct(const MatrixHead& head, const std::string& name, Bytes rest, int depth);
-  tl::expected<std::vector<std::string>, std::string> take_field_names(Bytes& rest) const;
+  tl::expected<MatrixHead, Problem> take_head(Bytes& rest) const;
+  tl::expected<std::string, Problem> take_name(Bytes& rest) const;
+  tl::expected<void, Problem> add_numbers(const MatrixHead& head, const std::string& name, Bytes rest);
+  tl::expected<void, Problem> walk_struct(const MatrixHead& head, const std::string& name, Bytes rest, int depth);
+  tl::expected<std::vector<std::string>, Problem> take_field_names(Bytes& rest) const;
 
   ByteOrder order_;
   std::size_t fields_ = 0;
 };
 
-tl::expected<std::string, std::string> MatrixWalk::take_text(Bytes& rest, std::string_view what) const {
+tl::expected<std::string, Problem> MatrixWalk::take_name(Bytes& rest) const {
   const auto element = take_mat5_element(rest, order_);
   if (!element) return Damage(element.error());
-  if (element->type != int8_type && element->type != uint8_type && element->type != utf8_type) {
-    return Damage(fmt::format("{} is an element of type {}", what, element->type));
-  }
-  if (element->bytes.size() > longest_name) return Damage(fmt::format("{} has {} bytes", what, element->bytes.size()));
+  const bool is_text = element->type == int8_type || element->type == uint8_type || element->type == utf8_type;
+  if (!is_text || element->bytes.size() > longest_name) return wrong_element("name", *element);
   return text_of(element->bytes);
 }
 
-tl::expected<MatrixHead, std::string> MatrixWalk::take_head(Bytes& rest) const {
+tl::expected<MatrixHead, Problem> MatrixWalk::take_head(Bytes& rest) const {
   MatrixHead head;
   const auto flags = take_mat5_element(rest, order_);
   if (!flags) return Damage(flags.error());
   if ((flags->type != uint32_type && flags->type != int32_type) || flags->bytes.size() != 8) {
-    return Damage(fmt::format("its flags are an element of type {} and {} bytes", flags->type, flags->bytes.size()));
+    return wrong_element("flags", *flags);
   }
   const auto word = load<std::uint32_t>(flags->bytes.data(), order_);
   head.matlab_class = word & 0xFF;
@@ -124,31 +125,33 @@ tl::expected<MatrixHead, std::string> MatrixWalk::take_head(Bytes& rest) const {
     if (!sizes) return Damage(sizes.error());
     const std::size_t dimensions = sizes->bytes.size() / 4;
     if (sizes->type != int32_type || sizes->bytes.size() % 4 != 0 || dimensions < 2 || dimensions > most_dimensions) {
-      return Damage(fmt::format("its size is an element of type {} and {} bytes", sizes->type, sizes->bytes.size()));
+      return wrong_element("size", *sizes);
     }
     for (std::size_t i = 0; i < dimensions; ++i) {
       const auto size = load<std::int32_t>(sizes->bytes.data() + 4 * i, order_);
-      if (size < 0) return Damage(fmt::format("one of its sizes is {}", size));
+      if (size < 0) return Damage(wrong_field("size", size));
       head.dimensions.push_back(static_cast<std::size_t>(size));
     }
   }
-  auto name = take_text(rest, "its name");
+  auto name = take_name(rest);
   if (!name) return Damage(std::move(name.error()));
   head.name = std::move(*name);
   return head;
 }
 
-tl::expected<void, std::string> MatrixWalk::add_numbers(const MatrixHead& head, const std::string& name, Bytes rest) {
+tl::expected<void, Problem> MatrixWalk::add_numbers(const MatrixHead& head, const std::string& name, Bytes rest) {
   const auto element = take_mat5_element(rest, order_);
   if (!element) return Damage(element.error());
   const std::size_t size = bytes_per_number(element->type);
-  if (size == 0) return Damage(fmt::format("its numbers are an element of type {}", element->type));
-  const std::size_t count = count_of(head.dimensions, element->bytes.size());
+  if (size == 0) return wrong_element("numbers", *element);
+  const std::size_t count = mat_count(head.dimensions, element->bytes.size());
   if (element->bytes.size() % size != 0 || count != element->bytes.size() / size) {
-    return Damage(fmt::format("its numbers take {} bytes, which is not what its size says", element->bytes.size()));
+    return Damage({.code = ProblemCode::size_disagrees,
+                   .evidence = {counted("count", element->bytes.size())},
+                   .subjects = {{"unit", "bytes"}}});
   }
   if (head.is_complex) {
-    found.contents.skip(name, Kind::complex, "is complex");
+    found.contents.skip(name, Kind::complex, wrong_kind("complex"));
     return {};
   }
   const std::string_view class_name = head.is_logical ? "logical" : numeric_classes[head.matlab_class - first_numeric];
@@ -158,20 +161,22 @@ tl::expected<void, std::string> MatrixWalk::add_numbers(const MatrixHead& head, 
   return {};
 }
 
-tl::expected<std::vector<std::string>, std::string> MatrixWalk::take_field_names(Bytes& rest) const {
+tl::expected<std::vector<std::string>, Problem> MatrixWalk::take_field_names(Bytes& rest) const {
   const auto length_element = take_mat5_element(rest, order_);
   if (!length_element) return Damage(length_element.error());
   if (length_element->type != int32_type || length_element->bytes.size() != 4) {
-    return Damage("the length of its field names is no 32-bit number");
+    return wrong_element("name length", *length_element);
   }
   const auto length = load<std::int32_t>(length_element->bytes.data(), order_);
   const auto names = take_mat5_element(rest, order_);
   if (!names) return Damage(names.error());
   if (length < 1 || static_cast<std::size_t>(length) > longest_field_name) {
-    return Damage(fmt::format("its field names are {} bytes long", length));
+    Problem problem = wrong_field("name length", length);
+    problem.evidence.push_back(counted("most", longest_field_name));
+    return Damage(std::move(problem));
   }
   const auto step = static_cast<std::size_t>(length);
-  if (names->bytes.size() % step != 0) return Damage("the last of its field names is cut off");
+  if (names->bytes.size() % step != 0) return wrong_element("field names", *names);
   std::vector<std::string> fields;
   for (std::size_t begin = 0; begin < names->bytes.size(); begin += step) {
     fields.push_back(text_of(names->bytes.subspan(begin, step)));
@@ -179,17 +184,20 @@ tl::expected<std::vector<std::string>, std::string> MatrixWalk::take_field_names
   return fields;
 }
 
-tl::expected<void, std::string> MatrixWalk::walk_struct(const MatrixHead& head, const std::string& name, Bytes rest,
-                                                        int depth) {
+tl::expected<void, Problem> MatrixWalk::walk_struct(const MatrixHead& head, const std::string& name, Bytes rest,
+                                                    int depth) {
   const auto fields = take_field_names(rest);
   if (!fields) return Damage(fields.error());
-  const std::size_t elements = count_of(head.dimensions, most_fields);
+  const std::size_t elements = mat_count(head.dimensions, most_fields);
   if (elements == 0 || fields->empty()) {
-    found.contents.skip(name, Kind::no_table, "is empty");
+    found.contents.skip(name, Kind::no_table, wrong_kind("empty"));
     return {};
   }
   if (fields->size() > most_fields || elements > (most_fields - fields_) / fields->size()) {
-    found.contents.skip(name, Kind::no_table, fmt::format("is a struct of more than {} fields", most_fields));
+    found.contents.skip(name, Kind::no_table,
+                        {.code = ProblemCode::has_too_many,
+                         .evidence = {counted("most", most_fields)},
+                         .subjects = {{"what", "fields"}}});
     return {};
   }
   fields_ += elements * fields->size();
@@ -197,7 +205,7 @@ tl::expected<void, std::string> MatrixWalk::walk_struct(const MatrixHead& head, 
     for (const std::string& field : *fields) {
       const auto element = take_mat5_element(rest, order_);
       if (!element) return Damage(element.error());
-      if (element->type != mat5_matrix) return Damage(fmt::format("a field is an element of type {}", element->type));
+      if (element->type != mat5_matrix) return wrong_element("field", *element);
       const std::string field_name = mat_field_name(name, i, elements, field);
       if (auto walked = walk(element->bytes, &field_name, depth + 1); !walked) return walked;
     }
@@ -205,64 +213,66 @@ tl::expected<void, std::string> MatrixWalk::walk_struct(const MatrixHead& head, 
   return {};
 }
 
-tl::expected<void, std::string> MatrixWalk::walk(Bytes bytes, const std::string* name, int depth) {
-  if (depth > deepest_nesting) return Damage(fmt::format("structs are nested more than {} deep", deepest_nesting));
+tl::expected<void, Problem> MatrixWalk::walk(Bytes bytes, const std::string* name, int depth) {
+  if (depth > mat_deepest_nesting) {
+    return Damage({.code = ProblemCode::nested_too_deep, .evidence = {{"most", mat_deepest_nesting}}});
+  }
   if (bytes.empty()) {
-    found.contents.skip(name != nullptr ? *name : "", Kind::no_table, "is empty");
+    found.contents.skip(name != nullptr ? *name : "", Kind::no_table, wrong_kind("empty"));
     return {};
   }
   const auto head = take_head(bytes);
   if (!head) return Damage(head.error());
   const std::string& full_name = name != nullptr ? *name : head->name;
-  const auto skip = [&](Kind kind, std::string why) -> tl::expected<void, std::string> {
+  const auto skip = [&](Kind kind, Problem why) -> tl::expected<void, Problem> {
     found.contents.skip(full_name, kind, std::move(why));
     return {};
   };
   switch (head->matlab_class) {
     case opaque:
     case object:
-      return skip(Kind::object, "is a MATLAB object");
+      return skip(Kind::object, wrong_kind("a MATLAB object"));
     case structure:
       return walk_struct(*head, full_name, bytes, depth);
     case cell:
-      return skip(Kind::other_class, "is a cell array");
+      return skip(Kind::other_class, wrong_kind("a cell array"));
     case text:
-      return skip(Kind::other_class, "is text");
+      return skip(Kind::other_class, wrong_kind("text"));
     case sparse:
-      return skip(Kind::other_class, "is sparse");
+      return skip(Kind::other_class, wrong_kind("sparse"));
     case function:
-      return skip(Kind::other_class, "is a function handle");
+      return skip(Kind::other_class, wrong_kind("a function handle"));
     default:
       break;
   }
   if (head->matlab_class < first_numeric || head->matlab_class > last_numeric) {
-    return skip(Kind::other_class, fmt::format("is of the unknown class {}", head->matlab_class));
+    return skip(Kind::other_class, {.code = ProblemCode::wrong_kind,
+                                    .evidence = {counted("class", head->matlab_class)},
+                                    .subjects = {{"wanted", "array"}}});
   }
   return add_numbers(*head, full_name, bytes);
 }
 
 }  // namespace
 
-tl::expected<Mat5Element, std::string> take_mat5_element(Bytes& rest, ByteOrder order) {
-  if (rest.size() < 8) return Damage("it ends where an element must stand");
+tl::expected<Mat5Element, Problem> take_mat5_element(Bytes& rest, ByteOrder order) {
+  if (rest.size() < 8) return Damage({.code = ProblemCode::data_end_inside, .subjects = {{"part", "an element"}}});
   const auto first = load<std::uint32_t>(rest.data(), order);
   if (const std::size_t small = first >> 16; small > 0) {  // up to four bytes stand in the tag itself
-    if (small > 4) return Damage(fmt::format("a short element of {} bytes", small));
+    if (small > 4) return Damage(bytes_missing(small, 4));
     const Mat5Element element{first & 0xFFFF, rest.subspan(4, small)};
     rest = rest.subspan(8);
     return element;
   }
   const std::size_t size = load<std::uint32_t>(rest.data() + 4, order);
-  if (size > rest.size() - 8) {
-    return Damage(fmt::format("an element of {} bytes where {} are left", size, rest.size() - 8));
-  }
+  if (size > rest.size() - 8) return Damage(bytes_missing(size, rest.size() - 8));
   const Mat5Element element{first, rest.subspan(8, size)};
   const std::size_t padded = (size + 7) / 8 * 8;
   rest = rest.subspan(std::min(8 + padded, rest.size()));
   return element;
 }
 
-tl::expected<Mat5Matrix, std::string> read_mat5_matrix(Bytes bytes, ByteOrder order) {
+tl::expected<Mat5Matrix, Problem> read_mat5_matrix(Bytes bytes, ByteOrder order) {
   MatrixWalk walk(order);
   if (auto walked = walk.walk(bytes, nullptr, 0); !walked) return Damage(std::move(walked.error()));
   return std::move(walk.found);

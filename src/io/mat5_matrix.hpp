@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -20,9 +19,9 @@ struct Mat5Element {
 inline constexpr unsigned mat5_matrix = 14;
 inline constexpr unsigned mat5_compressed = 15;
 
-/// Takes the element at the front of `rest`. Refused, saying why: one that goes past the end.
-[[nodiscard]] tl::expected<Mat5Element, std::string> take_mat5_element(std::span<const unsigned char>& rest,
-                                                                       ByteOrder order);
+/// Takes the element at the front of `rest`. Refused: one that goes past the end.
+[[nodiscard]] tl::expected<Mat5Element, Problem> take_mat5_element(std::span<const unsigned char>& rest,
+                                                                   ByteOrder order);
 
 /// What a matrix element holds: the arrays in it and, for each, the element of its numbers.
 struct Mat5Matrix {
@@ -31,10 +30,9 @@ struct Mat5Matrix {
 };
 
 /// Walks through a matrix element with all that is in it (structs). Every size is checked against the bytes that are
-/// there. Refused, saying why: sizes that contradict each other. `bytes` are those after the element's tag.
+/// there. Refused: sizes that contradict each other. `bytes` are those after the element's tag.
 /// Source: MathWorks, MAT-File Format, chapter 1 (level 5).
-[[nodiscard]] tl::expected<Mat5Matrix, std::string> read_mat5_matrix(std::span<const unsigned char> bytes,
-                                                                     ByteOrder order);
+[[nodiscard]] tl::expected<Mat5Matrix, Problem> read_mat5_matrix(std::span<const unsigned char> bytes, ByteOrder order);
 
 /// The numbers of an element that read_mat5_matrix() has found.
 [[nodiscard]] std::vector<double> mat5_numbers(const Mat5Element& element, ByteOrder order);

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 
@@ -22,7 +23,6 @@ namespace {
 
 using Kind = SkippedMatArray::Kind;
 
-constexpr int deepest_nesting = 32;
 constexpr std::size_t most_objects = 20000;                      // in one file, over all elements of its struct arrays
 constexpr std::size_t longest_name = 1024;                       // bytes
 constexpr std::size_t most_values = (std::size_t{1} << 30) / 8;  // in one array
@@ -104,28 +104,28 @@ std::optional<std::vector<std::size_t>> dimensions_of(const Handle& dataset) {
   return dimensions;
 }
 
-/// The number of elements, or more than `most`.
-std::size_t count_of(const std::vector<std::size_t>& dimensions, std::size_t most) {
-  std::size_t count = 1;
-  for (const std::size_t dimension : dimensions) {
-    if (dimension == 0) return 0;
-    count = dimension > most / count ? most + 1 : count * dimension;
-    if (count > most) return most + 1;
-  }
-  return count;
+Problem not_read(std::string part) {
+  return {.code = ProblemCode::not_read_by_hdf5, .subjects = {{"part", std::move(part)}}};
+}
+
+Problem has_more_than(std::size_t most, std::string what) {
+  return {
+      .code = ProblemCode::has_too_many, .evidence = {counted("most", most)}, .subjects = {{"what", std::move(what)}}};
 }
 
 /// Why a dataset of so many values cannot be read; nothing where it can.
-std::optional<std::string> why_unreadable(const Handle& dataset, const Handle& type, std::size_t count,
-                                          std::uintmax_t file_size) {
+std::optional<Problem> why_unreadable(const Handle& dataset, const Handle& type, std::size_t count,
+                                      std::uintmax_t file_size) {
   const Handle list(H5Dget_create_plist(dataset.get()), H5Pclose);
-  if (!list) return "its layout cannot be read";
-  if (H5Pget_external_count(list.get()) > 0 || H5Pget_layout(list.get()) == H5D_VIRTUAL) return "lies in other files";
-  if (count > most_values) return fmt::format("has more than {} values", most_values);
+  if (!list) return not_read("layout");
+  if (H5Pget_external_count(list.get()) > 0 || H5Pget_layout(list.get()) == H5D_VIRTUAL) {
+    return Problem{.code = ProblemCode::lies_elsewhere};
+  }
+  if (count > most_values) return has_more_than(most_values, "values");
   const std::uintmax_t stored = H5Dget_storage_size(dataset.get());
   const std::uintmax_t needed = static_cast<std::uintmax_t>(count) * H5Tget_size(type.get());
   if (stored > file_size || needed / best_compression > stored) {
-    return fmt::format("claims {} bytes, of which {} are stored", needed, stored);
+    return Problem{.code = ProblemCode::bytes_missing, .evidence = {counted("bytes", needed), counted("left", stored)}};
   }
   return std::nullopt;
 }
@@ -152,8 +152,9 @@ class Walk {
 
 bool Walk::may_visit(const std::string& name) {
   if (visited_ == most_objects) {
-    contents.skip(name, Kind::no_table,
-                  fmt::format("and what follows: the file has more than {} arrays", most_objects));
+    Problem why = has_more_than(most_objects, "arrays");
+    why.evidence.push_back({"rest", 1.0});
+    contents.skip(name, Kind::no_table, std::move(why));
   }
   return visited_++ < most_objects;
 }
@@ -163,22 +164,24 @@ void Walk::visit_dataset(Handle dataset, const std::string& name) {
   constexpr std::array<std::string_view, 11> numeric{"double", "single", "int8",  "uint8",  "int16",  "uint16",
                                                      "int32",  "uint32", "int64", "uint64", "logical"};
   const auto is = [&](std::string_view word) { return class_name == word; };
-  if (is("char")) return contents.skip(name, Kind::other_class, "is text");
-  if (is("cell")) return contents.skip(name, Kind::other_class, "is a cell array");
-  if (is("function_handle")) return contents.skip(name, Kind::other_class, "is a function handle");
+  if (is("char")) return contents.skip(name, Kind::other_class, wrong_kind("text"));
+  if (is("cell")) return contents.skip(name, Kind::other_class, wrong_kind("a cell array"));
+  if (is("function_handle")) return contents.skip(name, Kind::other_class, wrong_kind("a function handle"));
   const bool is_object =
       class_name && !is("struct") && std::find(numeric.begin(), numeric.end(), *class_name) == numeric.end();
   if (is_object || has_attribute(dataset, "MATLAB_object_decode")) {
-    return contents.skip(name, Kind::object, "is a MATLAB object");
+    return contents.skip(name, Kind::object, wrong_kind("a MATLAB object"));
   }
-  if (is("struct") || has_attribute(dataset, "MATLAB_empty")) return contents.skip(name, Kind::no_table, "is empty");
+  if (is("struct") || has_attribute(dataset, "MATLAB_empty"))
+    return contents.skip(name, Kind::no_table, wrong_kind("empty"));
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
   const auto dimensions = dimensions_of(dataset);
-  if (!type || !dimensions) return contents.skip(name, Kind::damaged, "its type or size cannot be read");
+  if (!type || !dimensions) return contents.skip(name, Kind::damaged, not_read("size"));
   const H5T_class_t stored = H5Tget_class(type.get());
-  if (stored == H5T_COMPOUND) return contents.skip(name, Kind::complex, "is complex");
-  if (stored != H5T_INTEGER && stored != H5T_FLOAT) return contents.skip(name, Kind::other_class, "holds no numbers");
-  const std::size_t count = count_of(*dimensions, most_values);
+  if (stored == H5T_COMPOUND) return contents.skip(name, Kind::complex, wrong_kind("complex"));
+  if (stored != H5T_INTEGER && stored != H5T_FLOAT)
+    return contents.skip(name, Kind::other_class, wrong_kind("not numeric"));
+  const std::size_t count = mat_count(*dimensions, most_values);
   if (const auto why = why_unreadable(dataset, type, count, file_size_)) {
     return contents.skip(name, Kind::damaged, *why);
   }
@@ -192,14 +195,14 @@ void Walk::visit_struct_array(const Handle& references, const std::string& paren
                               int depth) {
   const std::string name = fmt::format("{}.{}", parent, field);
   const auto dimensions = dimensions_of(references);
-  const std::size_t count = dimensions ? count_of(*dimensions, most_objects) : 0;
-  if (count == 0) return contents.skip(name, Kind::no_table, "is empty");
+  const std::size_t count = dimensions ? mat_count(*dimensions, most_objects) : 0;
+  if (count == 0) return contents.skip(name, Kind::no_table, wrong_kind("empty"));
   if (count > most_objects) {
-    return contents.skip(name, Kind::no_table, fmt::format("is in a struct of more than {} elements", most_objects));
+    return contents.skip(name, Kind::no_table, has_more_than(most_objects, "elements"));
   }
   std::vector<hobj_ref_t> elements(count);
   if (H5Dread(references.get(), H5T_STD_REF_OBJ, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()) < 0) {
-    return contents.skip(name, Kind::damaged, "its references cannot be read");
+    return contents.skip(name, Kind::damaged, not_read("references"));
   }
   for (std::size_t i = 0; i < count; ++i) {
     Handle object(H5Rdereference2(references.get(), H5P_DEFAULT, H5R_OBJECT, &elements[i]), H5Oclose);
@@ -209,17 +212,18 @@ void Walk::visit_struct_array(const Handle& references, const std::string& paren
 
 void Walk::visit(Handle object, const std::string& name, int depth) {
   if (!may_visit(name)) return;
-  if (!object) return contents.skip(name, Kind::damaged, "cannot be opened");
-  if (depth > deepest_nesting) {
-    return contents.skip(name, Kind::damaged, fmt::format("structs are nested more than {} deep", deepest_nesting));
+  if (!object) return contents.skip(name, Kind::damaged, {.code = ProblemCode::not_read_by_hdf5});
+  if (depth > mat_deepest_nesting) {
+    return contents.skip(name, Kind::damaged,
+                         {.code = ProblemCode::nested_too_deep, .evidence = {{"most", mat_deepest_nesting}}});
   }
   const H5I_type_t type = H5Iget_type(object.get());
   if (type == H5I_DATASET) return visit_dataset(std::move(object), name);
-  if (type != H5I_GROUP) return contents.skip(name, Kind::other_class, "is neither an array nor a struct");
-  if (has_attribute(object, "MATLAB_sparse")) return contents.skip(name, Kind::other_class, "is sparse");
+  if (type != H5I_GROUP) return contents.skip(name, Kind::other_class, wrong_kind("no array"));
+  if (has_attribute(object, "MATLAB_sparse")) return contents.skip(name, Kind::other_class, wrong_kind("sparse"));
   const auto class_name = matlab_class(object);
   if ((class_name && *class_name != "struct") || has_attribute(object, "MATLAB_object_decode")) {
-    return contents.skip(name, Kind::object, "is a MATLAB object");
+    return contents.skip(name, Kind::object, wrong_kind("a MATLAB object"));
   }
   visit_links(object, name, depth + 1);
 }
@@ -227,13 +231,13 @@ void Walk::visit(Handle object, const std::string& name, int depth) {
 /// `parent` is the struct's name, empty for the file's variables.
 void Walk::visit_links(const Handle& group, const std::string& parent, int depth) {
   H5G_info_t info{};
-  if (H5Gget_info(group.get(), &info) < 0) return contents.skip(parent, Kind::damaged, "its fields cannot be listed");
+  if (H5Gget_info(group.get(), &info) < 0) return contents.skip(parent, Kind::damaged, not_read("fields"));
   for (hsize_t i = 0; i < info.nlinks && visited_ <= most_objects; ++i) {
     std::string link(longest_name + 1, '\0');
     const auto length =
         H5Lget_name_by_idx(group.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, link.data(), link.size(), H5P_DEFAULT);
     if (length < 0 || static_cast<std::size_t>(length) > longest_name) {
-      contents.skip(parent, Kind::damaged, "the name of a field cannot be read");
+      contents.skip(parent, Kind::damaged, not_read("field names"));
       continue;
     }
     link.resize(static_cast<std::size_t>(length));
@@ -242,7 +246,7 @@ void Walk::visit_links(const Handle& group, const std::string& parent, int depth
     const std::string name = parent.empty() ? field : mat_field_name(parent, 0, 1, field);
     H5L_info_t link_info{};
     if (H5Lget_info(group.get(), link.c_str(), &link_info, H5P_DEFAULT) < 0 || link_info.type != H5L_TYPE_HARD) {
-      contents.skip(name, Kind::other_class, "is a link to elsewhere");
+      contents.skip(name, Kind::other_class, {.code = ProblemCode::lies_elsewhere});
       continue;
     }
     Handle object(H5Oopen(group.get(), link.c_str(), H5P_DEFAULT), H5Oclose);
@@ -291,8 +295,8 @@ tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (error || !file) {
-    return tl::unexpected(InputError{path, 0, 0, "", "is a damaged MAT file of version 7.3: HDF5 cannot open it",
-                                     "save or copy it again"});
+    return tl::unexpected(
+        InputError({.file = path}, {.code = ProblemCode::damaged_file, .subjects = {{"version", "7.3"}}}));
   }
   const Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose);
   Walk walk(size);
@@ -302,8 +306,7 @@ tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
       [open, path, arrays = walk.contents.arrays](std::size_t array) -> tl::expected<std::vector<double>, InputError> {
     std::vector<double> numbers(arrays.at(array).rows * arrays[array].columns);
     if (open->read(array, numbers)) return numbers;
-    return tl::unexpected(InputError{path, 0, 0, shortened(arrays[array].name),
-                                     "its values are damaged: HDF5 cannot read them", "save or copy the file again"});
+    return tl::unexpected(InputError({.file = path, .key = shortened(arrays[array].name)}, not_read("values")));
   };
   return MatFile{std::move(walk.contents), values};
 }

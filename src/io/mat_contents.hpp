@@ -29,14 +29,17 @@ struct SkippedMatArray {
   };
   std::string name;
   Kind kind = Kind::other_class;
-  std::string why;  ///< "is text"
+  Problem why;  ///< as one that was asked for
 };
+
+/// It is "text", "a cell array", "empty", where an array of numbers is wanted: or what else the phrase names.
+[[nodiscard]] Problem wrong_kind(std::string kind, std::string wanted = "array");
 
 struct MatContents {
   std::vector<MatArray> arrays;
   std::vector<SkippedMatArray> skipped;
 
-  void skip(std::string name, SkippedMatArray::Kind kind, std::string why);
+  void skip(std::string name, SkippedMatArray::Kind kind, Problem why);
   /// Adds an array, or skips it where it cannot hold signals side by side.
   void add(std::string name, std::string class_name, const std::vector<std::size_t>& dimensions);
 };
@@ -46,6 +49,12 @@ struct MatFile {
   MatContents contents;
   std::function<tl::expected<std::vector<double>, InputError>(std::size_t array)> values;
 };
+
+/// The number of elements of an array of these dimensions, or more than `most`.
+[[nodiscard]] std::size_t mat_count(const std::vector<std::size_t>& dimensions, std::size_t most);
+
+/// Structs in structs that are followed.
+inline constexpr int mat_deepest_nesting = 32;
 
 /// Name of an element's field: "run.position", or "run(2).position" in a struct array (`index` from 0).
 [[nodiscard]] std::string mat_field_name(const std::string& parent, std::size_t index, std::size_t elements,

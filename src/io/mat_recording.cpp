@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/input_file.hpp"
 #include "io/mat5_file.hpp"
@@ -50,15 +51,21 @@ struct MatTable {
   }
 };
 
-InputError refused(const std::string& source, std::string what, std::string allowed, std::string key = "") {
-  return {source, 0, 0, std::move(key), std::move(what), std::move(allowed)};
+InputError damaged_file(const std::string& source, std::string version) {
+  return {{.file = source}, {.code = ProblemCode::damaged_file, .subjects = {{"version", std::move(version)}}}};
+}
+
+std::string shown_name(const std::string& name) { return name.empty() ? "unnamed" : shortened(name); }
+
+/// "force (is text)"
+std::string with_reason(const std::string& name, const Problem& why) {
+  return fmt::format("{} ({})", shown_name(name), input_problem({}, why).what);
 }
 
 tl::expected<MatFile, InputError> open_mat_file(const std::string& path, std::size_t most_unpacked,
                                                 const Progress& progress) {
   auto file = InputFile::open(path, "MAT file");
   if (!file) return Refusal(std::move(file.error()));
-  if (!file->is_regular()) return Refusal(refused(file->source(), "is a pipe", "must be a file: MAT is read by parts"));
   std::string head(640, '\0');
   const auto size = file->read(head);
   if (!size) return Refusal(size.error());
@@ -72,31 +79,25 @@ tl::expected<MatFile, InputError> open_mat_file(const std::string& path, std::si
     if (auto sought = file->seek(0); !sought) return Refusal(std::move(sought.error()));
     return open_mat5_file(std::move(*file), most_unpacked, progress);
   }
-  if (has(0, "MATLAB 7.3"sv)) {
-    return Refusal(refused(path, "is a damaged MAT file of version 7.3", "save or copy it again"));
-  }
-  if (has(0, "MATLAB 5.0"sv)) {
-    return Refusal(refused(path, "is a damaged MAT file of version 5", "save or copy it again"));
-  }
-  return Refusal(refused(path, "is a MAT file of version 4, or none",
-                         "must be of version 5 or 7.3: load it in MATLAB or Octave and save it with -v7"));
+  if (has(0, "MATLAB 7.3"sv)) return Refusal(damaged_file(path, "7.3"));
+  if (has(0, "MATLAB 5.0"sv)) return Refusal(damaged_file(path, "5"));
+  return Refusal(InputError({.file = path}, {.code = ProblemCode::unknown_version}));
 }
 
 /// "a (is text), b (is complex)"
-std::string names_of(const std::vector<SkippedMatArray>& skipped, Kind kind, bool with_reason) {
+std::string names_of(const std::vector<SkippedMatArray>& skipped, Kind kind, bool with_reasons) {
   std::vector<std::string> names;
   for (const SkippedMatArray& array : skipped) {
     if (array.kind != kind) continue;
-    const std::string name = array.name.empty() ? "one without a name" : shortened(array.name);
-    names.push_back(with_reason ? fmt::format("{} ({})", name, array.why) : name);
+    names.push_back(with_reasons ? with_reason(array.name, array.why) : shown_name(array.name));
   }
   return listed(names);
 }
 
 std::vector<Remark> remarks_on_skipped(const std::vector<SkippedMatArray>& skipped) {
   std::vector<Remark> remarks;
-  const auto add = [&](FindingCode code, Kind kind, bool with_reason) {
-    std::string names = names_of(skipped, kind, with_reason);
+  const auto add = [&](FindingCode code, Kind kind, bool with_reasons) {
+    std::string names = names_of(skipped, kind, with_reasons);
     if (names.empty()) return;
     Finding found{.code = code, .subjects = {{"arrays", std::move(names)}}};
     remarks.push_back(kind == Kind::damaged ? warning(std::move(found)) : note(std::move(found)));
@@ -114,18 +115,19 @@ InputError nothing_to_read(const MatTable& table) {
   const bool only_objects =
       table.scalars.empty() && !skipped.empty() &&
       std::all_of(skipped.begin(), skipped.end(), [](const auto& array) { return array.kind == Kind::object; });
+  Problem none{.code = ProblemCode::holds_none, .subjects = {{"wanted", "signals"}}};
   if (only_objects) {
-    return refused(table.source, fmt::format("holds MATLAB objects only: {}", names_of(skipped, Kind::object, false)),
-                   "must hold numeric arrays: take the data out of tables and timeseries and save them as vectors");
+    none.subjects.push_back({"objects", names_of(skipped, Kind::object, false)});
+    return {{.file = table.source}, std::move(none)};
   }
   std::vector<std::string> all;
-  all.reserve(skipped.size());
-  for (const SkippedMatArray& array : skipped) all.push_back(fmt::format("{} ({})", shortened(array.name), array.why));
+  all.reserve(skipped.size() + table.scalars.size());
+  for (const SkippedMatArray& array : skipped) all.push_back(with_reason(array.name, array.why));
   for (const std::size_t index : table.scalars) {
-    all.push_back(fmt::format("{} (is a single number)", shortened(table.array(index).name)));
+    all.push_back(with_reason(table.array(index).name, wrong_kind("a single number", "signal")));
   }
-  return refused(table.source, all.empty() ? "holds no variables" : fmt::format("holds no signals: {}", listed(all)),
-                 "must hold numeric arrays of two samples at least");
+  if (!all.empty()) none.subjects.push_back({"others", listed(all)});
+  return {{.file = table.source}, std::move(none)};
 }
 
 tl::expected<MatTable, InputError> open_table(const std::string& path, std::size_t most_unpacked,
@@ -136,8 +138,11 @@ tl::expected<MatTable, InputError> open_table(const std::string& path, std::size
   for (std::size_t i = 0; i < table.file.contents.arrays.size(); ++i) {
     const auto& [name, class_name, rows, columns] = table.array(i);
     if (rows * columns > most_unpacked / sizeof(double)) {
-      return Refusal(refused(path, fmt::format("has {} values", rows * columns),
-                             fmt::format("at most {} in an array", most_unpacked / sizeof(double)), shortened(name)));
+      return Refusal(
+          InputError({.file = path, .key = shortened(name)},
+                     {.code = ProblemCode::has_too_many,
+                      .evidence = {counted("value", rows * columns), counted("most", most_unpacked / sizeof(double))},
+                      .subjects = {{"what", "values"}}}));
     }
     if (rows == 1 && columns == 1) {
       table.scalars.push_back(i);
@@ -157,27 +162,28 @@ tl::expected<MatTable, InputError> open_table(const std::string& path, std::size
 /// Why something that the file has cannot be asked for; nothing where it has no such thing.
 std::optional<InputError> why_no_signal(const MatTable& table, const std::string& asked) {
   const auto& contents = table.file.contents;
+  const InputPlace place{.file = table.source, .key = shortened(asked)};
   for (const SkippedMatArray& array : contents.skipped) {
-    if (array.name == asked) {
-      return refused(table.source, array.why, "must be a real numeric array", shortened(asked));
-    }
+    if (array.name == asked) return InputError(place, array.why);
   }
   for (const MatArray& array : contents.arrays) {
     if (array.name != asked) continue;
     if (array.rows == 1 && array.columns == 1) {
-      return refused(table.source, "is a single number", "must be a signal", shortened(asked));
+      return InputError(place, wrong_kind("a single number", "signal"));
     }
-    return refused(table.source, fmt::format("is a matrix of {} columns", array.columns),
-                   fmt::format("must be one of them: {0}.1 to {0}.{1}", shortened(asked), array.columns),
-                   shortened(asked));
+    Problem matrix = wrong_kind("a matrix", "column");
+    matrix.evidence = {counted("columns", array.columns)};
+    matrix.subjects.push_back({"choices", fmt::format("{0}.1 to {0}.{1}", place.key, array.columns)});
+    return InputError(place, std::move(matrix));
   }
   std::vector<std::string> fields;
   for (const std::string& name : table.names) {
     if (name.starts_with(asked + ".") || name.starts_with(asked + "(")) fields.push_back(shortened(name));
   }
   if (asked.empty() || fields.empty()) return std::nullopt;
-  return refused(table.source, "is a struct", fmt::format("must be one of its fields: {}", listed(fields)),
-                 shortened(asked));
+  Problem structure = wrong_kind("a struct", "field");
+  structure.subjects.push_back({"choices", listed(fields)});
+  return InputError(place, std::move(structure));
 }
 
 tl::expected<std::size_t, InputError> find_signal(const MatTable& table, const std::string& asked) {
@@ -212,15 +218,14 @@ bool names_a_rate(std::string_view name) {
 
 /// No time axis; the single numbers that may be the rate are named, but never used unasked.
 InputError no_time_axis_in(const MatTable& table, std::size_t size) {
-  InputError refusal = no_time_axis(table.source);
-  refusal.what = fmt::format("has no column of {} samples whose name says time", size);
+  Problem problem{.code = ProblemCode::no_times, .evidence = {counted("samples", size)}};
   std::vector<std::string> rates;
   for (const std::size_t index : table.scalars) {
     if (!names_a_rate(table.array(index).name)) continue;
     if (const auto text = scalar_text(table, index)) rates.push_back(*text);
   }
-  if (!rates.empty()) refusal.allowed += fmt::format("; the file has {}", listed(rates));
-  return refusal;
+  if (!rates.empty()) problem.subjects.push_back({"rates", listed(rates)});
+  return {{.file = table.source}, std::move(problem)};
 }
 
 /// The column of times: the one asked for, or one of the signals' size whose name says time, best beside the first
@@ -276,9 +281,10 @@ tl::expected<Recording, InputError> read_mat_recording(const std::string& path, 
   for (const std::size_t index : asked) {
     const Signal& signal = table->signals[index];
     if (signal.size != first.size) {
-      return Refusal(refused(table->source,
-                             fmt::format("has {} samples, {} has {}", signal.size, shortened(first.name), first.size),
-                             "signals of one recording must have equally many", shortened(signal.name)));
+      return Refusal(InputError({.file = table->source, .key = shortened(signal.name)},
+                                {.code = ProblemCode::samples_of_two_lengths,
+                                 .evidence = {counted("samples", signal.size), counted("expected", first.size)},
+                                 .subjects = {{"other", shortened(first.name)}}}));
     }
     auto column = read_signal(*table, signal);
     if (!column) return Refusal(std::move(column.error()));

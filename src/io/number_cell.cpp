@@ -1,7 +1,5 @@
 #include "io/number_cell.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <boost/locale/utf.hpp>
@@ -145,33 +143,34 @@ std::optional<std::complex<double>> read_complex(std::string_view cell, char dec
   return std::complex<double>(real.value, sign * imaginary.value);
 }
 
-std::string why_no_number(std::string_view cell, char decimal_mark) {
+Problem no_number_in(std::string_view cell, char decimal_mark) {
   cell = trimmed(cell);
-  const std::string shown = in_quotes(as_utf8(cell));
+  Problem problem{.code = ProblemCode::no_number_in_cell,
+                  .subjects = {{"cell", in_quotes(as_utf8(cell))}, {"decimal_mark", std::string(1, decimal_mark)}}};
+  const auto because = [&](const char* why) {
+    problem.subjects.push_back({"why", why});
+    return problem;
+  };
   const auto count = [&](char c) { return std::count(cell.begin(), cell.end(), c); };
   const bool digits_first = !cell.empty() && is_digit(cell.front());
-  if (cell.size() > 2 && cell.front() == '0' && lower(cell[1]) == 'x') return shown + " is hexadecimal";
-  if (digits_first && count(':') > 0) return shown + " is a time of day";
+  if (cell.size() > 2 && cell.front() == '0' && lower(cell[1]) == 'x') return because("hexadecimal");
+  if (digits_first && count(':') > 0) return because("time_of_day");
   const auto unread = [&](char mark) { return read_number(cell, mark).kind != NumberCell::Kind::number; };
   const char other_mark = decimal_mark == '.' ? ',' : '.';
   if (digits_first && count('.') + count(',') > 1 &&
       cell.find_first_not_of("0123456789.,+-eE") == std::string_view::npos) {
-    return shown + " groups its thousands";
+    return because("thousands");
   }
-  if (unread(decimal_mark) && !unread(other_mark)) {
-    return fmt::format("{} is no number: the decimal mark is {}", shown, decimal_mark == '.' ? "a point" : "a comma");
-  }
+  if (unread(decimal_mark) && !unread(other_mark)) return because("decimal_mark");
   std::string with_e(cell);
   std::replace_if(
       with_e.begin(), with_e.end(), [](char c) { return lower(c) == 'd'; }, 'e');
-  if (with_e != cell && read_number(with_e, decimal_mark).kind == NumberCell::Kind::number) {
-    return shown + " has the exponent of Fortran";
-  }
+  if (with_e != cell && read_number(with_e, decimal_mark).kind == NumberCell::Kind::number) return because("fortran");
   if (digits_first || (!cell.empty() && (cell.front() == '-' || cell.front() == '+'))) {
     const auto [number, length] = leading_number(cell);
-    if (length > 0 && length == cell.size() && number.kind == NumberCell::Kind::text) return shown + " is too large";
+    if (length > 0 && length == cell.size() && number.kind == NumberCell::Kind::text) return because("range");
   }
-  return shown + " is no number";
+  return problem;
 }
 
 std::string as_utf8(std::string_view text) {

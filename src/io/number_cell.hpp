@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "zwidth/option_problem.hpp"
+
 namespace zwidth::internal {
 
 /// What one cell of a text table holds.
@@ -27,8 +29,8 @@ struct NumberCell {
 /// Reads a complex number as Python and MATLAB write it: "(1.5+2j)", "1.5-2e-3i".
 [[nodiscard]] std::optional<std::complex<double>> read_complex(std::string_view cell, char decimal_mark);
 
-/// What is wrong with a cell of text where a number must stand: "\"0x1F\" is hexadecimal".
-[[nodiscard]] std::string why_no_number(std::string_view cell, char decimal_mark);
+/// What is wrong with a cell of text where a number must stand: "0x1F", which is hexadecimal.
+[[nodiscard]] Problem no_number_in(std::string_view cell, char decimal_mark);
 
 /// `text` without the blanks (spaces and tabs) at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/needed_value.hpp"
 #include "io/number_cell.hpp"
-#include "io/toml_text.hpp"
+#include "io/prose.hpp"
 #include "io/unit_system.hpp"
-#include "zwidth/io/message_words.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -30,28 +30,28 @@ struct MeasuredUnit {
 
 const MeasuredUnit& unit_of(Measure measure, Motion motion) {
   // In the order of Measure.
-  static constexpr std::array<MeasuredUnit, 12> linear{{{"a ratio", "", "", "20 %"},
-                                                        {"a time", "s", "", "1.5 ms"},
-                                                        {"a frequency", "Hz", "", "0.2 kHz"},
-                                                        {"an angular frequency", "rad/s", "", "40 Hz"},
-                                                        {"a length", "m", "", "5 um"},
-                                                        {"a force", "N", "", "500 mN"},
-                                                        {"a mass", "kg", "", "220 g"},
-                                                        {"a damping", "N s/m", "", "5 N s/m"},
-                                                        {"a stiffness", "N/m", "", "5 N/mm"},
-                                                        {"a velocity", "m/s", "", "50 mm/s"},
-                                                        {"a torque constant", "N m/A", "", "50 mN m/A"},
-                                                        {"a torque per voltage", "N m/V", "", "20 mN m/V"}}};
+  static constexpr std::array<MeasuredUnit, 12> linear{{{"ratio", "", "", "20 %"},
+                                                        {"time", "s", "", "1.5 ms"},
+                                                        {"frequency", "Hz", "", "0.2 kHz"},
+                                                        {"angular frequency", "rad/s", "", "40 Hz"},
+                                                        {"length", "m", "", "5 um"},
+                                                        {"force", "N", "", "500 mN"},
+                                                        {"mass", "kg", "", "220 g"},
+                                                        {"damping", "N s/m", "", "5 N s/m"},
+                                                        {"stiffness", "N/m", "", "5 N/mm"},
+                                                        {"velocity", "m/s", "", "50 mm/s"},
+                                                        {"torque constant", "N m/A", "", "50 mN m/A"},
+                                                        {"torque per voltage", "N m/V", "", "20 mN m/V"}}};
   static constexpr std::array<MeasuredUnit, 12> rotary{{linear[0],
                                                         linear[1],
                                                         linear[2],
                                                         linear[3],
-                                                        {"an angle", "rad", "", "1 turn/4096"},
-                                                        {"a torque", "N m", "N m/rad", "500 mN m"},
-                                                        {"an inertia", "kg m^2", "kg m^2/rad", "22 kg cm^2"},
-                                                        {"a damping", "N m s/rad", "N m s", "0.1 N m s/rad"},
-                                                        {"a stiffness", "N m/rad", "N m", "0.4 N m/deg"},
-                                                        {"an angular velocity", "rad/s", "", "90 deg/s"},
+                                                        {"angle", "rad", "", "1 turn/4096"},
+                                                        {"torque", "N m", "N m/rad", "500 mN m"},
+                                                        {"inertia", "kg m^2", "kg m^2/rad", "22 kg cm^2"},
+                                                        {"damping", "N m s/rad", "N m s", "0.1 N m s/rad"},
+                                                        {"stiffness", "N m/rad", "N m", "0.4 N m/deg"},
+                                                        {"angular velocity", "rad/s", "", "90 deg/s"},
                                                         linear[10],
                                                         linear[11]}};
   return (motion == Motion::rotary ? rotary : linear)[static_cast<std::size_t>(measure)];
@@ -63,20 +63,32 @@ struct Parts {
   std::string_view unit;
 };
 
-tl::expected<Parts, UnitProblem> parts_of(std::string_view text, const std::string& allowed) {
-  const UnitProblem no_number{fmt::format("is the text {}", in_quotes(text)), allowed};
+UnitProblem unit_problem(Problem problem, std::optional<std::string> suggestion = std::nullopt) {
+  OptionProblem told = option_problem("", std::move(problem));
+  return {std::move(told.what), std::move(told.allowed), std::move(suggestion), std::move(told.problem)};
+}
+
+/// A problem whose sentence says what is needed, of a text that it shows.
+UnitProblem unit_problem(ProblemCode code, const NeededValue& needed, std::string_view name, std::string_view shown) {
+  Problem problem = needs(code, needed);
+  problem.subjects.push_back({name, shortened(shown)});
+  return unit_problem(std::move(problem));
+}
+
+tl::expected<Parts, UnitProblem> parts_of(std::string_view text, const NeededValue& needed) {
+  const auto no_number = [&] { return unit_problem(ProblemCode::of_other_type, needed, "text", text); };
   std::string_view rest = trimmed(text);
   if (rest.starts_with('+')) rest.remove_prefix(1);
   const std::size_t sign = rest.starts_with('-') ? 1 : 0;
   if (rest.size() == sign || std::string_view(".0123456789").find(rest[sign]) == std::string_view::npos) {
-    return tl::unexpected(no_number);  // "inf" and "nan" too
+    return tl::unexpected(no_number());  // "inf" and "nan" too
   }
   Parts parts;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), parts.number);
   if (error == std::errc::result_out_of_range) {
-    return tl::unexpected(UnitProblem{std::string(number_out_of_range), std::string(number_range)});
+    return tl::unexpected(unit_problem({.code = ProblemCode::number_beyond_range}));
   }
-  if (error != std::errc{}) return tl::unexpected(no_number);
+  if (error != std::errc{}) return tl::unexpected(no_number());
   parts.unit = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
   return parts;
 }
@@ -170,51 +182,59 @@ std::optional<std::string> with_decimal_point(std::string_view text) {
   return point;
 }
 
+UnitProblem internal::comma_problem(std::string_view text) {
+  std::optional<std::string> point = with_decimal_point(text);
+  Problem problem{.code = ProblemCode::decimal_comma, .subjects = {{"text", shortened(text)}}};
+  if (point) problem.subjects.push_back({"meant", *point});
+  return unit_problem(std::move(problem), std::move(point));
+}
+
 std::string_view si_unit(Measure measure, Motion motion) { return unit_of(measure, motion).si; }
 
-std::string allowed_numbers(Measure measure, Motion motion) {
+NeededValue internal::needed_number(Measure measure, Motion motion) {
   const MeasuredUnit& unit = unit_of(measure, motion);
-  return fmt::format("must be a number{}{}, or a text with its unit such as \"{}\"", unit.si.empty() ? "" : " of ",
-                     unit.si, unit.example);
+  return {"measured", std::string(unit.example), std::string(unit.si)};
+}
+
+std::string allowed_numbers(Measure measure, Motion motion) {
+  return option_problem("", needs(ProblemCode::of_other_type, needed_number(measure, motion))).allowed;
 }
 
 tl::expected<double, UnitProblem> number_with_unit(std::string_view text, Measure measure, Motion motion) {
+  using enum ProblemCode;
   const MeasuredUnit& wanted = unit_of(measure, motion);
-  const std::string allowed = allowed_numbers(measure, motion);
-  const auto parts = parts_of(text, allowed);
+  const NeededValue needed = needed_number(measure, motion);
+  const auto parts = parts_of(text, needed);
   if (!parts) return tl::unexpected(parts.error());
-  if (parts->unit.empty()) return tl::unexpected(UnitProblem{fmt::format("{} has no unit", in_quotes(text)), allowed});
-  if (parts->unit.front() == ',') {  // 0,01 or 1,000
-    return tl::unexpected(UnitProblem{fmt::format("{} has a comma", in_quotes(text)),
-                                      "the decimal mark is a point, and nothing stands between thousands",
-                                      with_decimal_point(text)});
-  }
+  if (parts->unit.empty()) return tl::unexpected(unit_problem(number_without_unit, needed, "text", text));
+  if (parts->unit.front() == ',') return tl::unexpected(comma_problem(text));  // 0,01 or 1,000
   // A second number would multiply the first: "1 000 N/m" is refused.
   const bool begins_as_unit = std::string_view(".+-0123456789").find(parts->unit.front()) == std::string_view::npos;
   auto unit = begins_as_unit ? ascii_unit(parts->unit) : std::nullopt;
   if (unit && (unit->starts_with('/') || unit->starts_with('*'))) *unit = "1" + *unit;  // "1/4096 turn"
   if (!unit || !is_unit(*unit)) {
-    const UnitProblem unknown{fmt::format("cannot read the unit {}", in_quotes(parts->unit)), allowed};
     const auto meant = unit ? separated_unit(*unit, wanted) : std::nullopt;
-    if (!meant) return tl::unexpected(unknown);
+    if (!meant) return tl::unexpected(unit_problem(unknown_unit, needed, "unit", parts->unit));
     const auto number = trimmed(text.substr(0, static_cast<std::size_t>(parts->unit.data() - text.data())));
     const std::string value = fmt::format("{} {}", number, *meant);
-    return tl::unexpected(UnitProblem{unknown.what, fmt::format("did you mean \"{}\"?", value), value});
+    return tl::unexpected(
+        unit_problem({.code = unknown_unit, .subjects = {{"unit", shortened(parts->unit)}, {"meant", value}}}, value));
   }
   const auto factor = factor_to(*unit, wanted);
   if (!factor) {
-    const std::string what = fmt::format("{} is no unit of {}", in_quotes(parts->unit), wanted.name);
     const auto inverse = inverse_of(parts->number, *unit, measure, motion);
-    if (!inverse) return tl::unexpected(UnitProblem{what, allowed});
-    const bool is_time = measure == Measure::time;
-    return tl::unexpected(UnitProblem{
-        what, fmt::format("{}: \"{}\"", is_time ? "a period is 1/frequency" : "a step is its inverse", *inverse),
-        inverse});
+    Problem problem = inverse ? Problem{.code = unit_of_other_measure,
+                                        .subjects = {{measure == Measure::time ? "period" : "step", *inverse}}}
+                              : needs(unit_of_other_measure, needed);
+    problem.subjects.push_back({"unit", shortened(parts->unit)});
+    problem.subjects.push_back({"measure", std::string(wanted.name)});
+    if (std::string_view("aeiou").find(wanted.name.front()) != std::string_view::npos) {
+      problem.evidence.push_back({"vowel", 1.0});
+    }
+    return tl::unexpected(unit_problem(std::move(problem), inverse));
   }
   const double value = scaled(parts->number, *factor);
-  if (!std::isfinite(value)) {
-    return tl::unexpected(UnitProblem{std::string(number_out_of_range), std::string(number_range)});
-  }
+  if (!std::isfinite(value)) return tl::unexpected(unit_problem({.code = number_beyond_range}));
   return value;
 }
 

@@ -1,7 +1,5 @@
 #include "io/paired_times.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -64,20 +62,20 @@ void cut(RawColumn& column, const Span& span) {
   };
 }
 
-std::string in_words(const Stamps& stamps) {
-  return fmt::format("{} samples from {:.9g} s to {:.9g} s, {:.6g} Hz", stamps.size(), stamps.first(), stamps.last(),
-                     1.0 / stamps.mean_period());
-}
-
 InputError other_times(const TimedColumn& column, const TimedColumn& first, const Stamps& own, const Stamps& others,
                        std::optional<std::size_t> sample) {
-  std::string what =
-      fmt::format("has other times than {}: {}; {}", in_quotes(first.values.name), in_words(own), in_words(others));
-  std::string allowed =
-      "columns of one recording must share their times: take columns of one time column, or record "
-      "them in one task at one rate";
-  if (sample) return refused_sample(column.values, *sample, std::move(what), std::move(allowed));
-  return {column.values.source, 0, 0, shortened(column.values.name), std::move(what), std::move(allowed)};
+  Problem problem{.code = ProblemCode::columns_of_other_times,
+                  .evidence = {counted("samples", own.size()),
+                               {"first", own.first()},
+                               {"last", own.last()},
+                               {"rate", 1.0 / own.mean_period()},
+                               counted("other_samples", others.size()),
+                               {"other_first", others.first()},
+                               {"other_last", others.last()},
+                               {"other_rate", 1.0 / others.mean_period()}},
+                  .subjects = {{"other", in_quotes(first.values.name)}}};
+  if (sample) return refused_sample(column.values, *sample, std::move(problem));
+  return {{.file = column.values.source, .key = shortened(column.values.name)}, std::move(problem)};
 }
 
 }  // namespace
@@ -87,9 +85,9 @@ tl::expected<std::vector<Remark>, InputError> keep_common_rows(std::vector<Timed
   std::vector<Stamps> stamps;
   for (const TimedColumn& column : columns) {
     if (column.times.values.size() < 2) {
-      return tl::unexpected(InputError{column.values.source, 0, 0, shortened(column.values.name),
-                                       fmt::format("has {} samples", column.times.values.size()),
-                                       "must have two at least"});
+      return tl::unexpected(InputError{
+          {.file = column.values.source, .key = shortened(column.values.name)},
+          {.code = ProblemCode::too_few_samples, .evidence = {counted("samples", column.times.values.size())}}});
     }
     stamps.emplace_back(column.times, options);
   }

@@ -33,15 +33,15 @@ void fill_run(std::vector<double>& values, std::size_t first, std::size_t next) 
 
 }  // namespace
 
-InputError refused_sample(const RawColumn& column, std::size_t sample, std::string what, OptionText allowed) {
-  const bool has_lines = static_cast<bool>(column.line);
-  if (!has_lines) what = fmt::format("sample {}: {}", sample + 1, what);
-  return {column.source,
-          has_lines ? column.line(sample) : 0,
-          has_lines ? std::size_t{1} : 0,
-          shortened(column.name),
-          std::move(what),
-          std::move(allowed)};
+InputError refused_sample(const RawColumn& column, std::size_t sample, Problem problem) {
+  InputPlace place{.file = column.source, .key = shortened(column.name)};
+  if (column.line) {
+    place.line = column.line(sample);
+    place.column = 1;
+  } else {
+    problem.evidence.push_back(counted("sample", sample + 1));
+  }
+  return {std::move(place), std::move(problem)};
 }
 
 std::string place_of(const RawColumn& column, std::size_t sample) {
@@ -56,10 +56,10 @@ tl::expected<void, InputError> fill_missing(RawColumn& column, std::vector<Remar
   const auto missing = static_cast<std::size_t>(std::count_if(first, values.end(), is_missing));
   const double share = static_cast<double>(missing) / static_cast<double>(values.size());
   if (share > largest_share_missing || missing == values.size()) {
-    return tl::unexpected(refused_sample(
-        column, first_place,
-        fmt::format("is NaN, infinite or empty, the first of {} such samples among {}", missing, values.size()),
-        "at most 1 % may be missing"));
+    return tl::unexpected(
+        refused_sample(column, first_place,
+                       {.code = ProblemCode::too_many_samples_missing,
+                        .evidence = {counted("missing", missing), counted("samples", values.size())}}));
   }
   std::size_t longest = 0;
   for (std::size_t i = first_place; i < values.size(); ++i) {

@@ -19,9 +19,9 @@ struct RawColumn {
   std::function<std::size_t(std::size_t sample)> line;  ///< where a sample (from 0) stands; empty: no lines (MAT, UFF)
 };
 
-/// The refusal of a column at a sample (from 0): with the sample's line where the file has lines.
-[[nodiscard]] InputError refused_sample(const RawColumn& column, std::size_t sample, std::string what,
-                                        OptionText allowed);
+/// The refusal of a column at a sample (from 0): with the sample's line where the file has lines, else with the number of
+/// the `sample` (from 1).
+[[nodiscard]] InputError refused_sample(const RawColumn& column, std::size_t sample, Problem problem);
 
 /// "line 57", or "sample 56" (from 1) where the file has no lines.
 [[nodiscard]] std::string place_of(const RawColumn& column, std::size_t sample);

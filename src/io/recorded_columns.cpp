@@ -1,11 +1,10 @@
 #include "zwidth/io/recorded_columns.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/exported_columns.hpp"
 #include "io/prose.hpp"
@@ -17,8 +16,8 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-InputError refused(const RecordedColumns& recorded, std::string key, std::string what, std::string allowed) {
-  return {recorded.source, 0, 0, std::move(key), std::move(what), std::move(allowed)};
+InputError refused(const RecordedColumns& recorded, std::string key, Problem problem) {
+  return {{.file = recorded.source, .key = std::move(key)}, std::move(problem)};
 }
 
 std::vector<std::string> names_of(const RecordedColumns& recorded) {
@@ -75,9 +74,12 @@ ExportedColumns as_exported(const RecordedColumns& recorded, const RecordingOpti
 std::optional<InputError> find_problem(const RecordedColumns& recorded) {
   const auto& period = recorded.sampling_period;
   if (period && !(std::isfinite(*period) && *period > 0.0)) {
-    return refused(recorded, "sampling_period", fmt::format("is {} s", *period), "must be above 0");
+    return refused(recorded, "sampling_period",
+                   {.code = ProblemCode::not_above_zero,
+                    .evidence = {{"value", *period}},
+                    .subjects = {{"in", "s"}, {"unit", "s"}}});
   }
-  if (recorded.columns.empty()) return refused(recorded, "", "has no columns", "must have one at least");
+  if (recorded.columns.empty()) return refused(recorded, "", {.code = ProblemCode::no_columns});
   const auto holds_times = [&](const RecordedColumn& column) {
     return std::any_of(recorded.columns.begin(), recorded.columns.end(), [&](const RecordedColumn& each) {
       return each.time_column && *each.time_column < recorded.columns.size() &&
@@ -87,21 +89,22 @@ std::optional<InputError> find_problem(const RecordedColumns& recorded) {
   const RecordedColumn* first = nullptr;  // of those without times of their own
   for (const RecordedColumn& each : recorded.columns) {
     if (each.time_column && *each.time_column >= recorded.columns.size()) {
-      return refused(recorded, shortened(each.name), fmt::format("has its times in column {}", *each.time_column),
-                     fmt::format("must be one of the {} columns, from 0 on", recorded.columns.size()));
+      return refused(recorded, shortened(each.name),
+                     {.code = ProblemCode::no_column_of_times,
+                      .evidence = {counted("column", *each.time_column), counted("columns", recorded.columns.size())}});
     }
     if (each.samples.size() < 2) {
-      return refused(recorded, shortened(each.name), fmt::format("has {} samples", each.samples.size()),
-                     "must have two at least");
+      return refused(recorded, shortened(each.name),
+                     {.code = ProblemCode::too_few_samples, .evidence = {counted("samples", each.samples.size())}});
     }
     if (!each.time_column && holds_times(each)) continue;
     if (!each.time_column && first == nullptr) first = &each;
     const RecordedColumn& other = each.time_column ? recorded.columns[*each.time_column] : *first;
     if (each.samples.size() == other.samples.size()) continue;
-    return refused(
-        recorded, shortened(each.name),
-        fmt::format("has {} samples, {} has {}", each.samples.size(), shortened(other.name), other.samples.size()),
-        "signals of one recording must have equally many");
+    return refused(recorded, shortened(each.name),
+                   {.code = ProblemCode::samples_of_two_lengths,
+                    .evidence = {counted("samples", each.samples.size()), counted("expected", other.samples.size())},
+                    .subjects = {{"other", shortened(other.name)}}});
   }
   return std::nullopt;
 }
@@ -110,7 +113,7 @@ tl::expected<Recording, InputError> read_recording(const RecordedColumns& record
   check_recording_options(options);
   if (options.rate && options.time_column) {
     return tl::unexpected(refused(recorded, shortened(*options.time_column),
-                                  "a column of times is asked for beside a rate", "must be one of the two"));
+                                  {.code = ProblemCode::asked_for_beside, .subjects = {{"of", "times"}}}));
   }
   if (auto problem = find_problem(recorded)) return tl::unexpected(*std::move(problem));
   const bool have_own_times = std::any_of(recorded.columns.begin(), recorded.columns.end(),

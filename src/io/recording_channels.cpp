@@ -1,7 +1,5 @@
 #include "io/recording_channels.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -56,11 +54,9 @@ tl::expected<Channel, InputError> make_channel(RawColumn column, const ColumnReq
     column.values[i] *= scale;
     constexpr double largest = 1e100;  // squares of more, summed, are no numbers
     if (!(std::abs(column.values[i]) < largest)) {
-      return tl::unexpected(
-          refused_sample(column, i,
-                         fmt::format("is {:.6g}{}", column.values[i],
-                                     scale == 1.0 ? "" : fmt::format(" with the scale {:.6g}", scale)),
-                         "must be below 1e100 in magnitude, as any force and motion is; a damaged cell?"));
+      Problem problem{.code = ProblemCode::sample_too_large, .evidence = {{"value", column.values[i]}}};
+      if (scale != 1.0) problem.evidence.push_back({"scale", scale});
+      return tl::unexpected(refused_sample(column, i, std::move(problem)));
     }
   }
   channel.samples = std::move(column.values);
@@ -115,14 +111,11 @@ tl::expected<void, InputError> restore(const TimeAxis& axis, Recording& recordin
   RestoredRows rows = restored_rows(axis.column.values, axis.grid, signals);
   constexpr double least_used = 0.1;
   if (static_cast<double>(rows.used_rows) < least_used * static_cast<double>(all)) {
-    InputError refusal = refused_sample(
-        axis.column, rows.first_gap + 1,
-        fmt::format(
-            "{} of {} rows are lost, the first before this one, and the signals change too much from row to row "
-            "to tell what they held; the longest stretch without such a gap has {} rows",
-            rows.lost, axis.grid.slots.back() + 1, rows.used_rows),
-        "log every row, or excite more slowly: a chirp or a multisine below a fifth of the rate");
-    return tl::unexpected(std::move(refusal));
+    return tl::unexpected(
+        refused_sample(axis.column, rows.first_gap + 1,
+                       {.code = ProblemCode::too_many_rows_lost,
+                        .evidence = {counted("lost", rows.lost), counted("rows", axis.grid.slots.back() + 1),
+                                     counted("used", rows.used_rows)}}));
   }
   recording.sampling_period = rows.period;
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
@@ -134,18 +127,9 @@ tl::expected<void, InputError> restore(const TimeAxis& axis, Recording& recordin
 
 }  // namespace
 
-InputError no_time_axis(const std::string& source) {
-  return {source,
-          0,
-          0,
-          "",
-          "has no column whose name says time",
-          "state the rate in Hz (`rate`) or the column of times (`time_column`)"};
-}
-
 void check_recording_options(const RecordingOptions& options) {
   if (options.columns.empty()) {
-    throw Error(ErrorCode::invalid_argument, "no columns are asked for; name one at least");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_columns, .evidence = {counted("asked", 0)}});
   }
   require_valid(find_problem(options));
 }
@@ -156,7 +140,9 @@ tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> column
   recording.source = columns.front().source;
   if (options.rate) recording.sampling_period = period_of_rate(*options.rate);
   if (!options.rate && !times && period) recording.sampling_period = period_of_rate(1.0 / *period);
-  if (!options.rate && !times && !period) return tl::unexpected(no_time_axis(recording.source));
+  if (!options.rate && !times && !period) {
+    return tl::unexpected(InputError{{.file = recording.source}, {.code = ProblemCode::no_times}});
+  }
   std::vector<Remark> remarks;
   auto channels = make_channels(std::move(columns), options, remarks);
   if (!channels) return tl::unexpected(std::move(channels.error()));

@@ -19,9 +19,6 @@ namespace zwidth::internal {
                                                                  const RecordingOptions& options,
                                                                  std::optional<double> period = {});
 
-/// The refusal of a recording that has neither a rate nor a column of times.
-[[nodiscard]] InputError no_time_axis(const std::string& source);
-
 /// Throws Error (invalid_argument) without columns to read, and where find_problem(options) finds one.
 void check_recording_options(const RecordingOptions& options);
 

@@ -14,6 +14,7 @@
 #include "io/recording_format.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_recording.hpp"
+#include "io/time_axis.hpp"
 #include "io/uff_recording.hpp"
 
 namespace zwidth {
@@ -34,20 +35,15 @@ tl::expected<OpenRecording, InputError> open_recording(const std::string& path, 
   const RecordingFormat format = asked == RecordingFormat::detect ? format_of(lines->buffered()) : asked;
   if (format != RecordingFormat::text && !lines->file().is_regular()) {
     const std::string_view name = format == RecordingFormat::mat ? "MAT" : "UFF";
-    return tl::unexpected(InputError{lines->file().source(), 0, 0, "",
-                                     "has the format " + std::string(name) + ", which cannot be read from a pipe",
-                                     "must be text, or a file given by its name"});
+    return tl::unexpected(
+        InputError{{.file = lines->file().source()},
+                   {.code = ProblemCode::format_needs_a_file, .subjects = {{"format", std::string(name)}}}});
   }
   return OpenRecording{format, std::move(*lines)};
 }
 
 InputError too_large(const std::string& path) {
-  return {path == "-" ? "standard input" : path,
-          0,
-          0,
-          "",
-          "does not fit into memory",
-          "must be shorter, or have fewer columns asked for"};
+  return {{.file = path == "-" ? "standard input" : path}, {.code = ProblemCode::does_not_fit_in_memory}};
 }
 
 }  // namespace
@@ -56,18 +52,16 @@ std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
   const auto is_positive = [](const std::optional<double>& value) {
     return !value || (std::isfinite(*value) && *value > 0.0);
   };
-  if (!is_positive(options.rate))
-    return OptionProblem{"rate", fmt::format("is {} Hz", *options.rate), "must be above 0"};
-  if (!is_positive(options.time_scale)) {
-    return OptionProblem{"time_scale", fmt::format("is {} s", *options.time_scale), "must be above 0"};
-  }
+  if (!is_positive(options.rate)) return not_above_zero("rate", *options.rate, "Hz");
+  if (!is_positive(options.time_scale)) return not_above_zero("time_scale", *options.time_scale, "s");
   for (std::size_t i = 0; i < options.columns.size(); ++i) {
     const double scale = options.columns[i].scale.value_or(1.0);
     if (std::isfinite(scale) && scale != 0.0) continue;
-    return OptionProblem{fmt::format("columns.{}.scale", i), fmt::format("is {}", scale), "must be finite and not 0"};
+    return option_problem(fmt::format("columns.{}.scale", i),
+                          {.code = ProblemCode::scale_not_possible, .evidence = {{"value", scale}}});
   }
   if (options.delimiter && options.decimal_mark && *options.delimiter == *options.decimal_mark) {
-    return OptionProblem{"decimal_mark", "is the delimiter", "they must differ"};
+    return option_problem("decimal_mark", {.code = ProblemCode::decimal_mark_is_delimiter});
   }
   return std::nullopt;
 }
@@ -76,8 +70,9 @@ tl::expected<Recording, InputError> read_recording(const std::string& path, cons
                                                    const Progress& progress) try {
   check_recording_options(options);
   if (options.rate && options.time_column) {
-    return tl::unexpected(InputError{path == "-" ? "standard input" : path, 0, 0, shortened(*options.time_column),
-                                     "a column of times is asked for beside a rate", "must be one of the two"});
+    return tl::unexpected(
+        InputError{{.file = path == "-" ? "standard input" : path, .key = shortened(*options.time_column)},
+                   {.code = ProblemCode::asked_for_beside, .subjects = {{"of", "times"}}}});
   }
   auto input = open_recording(path, options.format);
   if (!input) return tl::unexpected(std::move(input.error()));

@@ -1,7 +1,5 @@
 #include "io/response_columns.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -86,8 +84,14 @@ class Search {
   tl::expected<void, InputError> find_pair(ResponseColumns::Form form, const std::string& first, Words first_words,
                                            const std::string& second, Words second_words);
   void use_units_of_names();
-  [[nodiscard]] Refusal refused(std::string key, std::string what, std::string allowed) const {
-    return Refusal(InputError{source_, 0, 0, std::move(key), std::move(what), std::move(allowed)});
+  [[nodiscard]] Refusal refused(Problem problem, std::string key = {}) const {
+    return Refusal(InputError{{.file = source_, .key = std::move(key)}, std::move(problem)});
+  }
+  /// No column is this part of the response; empty: which columns are any is not known.
+  [[nodiscard]] Refusal no_column(std::string_view quantity) const {
+    Problem problem{.code = ProblemCode::no_response_column, .subjects = {{"names", listed(names_)}}};
+    if (!quantity.empty()) problem.subjects.push_back({"quantity", std::string(quantity)});
+    return refused(std::move(problem));
   }
 
   std::span<const std::string> names_;
@@ -108,9 +112,10 @@ Search::Found Search::find(const std::string& asked, Words words) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!is_one_of(meaning_of(names_[i]).word, words)) continue;
     if (found) {
-      return refused(
-          "", fmt::format("{} and {} may be the {}", in_quotes(names_[*found]), in_quotes(names_[i]), words.front()),
-          "name the columns of the response");
+      return refused({.code = ProblemCode::response_column_ambiguous,
+                      .subjects = {{"first", in_quotes(names_[*found])},
+                                   {"second", in_quotes(names_[i])},
+                                   {"quantity", std::string(words.front())}}});
     }
     found = i;
   }
@@ -131,8 +136,8 @@ std::optional<std::size_t> Search::frequency_by_name() const {
 tl::expected<void, InputError> Search::find_frequency() {
   if (options_.frequency_step > 0.0) {
     if (options_.frequency.empty()) return {};
-    return refused(shortened(options_.frequency), "a column of frequencies is asked for beside a step of frequency",
-                   "must be one of the two");
+    return refused({.code = ProblemCode::asked_for_beside, .subjects = {{"of", "frequencies"}}},
+                   shortened(options_.frequency));
   }
   if (!options_.frequency.empty()) {
     const auto column = named(options_.frequency);
@@ -140,9 +145,7 @@ tl::expected<void, InputError> Search::find_frequency() {
     found_.frequency = *column;
     return {};
   }
-  if (names_.size() == 1) {
-    return refused("", "has one column and so no frequencies", "state the step of frequency between its lines");
-  }
+  if (names_.size() == 1) return no_column(frequency_words.front());
   found_.frequency = frequency_by_name().value_or(0);
   return {};
 }
@@ -153,10 +156,7 @@ tl::expected<void, InputError> Search::find_pair(ResponseColumns::Form form, con
   if (!a) return Refusal(a.error());
   const auto b = find(second, second_words);
   if (!b) return Refusal(b.error());
-  if (!*a || !*b) {
-    return refused("", fmt::format("the {} has no column", *a ? second_words.front() : first_words.front()),
-                   fmt::format("name it; the columns are {}", listed({names_.begin(), names_.end()})));
-  }
+  if (!*a || !*b) return no_column(*a ? second_words.front() : first_words.front());
   found_.form = form;
   found_.first = **a;
   found_.second = **b;
@@ -193,9 +193,7 @@ tl::expected<void, InputError> Search::find_values() {
     found_.first = found_.frequency == std::size_t{0} ? 1 : 0;
     return {};
   }
-  return refused("", "it is not clear which columns are the response",
-                 fmt::format("name magnitude and phase, or real and imaginary part; the columns are {}",
-                             listed({names_.begin(), names_.end()})));
+  return no_column({});
 }
 
 void Search::use_units_of_names() {

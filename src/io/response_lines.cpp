@@ -1,7 +1,5 @@
 #include "io/response_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -78,9 +76,10 @@ tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLi
                                                           const std::string& source) {
   FrequencyResponse response;
   response.sampling_period = options.sampling_period;
-  const auto refused = [&](const ResponseLine& line, std::string key, std::string what, std::string allowed) {
-    return Refusal(InputError{source, line.line, line.line > 0 ? std::size_t{1} : 0, std::move(key), std::move(what),
-                              std::move(allowed)});
+  const auto refused = [&](const ResponseLine& line, std::string key, Problem problem) {
+    return Refusal(InputError{
+        {.file = source, .line = line.line, .column = line.line > 0 ? std::size_t{1} : 0, .key = std::move(key)},
+        std::move(problem)});
   };
   const std::size_t all = lines.size();
   const auto [missing, first_missing] = erase(lines, [](const ResponseLine& line) { return !is_number(line); });
@@ -104,34 +103,33 @@ tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLi
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const ResponseLine& line = lines[i];
     if (line.frequency < 0.0) {
-      return refused(line, "frequency", fmt::format("is {:.6g} Hz", hertz(line.frequency)), "must be above 0");
+      return refused(line, "frequency",
+                     {.code = ProblemCode::frequency_out_of_range, .evidence = {{"hertz", hertz(line.frequency)}}});
     }
     if (line.frequency > highest) {
-      return refused(line, "frequency", fmt::format("is {:.6g} Hz", hertz(line.frequency)),
-                     fmt::format("must be at most half the sampling rate, {:.6g} Hz", hertz(highest)));
+      return refused(line, "frequency",
+                     {.code = ProblemCode::frequency_out_of_range,
+                      .evidence = {{"hertz", hertz(line.frequency)}, {"nyquist", hertz(highest)}}});
     }
     if (i > 0 && line.frequency == lines[i - 1].frequency && line.value == lines[i - 1].value) {
-      return refused(line, "frequency",
-                     line.line > 0 ? fmt::format("{:.6g} Hz is also at line {}, with the same value",
-                                                 hertz(line.frequency), lines[i - 1].line)
-                                   : fmt::format("{:.6g} Hz comes twice with the same value", hertz(line.frequency)),
-                     "must come once, or be measured again");
+      Problem problem{.code = ProblemCode::response_line_twice, .evidence = {{"hertz", hertz(line.frequency)}}};
+      if (line.line > 0) problem.evidence.push_back(counted("line", lines[i - 1].line));
+      return refused(line, "frequency", std::move(problem));
     }
     if (line.coherence < 0.0 || line.coherence > 1.0) {
-      return refused(line, "coherence", fmt::format("is {:.6g}", line.coherence), "must be 0 to 1");
+      return refused(line, "coherence", {.code = ProblemCode::no_share, .evidence = {{"value", line.coherence}}});
     }
     const std::complex<double> value = line.value * options.scale;
     if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) {
-      return refused(line, "", fmt::format("the value is too large for the scale {:.6g}", options.scale),
-                     "must be below 1e308 after scaling");
+      return refused(line, "", {.code = ProblemCode::sample_too_large, .evidence = {{"scale", options.scale}}});
     }
     response.points.push_back({line.frequency, value, 0.0, line.coherence});
   }
   pool_repeats(response);
   if (response.points.size() < 2) {
-    return Refusal(InputError{source, 0, 0, "",
-                              fmt::format("has {} usable of {} lines of a response", response.points.size(), all),
-                              "must have two at least"});
+    return Refusal(InputError{{.file = source},
+                              {.code = ProblemCode::too_few_samples,
+                               .evidence = {counted("samples", response.points.size()), counted("lines", all)}}});
   }
   return response;
 }

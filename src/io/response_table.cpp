@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +15,7 @@
 #include "io/response_lines.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_table.hpp"
+#include "io/time_axis.hpp"
 #include "io/uff_response.hpp"
 #include "require_valid.hpp"
 #include "zwidth/io/message_words.hpp"
@@ -92,10 +91,10 @@ tl::expected<std::complex<double>, InputError> RowReader::value(const TextRow& r
   if (columns_.form == Form::complex) {
     if (const auto complex = table_.complex_number(row.cells[columns_.first])) return *complex;
     if (table_.number(row.cells[columns_.first]).kind == NumberCell::Kind::missing) return std::nan("");
-    InputError refusal = table_.no_number(row, columns_.first);
-    refusal.what = fmt::format("{} is no complex number", in_quotes(as_utf8(row.cells[columns_.first])));
-    refusal.allowed = "must be one such as (1.5+2e-3j); or name magnitude and phase, or real and imaginary part";
-    return Refusal(std::move(refusal));
+    return Refusal(
+        InputError{table_.place(row, columns_.first),
+                   {.code = ProblemCode::no_number_in_cell,
+                    .subjects = {{"cell", in_quotes(as_utf8(row.cells[columns_.first]))}, {"as", "complex"}}}});
   }
   const auto first = number(row, columns_.first);
   if (!first) return Refusal(first.error());
@@ -103,10 +102,8 @@ tl::expected<std::complex<double>, InputError> RowReader::value(const TextRow& r
   if (!second) return Refusal(second.error());
   if (columns_.form == Form::real_and_imaginary) return std::complex<double>(*first, *second);
   if (!columns_.magnitude_in_db && *first < 0.0) {
-    InputError refusal = table_.no_number(row, columns_.first);
-    refusal.what = fmt::format("the magnitude is {:.6g}", *first);
-    refusal.allowed = "must not be negative, unless it is in dB";
-    return Refusal(std::move(refusal));
+    return Refusal(InputError{table_.place(row, columns_.first),
+                              {.code = ProblemCode::magnitude_below_zero, .evidence = {{"value", *first}}}});
   }
   const double magnitude = columns_.magnitude_in_db ? std::pow(10.0, *first / 20.0) : *first;
   const double phase = columns_.phase_in_degrees ? *second * std::numbers::pi / 180.0 : *second;
@@ -163,15 +160,15 @@ tl::expected<FrequencyResponse, InputError> read_whole_table(const std::string& 
   if (!text) return Refusal(std::move(text.error()));
   const bool detect = options.file.format == RecordingFormat::detect;
   const RecordingFormat format = detect ? format_of(text->buffered()) : options.file.format;
-  const auto refused = [&](std::string what, std::string allowed) {
-    return Refusal(InputError{text->file().source(), 0, 0, "", std::move(what), std::move(allowed)});
+  const auto refused = [&](Problem problem) {
+    return Refusal(InputError{{.file = text->file().source()}, std::move(problem)});
   };
   if (format == RecordingFormat::mat) {
-    return refused("is a MAT file", "a response must be a text table or a record of a universal file");
+    return refused({.code = ProblemCode::no_text_table, .subjects = {{"kind", "mat"}}});
   }
   if (format == RecordingFormat::text) return read_text_response(std::move(*text), options, progress);
   if (!text->file().is_regular()) {
-    return refused("is a universal file, which cannot be read from a pipe", "must be a file given by its name");
+    return refused({.code = ProblemCode::format_needs_a_file, .subjects = {{"format", "UFF"}}});
   }
   return read_uff_response(path, options, progress);
 }
@@ -184,26 +181,28 @@ std::optional<OptionProblem> find_problem(const ResponseTableOptions& options) {
   };
   if (auto problem = find_problem(options.file)) return problem;
   if (!std::isfinite(options.scale) || options.scale == 0.0) {
-    return OptionProblem{"scale", fmt::format("is {}", options.scale), "must be finite and not 0"};
+    return option_problem("scale", {.code = ProblemCode::scale_not_possible, .evidence = {{"value", options.scale}}});
   }
   if (not_positive(options.frequency_scale)) {
-    return OptionProblem{"frequency_scale", fmt::format("is {}", *options.frequency_scale),
-                         "must be finite and above 0"};
+    return option_problem("frequency_scale", {.code = ProblemCode::not_finite_and_positive,
+                                              .evidence = {{"value", *options.frequency_scale}}});
   }
   if (!(std::isfinite(options.frequency_step) && options.frequency_step >= 0.0)) {
-    return OptionProblem{"frequency_step", fmt::format("is {:.6g} Hz", hertz(options.frequency_step)),
-                         "must be finite and not negative"};
+    return option_problem("frequency_step", {.code = ProblemCode::frequency_out_of_range,
+                                             .evidence = {{"hertz", hertz(options.frequency_step)}, {"step", 1.0}}});
   }
   if (not_positive(options.sampling_period)) {
-    return OptionProblem{"sampling_period", fmt::format("is {} s", *options.sampling_period), "must be above 0"};
+    return not_above_zero("sampling_period", *options.sampling_period, "s");
   }
   for (const auto& [member, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
     if (!not_positive(value)) continue;
-    return OptionProblem{member, fmt::format("is {:.6g} Hz", hertz(*value)), "must be finite and above 0"};
+    return option_problem(member,
+                          {.code = ProblemCode::frequency_out_of_range, .evidence = {{"hertz", hertz(*value)}}});
   }
   if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return OptionProblem{"highest", fmt::format("is {:.6g} Hz", hertz(*options.highest)),
-                         fmt::format("must be above the lowest, {:.6g} Hz", hertz(*options.lowest))};
+    return option_problem("highest",
+                          {.code = ProblemCode::frequency_out_of_range,
+                           .evidence = {{"hertz", hertz(*options.highest)}, {"lowest", hertz(*options.lowest)}}});
   }
   return std::nullopt;
 }
@@ -221,13 +220,12 @@ tl::expected<FrequencyResponse, InputError> read_response_table(const std::strin
            (options.highest && point.frequency > *options.highest);
   });
   if (response->points.empty()) {
-    return Refusal(InputError{path == "-" ? "standard input" : path, 0, 0, "", "no line is left in the band",
-                              "widen it (`lowest`, `highest`)"});
+    return Refusal(InputError{{.file = path == "-" ? "standard input" : path}, {.code = ProblemCode::no_line_in_band}});
   }
   return response;
 } catch (const std::bad_alloc&) {
   return Refusal(
-      InputError{path == "-" ? "standard input" : path, 0, 0, "", "does not fit into memory", "must be shorter"});
+      InputError{{.file = path == "-" ? "standard input" : path}, {.code = ProblemCode::does_not_fit_in_memory}});
 }
 
 }  // namespace zwidth

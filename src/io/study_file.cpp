@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/device_reading.hpp"
 #include "io/prose.hpp"
 #include "io/study_samples.hpp"
@@ -53,7 +54,7 @@ class StudyReader {
       study_.specification.critical_stiffness = read_stiffness(reader, "critical_stiffness");
       study_.specification.any_user = read_stiffness(reader, "any_user");
       if (study_.specification.any_user && !device_.has_bodies()) {
-        reader.refuse("any_user", "is asked of a transfer function", "it has no body for a user to hold: leave it out");
+        reader.refuse("any_user", {.code = ProblemCode::asked_of_transfer_function});
       }
     }
     for (const toml::table* table : root_.tables("parameter", "[[parameter]]")) read_parameter(*table);
@@ -69,16 +70,17 @@ class StudyReader {
     if (*name == "latin-hypercube") study_.sampling = SamplingScheme::latin_hypercube;
     if (*name == "sobol") study_.sampling = SamplingScheme::sobol;
     if (!study_.sampling) {
-      root_.refuse("sampling", fmt::format("is {}", in_quotes(*name)),
-                   "must be \"random\", \"latin-hypercube\" or \"sobol\"");
+      root_.refuse("sampling", not_one_of(*name, R"("random", "latin-hypercube" or "sobol")"));
     }
   }
 
   static std::optional<std::uint64_t> read_count(TableReader& reader, std::string_view key) {
     const auto number = reader.number(key);
     if (!number) return std::nullopt;
-    if (!(*number >= 0.0 && *number <= 0x1p53 && std::floor(*number) == *number)) {
-      reader.refuse(key, fmt::format("is {}", *number), "must be a whole number from 0 to 2^53");
+    constexpr double most = 0x1p53;
+    if (!(*number >= 0.0 && *number <= most && std::floor(*number) == *number)) {
+      reader.refuse(key, {.code = ProblemCode::no_whole_number,
+                          .evidence = {{"value", *number}, {"least", 0.0}, {"most", most}}});
       return std::nullopt;
     }
     return static_cast<std::uint64_t>(*number);
@@ -87,7 +89,7 @@ class StudyReader {
   static std::optional<double> read_stiffness(TableReader& reader, std::string_view key) {
     const auto number = reader.number(key, Measure::stiffness);
     if (number && !(*number > 0.0 && std::isfinite(*number))) {
-      reader.refuse(key, fmt::format("is {}", *number), "must be finite and > 0");
+      reader.refuse(key, {.code = ProblemCode::not_finite_and_positive, .evidence = {{"value", *number}}});
     }
     return number;
   }
@@ -97,21 +99,23 @@ class StudyReader {
     StudyParameter& one = study_.distributions.parameters.emplace_back();
     one.distribution = {.kind = Kind::normal, .centre = 1.0, .deviation = 1.0};
     one.key = reader.text("key").value_or("");
-    if (one.key.empty()) return reader.refuse_missing("key", "must be given, such as \"link.0.stiffness\"");
+    if (one.key.empty()) return reader.refuse_missing("key", {"key", "link.0.stiffness"});
     const std::vector<std::string> known = parameter_keys(device_.parameters());
     if (std::ranges::find(known, full_parameter_key(device_.parameters(), one.key)) == known.end()) {
       const std::string meant = nearest_word(one.key, known);
-      return reader.refuse(
-          "key", fmt::format("{} is no number of the device", in_quotes(one.key)),
-          meant.empty() ? fmt::format("must be one of {}", listed(known)) : fmt::format("did you mean \"{}\"?", meant));
+      return reader.refuse("key",
+                           {.code = ProblemCode::no_number_of_device,
+                            .evidence = {{"quoted", 1.0}},
+                            .subjects = {{"name", shortened(one.key)},
+                                         meant.empty() ? Subject{"numbers", listed(known)} : Subject{"meant", meant}}});
     }
     const std::string name = reader.text("distribution").value_or("");
     const auto keys = distribution_keys.find(name);
     if (keys == distribution_keys.end()) {
-      return reader.refuse("distribution",
-                           reader.has("distribution") ? fmt::format("is {}", in_quotes(name)) : "is missing",
-                           "must be \"normal\", \"lognormal\", \"uniform\", \"triangular\", \"discrete\", \"file\" or "
-                           "\"device\"");
+      std::vector<std::string> names;
+      for (const auto& each : distribution_keys) names.push_back(each.first);
+      if (!reader.has("distribution")) return reader.refuse_missing("distribution", {"choice", listed(names)});
+      return reader.refuse("distribution", not_one_of(name, "one of " + listed(names)));
     }
     std::vector<std::string> allowed = {"key", "distribution"};
     allowed.insert(allowed.end(), keys->second.begin(), keys->second.end());
@@ -120,7 +124,9 @@ class StudyReader {
     one.distribution = read_distribution(reader, name, one.key);
     if (reading_.count() > refused) return;  // its numbers are not those of the file
     if (const auto problem = find_problem(one.distribution)) {
-      reader.refuse(key_of(problem->member, name), problem->what, problem->allowed);
+      InputProblem told{{}, problem->what, problem->allowed, {}};
+      told.problem = problem->problem;
+      reader.refuse(key_of(problem->member, name), std::move(told));
     }
   }
 
@@ -139,7 +145,7 @@ class StudyReader {
     const auto number = [&](std::string_view of) { return reader.number(of, measure); };
     const auto required = [&](std::string_view of, std::optional<double> otherwise) {
       const auto value = number(of);
-      if (!value && !otherwise && !reader.has(of)) reader.refuse_missing(of, "must be given: the device has none");
+      if (!value && !otherwise && !reader.has(of)) reader.refuse_missing(of, {"number"});
       return value.value_or(otherwise.value_or(1.0));
     };
     Distribution result;
@@ -148,8 +154,7 @@ class StudyReader {
     if (name == "device") {
       const auto uncertain = uncertainty_of(device_, key);
       if (!uncertain || !(uncertain->deviation > 0.0)) {
-        reader.refuse("distribution", fmt::format("the device's [uncertainty] does not tell {}", key),
-                      "must be another distribution, or a device that `identify` wrote");
+        reader.refuse("distribution", {.code = ProblemCode::not_told_by_uncertainty, .subjects = {{"name", key}}});
         return {.kind = Kind::normal, .centre = 1.0, .deviation = 1.0};
       }
       result = *uncertain;
@@ -159,18 +164,19 @@ class StudyReader {
       result = {.kind = Kind::normal, .centre = required("mean", own), .deviation = 1.0};
       const auto relative = reader.number("relative_deviation");
       if (relative && reader.has("standard_deviation")) {
-        reader.refuse("relative_deviation", "is given beside standard_deviation", "must be one of the two");
+        reader.refuse("relative_deviation",
+                      {.code = ProblemCode::given_beside, .subjects = {{"other", "standard_deviation"}}});
       }
       result.deviation = relative ? std::abs(result.centre) * *relative : required("standard_deviation", std::nullopt);
       if (relative && !(result.deviation > 0.0 && std::isfinite(*relative))) {
-        reader.refuse("relative_deviation", fmt::format("is {}, of a mean of {}", *relative, result.centre),
-                      "must be finite and > 0, of a mean that is not 0");
+        reader.refuse("relative_deviation", {.code = ProblemCode::no_relative_width,
+                                             .evidence = {{"value", *relative}, {"of", result.centre}}});
       }
     }
     if (name == "lognormal") {
       result = {.kind = Kind::lognormal, .centre = required("median", own), .deviation = 1.0};
       const auto deviation = reader.number("log_deviation");
-      if (!deviation) reader.refuse_missing("log_deviation", "must be the standard deviation of the logarithm");
+      if (!deviation) reader.refuse_missing("log_deviation", {"positive"});
       result.deviation = deviation.value_or(1.0);
     }
     if (name == "triangular") {
@@ -182,11 +188,15 @@ class StudyReader {
       result.kind = Kind::uniform;
       if (const auto tolerance = reader.number("relative_tolerance")) {
         if (reader.has("lower") || reader.has("upper")) {
-          reader.refuse("relative_tolerance", "is given beside lower or upper", "must be either it or both of them");
+          reader.refuse("relative_tolerance", {.code = ProblemCode::given_beside,
+                                               .evidence = {{"both", 1.0}},
+                                               .subjects = {{"other", reader.has("lower") ? "lower" : "upper"}}});
         }
         const double half = std::abs(own.value_or(1.0)) * *tolerance;
-        if (!(half > 0.0))
-          reader.refuse("relative_tolerance", "leaves no width", "must be > 0, of a number that is not 0");
+        if (!(half > 0.0)) {
+          reader.refuse("relative_tolerance", {.code = ProblemCode::no_relative_width,
+                                               .evidence = {{"value", *tolerance}, {"of", own.value_or(1.0)}}});
+        }
         result.lower = own.value_or(1.0) - half, result.upper = own.value_or(1.0) + half;
       } else {
         result.lower = required("lower", std::nullopt), result.upper = required("upper", std::nullopt);
@@ -203,12 +213,12 @@ class StudyReader {
     std::vector<double> weights(values.size(), 1.0);
     if (reader.has("weights")) weights = reader.required_numbers("weights");
     if (weights.size() != values.size()) {
-      reader.refuse("weights", fmt::format("has length {}", weights.size()),
-                    fmt::format("must have one of each value: {}", values.size()));
+      reader.refuse("weights", {.code = ProblemCode::weights_not_one_a_value,
+                                .evidence = {counted("weights", weights.size()), counted("values", values.size())}});
       return {.kind = Kind::discrete};
     }
     if (!values.empty() && std::ranges::count(weights, 0.0) == std::ssize(weights)) {
-      reader.refuse("weights", "are all 0", "must be > 0 for one value at least");
+      reader.refuse("weights", {.code = ProblemCode::weights_all_zero});
     }
     return discrete_of(values, weights);
   }
@@ -217,20 +227,20 @@ class StudyReader {
     const std::string name = reader.text("file").value_or("");
     Distribution empty{.kind = Kind::discrete, .values = {0.0}, .weights = {1.0}};
     if (name.empty()) {
-      reader.refuse_missing("file", "must be the name of a file of numbers, one per line, a weight beside it");
+      reader.refuse_missing("file", {"file"});
       return empty;
     }
     if (!folder_) {
-      reader.refuse("file", "names a file, and there is none beside this study",
-                    "must be \"discrete\" with the values and weights themselves");
+      reader.refuse("file", {.code = ProblemCode::no_file_beside_study});
       return empty;
     }
     auto samples =
         read_study_samples((std::filesystem::path(*folder_) / name).string(), measure, device_.parameters().motion);
     if (samples) return *std::move(samples);
-    const InputError& error = samples.error();
-    const std::string line = error.place.line > 0 ? fmt::format(":{}", error.place.line) : "";
-    reader.refuse("file", fmt::format("{}{}: {}", error.place.file, line, error.what), error.allowed);
+    InputProblem told = samples.error();
+    const std::string line = told.place.line > 0 ? fmt::format(":{}", told.place.line) : "";
+    told.begin_with(fmt::format("{}{}: ", told.place.file, line));
+    reader.refuse("file", std::move(told));
     return empty;
   }
 
@@ -249,26 +259,31 @@ class StudyReader {
     if (const toml::table* table = root_.table("correlation", "[correlation]")) {
       TableReader reader(reading_, *table, "correlation");
       reader.refuse_keys_not_in(correlation_keys);
-      const auto keys = reader.required_texts("parameters", "an array of the keys that vary together");
+      const auto keys = reader.required_texts("parameters", {"keys", "link.0.stiffness"});
       const auto rows = reader.required_rows("matrix");
       std::vector<std::size_t> places;
       for (const std::string& key : keys) {
         const auto found =
             std::ranges::find(parameters, full(key), [&](const StudyParameter& each) { return full(each.key); });
         if (found == parameters.end()) {
-          return reader.refuse("parameters", fmt::format("{} has no [[parameter]]", in_quotes(key)),
-                               "must be one of those");
+          return reader.refuse("parameters",
+                               {.code = ProblemCode::not_a_parameter_of_study, .subjects = {{"name", shortened(key)}}});
         }
         places.push_back(static_cast<std::size_t>(found - parameters.begin()));
         if (std::ranges::count(places, places.back()) > 1) {
-          return reader.refuse("parameters", fmt::format("{} is given twice", in_quotes(key)), "must be given once");
+          return reader.refuse("parameters",
+                               {.code = ProblemCode::parameter_given_twice, .subjects = {{"name", shortened(key)}}});
         }
       }
-      bool square = rows.size() == keys.size();
-      for (const auto& row : rows) square = square && row.size() == keys.size();
-      if (!square) {
-        return reader.refuse("matrix", "is not square with the parameters",
-                             fmt::format("must have {0} rows of {0} numbers", keys.size()));
+      const Evidence wanted = counted("parameters", keys.size());
+      if (rows.size() != keys.size()) {
+        return reader.refuse("matrix", {.code = ProblemCode::rows_not_one_a_parameter,
+                                        .evidence = {counted("rows", rows.size()), wanted}});
+      }
+      for (const auto& row : rows) {
+        if (row.size() == keys.size()) continue;
+        return reader.refuse(
+            "matrix", {.code = ProblemCode::row_of_other_length, .evidence = {counted("length", row.size()), wanted}});
       }
       for (std::size_t i = 0; i < keys.size(); ++i) {
         for (std::size_t j = 0; j < keys.size(); ++j) whole[places[i]][places[j]] = rows[i][j];

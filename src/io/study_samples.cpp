@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "counted.hpp"
+#include "io/prose.hpp"
 #include "io/text_lines.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/device_file.hpp"
-#include "zwidth/io/message_words.hpp"
 #include "zwidth/io/study_file.hpp"
 
 namespace zwidth {
@@ -24,10 +25,8 @@ constexpr std::string_view blanks = " \t\r;";
 constexpr std::string_view unit_header = "# unit:";
 
 std::optional<double> number_of(std::string_view word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto value = whole_text_as<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -75,12 +74,10 @@ tl::expected<Distribution, InputError> internal::read_study_samples(const std::s
     if (!line) return tl::unexpected(line.error());
     if (!*line) break;
     const std::string_view text = (*line)->text;
-    const auto refusal = [&](std::string what, std::string allowed) {
-      return tl::unexpected(InputError{path, (*line)->number, 1, "", std::move(what), std::move(allowed)});
-    };
+    const InputPlace place{path, (*line)->number, 1};
     if (text.starts_with(unit_header)) {
       const auto unit = number_with_unit(fmt::format("1 {}", text.substr(unit_header.size())), measure, motion);
-      if (!unit) return refusal(unit.error().what, unit.error().allowed);
+      if (!unit) return tl::unexpected(InputError(place, *unit.error().problem));
       scale = *unit;
     }
     const auto words = words_of(text);
@@ -88,17 +85,21 @@ tl::expected<Distribution, InputError> internal::read_study_samples(const std::s
     const auto value = number_of(words[0]);
     const auto weight = words.size() > 1 ? number_of(words[1]) : 1.0;
     if (!value || !weight || *weight < 0.0 || words.size() > 2) {
-      return refusal(fmt::format("{} is no sample", in_quotes(text)),
-                     "must be a number, or a number, a blank and how often it was seen; decimals have a point");
+      return tl::unexpected(
+          InputError(place, {.code = ProblemCode::no_samples_in_file, .subjects = {{"text", shortened(text)}}}));
     }
-    if (values.size() == most_samples)
-      return refusal("has too many samples", fmt::format("must be at most {}", most_samples));
+    if (values.size() == most_samples) {
+      return tl::unexpected(InputError(
+          place, {.code = ProblemCode::count_out_of_range,
+                  .evidence = {counted("value", most_samples + 1), counted("least", 1), counted("most", most_samples)},
+                  .subjects = {{"name", "samples"}}}));
+    }
     values.push_back(*value * scale);
     weights.push_back(*weight);
   }
   Distribution result = discrete_of(values, weights);
   if (result.values.empty()) {
-    return tl::unexpected(InputError{path, 0, 0, "", "has no samples", "must have a number per line"});
+    return tl::unexpected(InputError({.file = path}, {.code = ProblemCode::no_samples_in_file}));
   }
   return result;
 }
@@ -109,9 +110,10 @@ tl::expected<StudyFile, InputError> read_study_file(const std::string& path, con
   const auto text = file->read_up_to(device_file_size_limit + 1);
   if (!text) return tl::unexpected(text.error());
   if (text->size() > device_file_size_limit) {
-    return tl::unexpected(InputError{file->source(), 0, 0, "",
-                                     fmt::format("is larger than {} MiB", device_file_size_limit >> 20),
-                                     "must be a study file, which takes a few hundred bytes"});
+    return tl::unexpected(
+        InputError({.file = file->source()}, {.code = ProblemCode::too_many_bytes_read,
+                                              .evidence = {counted("most", device_file_size_limit >> 20)},
+                                              .subjects = {{"kind", "study file"}}}));
   }
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return parse_study(*text, file->source(), device, folder.empty() ? "." : folder);

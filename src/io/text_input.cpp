@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <span>
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/input_file.hpp"
 #include "zwidth/io/device_file.hpp"
 
@@ -14,9 +13,10 @@ namespace {
 tl::expected<std::string, InputError> read_all(InputFile& file) {
   auto text = file.read_up_to(device_file_size_limit + 1);  // one more tells a file at the limit from a longer one
   if (text && text->size() > device_file_size_limit) {
-    return tl::unexpected(InputError{file.source(), 0, 0, "",
-                                     fmt::format("is larger than {} MiB", device_file_size_limit >> 20),
-                                     "must be a device file, which takes a few hundred bytes"});
+    return tl::unexpected(
+        InputError({.file = file.source()}, {.code = ProblemCode::too_many_bytes_read,
+                                             .evidence = {counted("most", device_file_size_limit >> 20)},
+                                             .subjects = {{"kind", "device file"}}}));
   }
   return text;
 }

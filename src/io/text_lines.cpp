@@ -1,9 +1,9 @@
 #include "io/text_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
+
+#include "counted.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -25,9 +25,9 @@ tl::expected<void, InputError> TextLines::refill() {
   end_ -= begin_;
   begin_ = 0;
   if (end_ > longest_line) {
-    return tl::unexpected(InputError{file_.source(), line_ + 1, 1, "",
-                                     fmt::format("the line is longer than {} MiB", longest_line >> 20),
-                                     "must be a table of numbers with a line for each sample"});
+    return tl::unexpected(InputError({file_.source(), line_ + 1, 1},
+                                     {.code = ProblemCode::too_many_bytes_read,
+                                      .evidence = {counted("most", longest_line >> 20), counted("line", line_ + 1)}}));
   }
   buffer_.resize(end_ + block);
   const auto count = file_.read({buffer_.data() + end_, block});

@@ -54,9 +54,7 @@ tl::expected<Selection, InputError> select_columns(const TextTable& table, const
     return selection;
   }
   if (time == names.end()) {
-    InputError refusal = no_time_axis(table.source());
-    refusal.allowed += fmt::format("; the file has {}", listed_columns(names));
-    return tl::unexpected(std::move(refusal));
+    return tl::unexpected(InputError{{.file = table.source()}, with_columns({.code = ProblemCode::no_times}, names)});
   }
   selection.time = static_cast<std::size_t>(time - names.begin());
   return selection;
@@ -80,12 +78,6 @@ const ExportFormat* export_format_of(TextLines& lines, const RecordingOptions& o
   const auto* const found =
       std::ranges::find_if(export_formats, [&](const ExportFormat& format) { return format.is_it(lines.buffered()); });
   return found == std::end(export_formats) ? nullptr : found;
-}
-
-/// A time that is no number has its own remedy.
-InputError no_time(InputError refusal) {
-  refusal.allow("times must be numbers, such as seconds from the start; or state the rate instead (`rate`)");
-  return refusal;
 }
 
 }  // namespace
@@ -119,8 +111,7 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
       const NumberCell number = table->number(row.cells[indices[k]]);
       const bool may_be_text = selection->may_lack_times && indices[k] == selection->time && k + 1 == indices.size();
       if (number.kind == NumberCell::Kind::text && !may_be_text) {
-        InputError refusal = table->no_number(row, indices[k]);
-        return tl::unexpected(indices[k] == selection->time ? no_time(std::move(refusal)) : std::move(refusal));
+        return tl::unexpected(table->no_number(row, indices[k], indices[k] == selection->time ? "time" : ""));
       }
       columns[k].values.push_back(number.value);
     }

@@ -1,7 +1,5 @@
 #include "io/text_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -18,20 +16,18 @@ constexpr std::size_t lines_of_head = 200;
 /// What a text table is not, by its first bytes.
 struct Signature {
   std::string_view bytes;
-  std::string_view what;
-  std::string_view remedy;
+  const char* kind;
 };
 using namespace std::string_view_literals;
 constexpr Signature signatures[] = {
-    {"\xFF\xFE<\0"sv, "is XML in UTF-16, as the trace of a controller is",
-     "must be a text table: save the trace as CSV, in CODESYS as *.trace.csv"},
-    {"<?xml"sv, "is XML", "must be a text table: save the trace as CSV, in CODESYS as *.trace.csv"},
-    {"\xFF\xFE"sv, "is text in UTF-16", "must be UTF-8 or ASCII: convert it with iconv -f UTF-16 -t UTF-8"},
-    {"\xFE\xFF"sv, "is text in UTF-16", "must be UTF-8 or ASCII: convert it with iconv -f UTF-16 -t UTF-8"},
-    {"PK\x03\x04"sv, "is a ZIP archive or a spreadsheet", "must be a recording: save the sheet as CSV"},
-    {"\x1F\x8B"sv, "is compressed with gzip", "must be a recording: unpack it with gunzip"},
-    {"\xD0\xCF\x11\xE0"sv, "is an old spreadsheet or document", "must be a recording: save the sheet as CSV"},
-    {"TDSm"sv, "is a TDMS file", "must be a text table, a MAT file or a UFF file: export it as CSV"},
+    {"\xFF\xFE<\0"sv, "trace_in_utf16"},
+    {"<?xml"sv, "xml"},
+    {"\xFF\xFE"sv, "utf16"},
+    {"\xFE\xFF"sv, "utf16"},
+    {"PK\x03\x04"sv, "sheet"},
+    {"\x1F\x8B"sv, "gzip"},
+    {"\xD0\xCF\x11\xE0"sv, "old_sheet"},
+    {"TDSm"sv, "tdms"},
 };
 
 /// Lines that are whole in the buffered text (at its end an open one, too), without being taken. `above`: lines before.
@@ -50,23 +46,21 @@ std::vector<TextLine> head_of(std::string_view text, bool whole, std::string_vie
   return lines;
 }
 
-std::string in_words(std::size_t cells) { return cells == 1 ? "1 cell" : fmt::format("{} cells", cells); }
-
 }  // namespace
 
 std::optional<InputError> refused_as_text(std::string_view first_bytes, const std::string& source) {
-  const auto refused = [&](std::string_view what, std::string_view allowed) {
-    return InputError{source, 0, 0, "", std::string(what), std::string(allowed)};
+  const auto refused = [&](const char* kind) {
+    return InputError{{.file = source}, {.code = ProblemCode::no_text_table, .subjects = {{"kind", kind}}}};
   };
-  if (first_bytes.empty()) return refused("is empty", "must be a recording");
-  for (const auto& [bytes, what, remedy] : signatures) {
-    if (first_bytes.starts_with(bytes)) return refused(what, remedy);
+  if (first_bytes.empty()) {
+    return InputError{{.file = source}, {.code = ProblemCode::no_rows_of_numbers, .evidence = {counted("lines", 0)}}};
   }
-  if (first_bytes.find('\0') != std::string_view::npos) {
-    return refused("is binary data", "must be a text table, a MAT file (v5 or v7.3) or a UFF file (dataset 58)");
+  for (const auto& [bytes, kind] : signatures) {
+    if (first_bytes.starts_with(bytes)) return refused(kind);
   }
+  if (first_bytes.find('\0') != std::string_view::npos) return refused("binary");
   if (first_bytes.find('\n') == std::string_view::npos && first_bytes.find('\r') < first_bytes.size() - 1) {
-    return refused("ends its lines with a carriage return alone", "must end them with a line feed, before it or not");
+    return refused("carriage_returns");
   }
   return std::nullopt;
 }
@@ -83,9 +77,9 @@ tl::expected<TextTable, InputError> TextTable::open(TextLines lines, const Recor
     const auto line = lines.next({});
     if (!line) return tl::unexpected(line.error());
     if (*line) continue;
-    return tl::unexpected(InputError{lines.file().source(), 0, 0, "skipped rows",
-                                     fmt::format("are {}, and the file has {} lines", options.skip_rows, skipped),
-                                     "must be fewer (`skip_rows`)"});
+    return tl::unexpected(InputError{{.file = lines.file().source(), .key = "skipped rows"},
+                                     {.code = ProblemCode::too_many_rows_skipped,
+                                      .evidence = {counted("rows", options.skip_rows), counted("lines", skipped)}}});
   }
   const auto head = head_of(lines.buffered(), lines.buffered_to_the_end(), options.comment, options.skip_rows);
   auto dialect = detect_csv_dialect(head, options, lines.file().source());
@@ -166,27 +160,24 @@ std::optional<std::complex<double>> TextTable::complex_number(std::string_view c
   return read_complex(cell, dialect_.decimal_mark.value_or('.'));
 }
 
-InputError TextTable::no_number(const TextRow& row, std::size_t column) const {
-  const std::string_view cell = row.cells[column];
-  const auto place = static_cast<std::size_t>(cell.data() - row.line.text.data()) + 1;
-  return {source(),
-          row.line.number,
-          place,
-          shortened(names()[column]),
-          why_no_number(cell, dialect_.decimal_mark.value_or('.')),
-          fmt::format("must be a number such as {}", dialect_.decimal_mark == ',' ? "-1,5e-3" : "-1.5e-3")};
+InputPlace TextTable::place(const TextRow& row, std::size_t column) const {
+  const auto offset = static_cast<std::size_t>(row.cells[column].data() - row.line.text.data());
+  return {.file = source(), .line = row.line.number, .column = offset + 1, .key = shortened(names()[column])};
+}
+
+InputError TextTable::no_number(const TextRow& row, std::size_t column, const std::string& as) const {
+  Problem problem = no_number_in(row.cells[column], dialect_.decimal_mark.value_or('.'));
+  if (!as.empty()) problem.subjects.push_back({"as", as});
+  return {place(row, column), std::move(problem)};
 }
 
 InputError TextTable::wrong_cells(const TextLine& line, std::size_t cells, std::size_t rows_above) const {
   constexpr std::size_t few = 10;  // rows: above them may stand a header in which numbers were read
-  return {source(),
-          line.number,
-          1,
-          "",
-          fmt::format("has {}", in_words(cells)),
-          OptionText(fmt::format("must have {} as {}", in_words(columns()),
-                                 has_header() ? "the header has" : "most of the first lines have")) +
-              (rows_above < few && !has_header() ? "; lines of a header can be passed over (`skip_rows`)" : "")};
+  Problem problem{.code = ProblemCode::wrong_number_of_cells,
+                  .evidence = {counted("cells", cells), counted("expected", columns())},
+                  .subjects = {{"as", has_header() ? "header" : "most_lines"}}};
+  if (rows_above < few && !has_header()) problem.evidence.push_back(counted("rows", rows_above));
+  return {{.file = source(), .line = line.number, .column = 1}, std::move(problem)};
 }
 
 }  // namespace zwidth::internal

@@ -43,8 +43,10 @@ class TextTable {
   /// The number in a cell. The first cell that shows a decimal mark fixes it, where the layout did not.
   [[nodiscard]] NumberCell number(std::string_view cell);
   [[nodiscard]] std::optional<std::complex<double>> complex_number(std::string_view cell) const;
-  /// The refusal of a cell of a row (a column from 0) in which a number must stand.
-  [[nodiscard]] InputError no_number(const TextRow& row, std::size_t column) const;
+  /// Where a cell of a row (a column from 0) stands.
+  [[nodiscard]] InputPlace place(const TextRow& row, std::size_t column) const;
+  /// The refusal of such a cell in which a number must stand. `as`: "time", which has a remedy of its own, or nothing.
+  [[nodiscard]] InputError no_number(const TextRow& row, std::size_t column, const std::string& as = {}) const;
 
   /// What was detected and, after each_row(), what was passed over.
   [[nodiscard]] const std::vector<Remark>& remarks() const { return dialect_.remarks; }

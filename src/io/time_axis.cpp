@@ -1,7 +1,5 @@
 #include "io/time_axis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +12,7 @@
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
-#include "zwidth/error.hpp"
+#include "require_valid.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -44,8 +42,10 @@ std::optional<double> named_scale(const std::string& column) {
 
 tl::expected<void, InputError> unwrap(RawColumn& times, unsigned bits) {
   if (bits < 1 || bits > most_timer_bits) {
-    return Refusal(InputError{times.source, 0, 0, "timer bits", fmt::format("are {}", bits),
-                              fmt::format("must be 1 to {}", most_timer_bits)});
+    return Refusal(InputError{{.file = times.source, .key = "timer bits"},
+                              {.code = ProblemCode::count_out_of_range,
+                               .evidence = {counted("value", bits), counted("least", 1),
+                                            counted("most", most_timer_bits), counted("several", bits)}}});
   }
   const double turn = std::ldexp(1.0, static_cast<int>(bits));
   double turns = 0.0;
@@ -54,9 +54,9 @@ tl::expected<void, InputError> unwrap(RawColumn& times, unsigned bits) {
     double& time = times.values[i];
     if (!std::isfinite(time)) continue;
     if (time < 0.0 || time >= turn || time != std::floor(time)) {
-      return Refusal(
-          refused_sample(times, i, fmt::format("is {:.17g}", time),
-                         fmt::format("a timer of {} bits shows whole numbers from 0 to {:.0f}", bits, turn - 1.0)));
+      return Refusal(refused_sample(times, i,
+                                    {.code = ProblemCode::no_timer_count,
+                                     .evidence = {{"value", time}, counted("bits", bits), {"most", turn - 1.0}}}));
     }
     if (time < last) turns += turn;
     last = time;
@@ -76,11 +76,6 @@ unsigned bits_of_wrap(double before, double after, double period) {
   return 0;
 }
 
-OptionText times_of_timer(unsigned bits) {
-  return OptionText(fmt::format("times must rise: this looks like a timer of {} bits that wraps (", bits)) +
-         "`timer_bits` " + fmt::format("{})", bits);
-}
-
 tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& times) {
   const auto& t = times.values;
   const auto rises = [](double before, double after) { return after > before; };
@@ -92,14 +87,13 @@ tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& ti
         if (t[k] == t[k - 1]) ++still;
       }
       return Refusal(refused_sample(
-          times, i, fmt::format("the time stands still at {:.12g}, {} times in the record", t[i], still),
-          "times must rise: where they have too few digits or are repeated, state the rate instead (`rate`)"));
+          times, i, {.code = ProblemCode::times_not_rising, .evidence = {{"time", t[i]}, counted("times", still)}}));
     }
     const double period = std::max(i >= 2 ? t[i - 1] - t[i - 2] : 0.0, i + 1 < t.size() ? t[i + 1] - t[i] : 0.0);
     const unsigned bits = bits_of_wrap(t[i - 1], t[i], period);
-    return Refusal(refused_sample(
-        times, i, fmt::format("the time falls from {:.12g} to {:.12g}", t[i - 1], t[i]),
-        bits > 0 ? times_of_timer(bits) : OptionText("times must rise, or state the rate instead (`rate`)")));
+    Problem problem{.code = ProblemCode::times_not_rising, .evidence = {{"time", t[i - 1]}, {"after", t[i]}}};
+    if (bits > 0) problem.evidence.push_back(counted("bits", bits));
+    return Refusal(refused_sample(times, i, std::move(problem)));
   }
   return {};
 }
@@ -163,13 +157,13 @@ std::vector<Remark> axis_remarks(const RawColumn& times, double period, const Re
 
 tl::expected<TimeAxis, InputError> time_axis(RawColumn times, const RecordingOptions& options) {
   if (times.values.size() < 2) {
-    return Refusal(InputError{times.source, 0, 0, shortened(times.name),
-                              fmt::format("has {} sample{}", times.values.size(), times.values.size() == 1 ? "" : "s"),
-                              "a time axis needs two at least"});
+    return Refusal(
+        InputError{{.file = times.source, .key = shortened(times.name)},
+                   {.code = ProblemCode::too_few_samples, .evidence = {counted("samples", times.values.size())}}});
   }
   const double scale = time_scale_of(times.name, options);
   if (!std::isfinite(scale) || scale <= 0.0) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("time_scale is {}; it must be positive", scale));
+    require_valid(not_above_zero("time_scale", scale, "s"));
   }
   TimeAxis axis;
   if (options.timer_bits) {
@@ -181,8 +175,8 @@ tl::expected<TimeAxis, InputError> time_axis(RawColumn times, const RecordingOpt
 
   const double span = times.values.back() - times.values.front();
   const auto no_period = [&] {
-    return Refusal(InputError{times.source, 0, 0, shortened(times.name),
-                              "the times are too large or too small for a sampling period", "must be times in s"});
+    return Refusal(
+        InputError{{.file = times.source, .key = shortened(times.name)}, {.code = ProblemCode::no_period_in_times}});
   };
   if (!std::isfinite(span) || !(span > 0.0) || !std::isfinite(static_cast<double>(times.values.size()) / span)) {
     return no_period();
@@ -194,6 +188,12 @@ tl::expected<TimeAxis, InputError> time_axis(RawColumn times, const RecordingOpt
   axis.remarks.insert(axis.remarks.begin(), remarks.begin(), remarks.end());
   axis.column = std::move(times);
   return axis;
+}
+
+OptionProblem not_above_zero(std::string member, double value, const std::string& unit) {
+  return option_problem(std::move(member), {.code = ProblemCode::not_above_zero,
+                                            .evidence = {{"value", value}},
+                                            .subjects = {{"in", unit}, {"unit", unit}}});
 }
 
 double time_scale_of(const std::string& column, const RecordingOptions& options) {
@@ -211,7 +211,7 @@ bool names_a_time(const std::string& column) {
 
 double period_of_rate(double rate) {
   if (!std::isfinite(rate) || rate <= 0.0 || !std::isfinite(1.0 / rate)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("rate is {} Hz; it must be positive", rate));
+    require_valid(not_above_zero("rate", rate, "Hz"));
   }
   return 1.0 / rate;
 }

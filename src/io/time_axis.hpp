@@ -9,6 +9,7 @@
 #include "signal/restored_rows.hpp"
 #include "signal/row_grid.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth::internal {
 
@@ -36,6 +37,9 @@ void add_row_findings(const TimeAxis& axis, const RestoredRows& rows, Recording&
 
 /// Whether a column's name says that it holds times: t, time, timestamp, seconds, ... with or without a unit.
 [[nodiscard]] bool names_a_time(const std::string& column);
+
+/// The problem of an option that must be above 0, in its unit.
+[[nodiscard]] OptionProblem not_above_zero(std::string member, double value, const std::string& unit);
 
 /// s, of a rate in Hz.
 [[nodiscard]] double period_of_rate(double rate);

@@ -11,10 +11,11 @@
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/device_reading.hpp"
+#include "io/needed_value.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
-#include "zwidth/io/message_words.hpp"
 #include "zwidth/io/number_with_unit.hpp"
 
 namespace zwidth::internal {
@@ -36,29 +37,31 @@ std::string_view without_macro(std::string_view description) {
 /// toml++ has no code for it, and says of a number too large for a double only that it is no value.
 bool is_number_out_of_range(std::string_view description) {
   return (description.find("floating-point") != std::string_view::npos &&
-          description.ends_with("could not be interpreted as a value")) ||
-         description.find("is not representable in 64 bits") != std::string_view::npos;
+          description.find("interpreted as") != std::string_view::npos) ||
+         description.find("not representable") != std::string_view::npos;
 }
 
 std::optional<InputError> problem_of_text(std::string_view text, std::string_view source, std::string_view of) {
-  const auto refusal = [&](LineOfText line, std::string what, std::string allowed) {
-    return InputError{std::string(source), line.number, line.column, "", std::move(what), std::move(allowed)};
+  const auto refusal = [&](LineOfText line, Problem problem) {
+    return InputError({std::string(source), line.number, line.column}, std::move(problem));
+  };
+  const auto no_text = [&](LineOfText line, const char* kind) {
+    return refusal(line, {.code = ProblemCode::not_toml, .subjects = {{"kind", kind}, {"of", std::string(of)}}});
   };
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && text[first] == '{') {
-    return refusal({1, 1}, "begins with a brace, as no TOML text does", fmt::format("must be the TOML text of {}", of));
+    return no_text({1, 1}, "brace");
   }
   std::size_t number = 1;
   for (std::size_t begin = 0; begin <= text.size(); ++number) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
     if (const auto nul = line.find('\0'); nul != std::string_view::npos) {
-      return refusal({number, nul + 1}, "is not text: it has a zero byte",
-                     fmt::format("must be the TOML text of {}", of));
+      return no_text({number, nul + 1}, "zero_byte");
     }
     if (std::ranges::count(line, '.') > most_dots_in_line) {
-      return refusal({number, 1}, fmt::format("the line has more than {} dots", most_dots_in_line),
-                     "break it into several lines");
+      return refusal({number, 1},
+                     {.code = ProblemCode::too_many_dots, .evidence = {counted("most", most_dots_in_line)}});
     }
     begin = end + 1;
   }
@@ -133,17 +136,16 @@ std::optional<InputError> problem_of_line(std::string_view text, std::string_vie
       toml::parse(fmt::format("value = {}", value)).succeeded()) {
     return std::nullopt;
   }
-  InputError error(std::string(source), number, static_cast<std::size_t>(value.data() - line.data()) + 1,
-                   key_in_text(text, begin, key), fmt::format("{} has a comma", in_quotes(value)),
-                   "the decimal mark is a point, and nothing stands between thousands");
-  error.suggestion = with_decimal_point(value);
-  if (has_comma && error.suggestion) error.allowed = fmt::format("the decimal mark is a point: {}", *error.suggestion);
-  if (!has_comma) {
-    error.suggestion = meant_by(key, value);
-    error.what = fmt::format("the text {} has no quotes", shortened(value));
-    error.allowed = fmt::format("write {}", in_quotes(*error.suggestion));
+  const InputPlace place{std::string(source), number, static_cast<std::size_t>(value.data() - line.data()) + 1,
+                         key_in_text(text, begin, key)};
+  if (has_comma) {
+    UnitProblem comma = comma_problem(value);
+    return InputError(place, *std::move(comma.problem), std::move(comma.suggestion));
   }
-  return error;
+  std::string meant = meant_by(key, value);
+  Problem unquoted{.code = ProblemCode::text_without_quotes,
+                   .subjects = {{"text", shortened(value)}, {"meant", shortened(meant)}}};
+  return InputError(place, std::move(unquoted), std::move(meant));
 }
 
 }  // namespace
@@ -165,12 +167,13 @@ tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::str
     const toml::parse_error& error = parsed.error();
     const std::size_t line = std::max<std::size_t>(1, error.source().begin.line);
     if (auto problem = problem_of_line(text, source, line)) return tl::unexpected(*std::move(problem));
-    const bool is_out_of_range = is_number_out_of_range(error.description());
-    return tl::unexpected(
-        InputError{std::string(source), line, std::max<std::size_t>(1, error.source().begin.column), "",
-                   is_out_of_range ? std::string(number_out_of_range)
-                                   : fmt::format("is not TOML: {}", without_macro(error.description())),
-                   is_out_of_range ? std::string(number_range) : fmt::format("must be the TOML text of {}", of)});
+    Problem problem{.code = ProblemCode::number_beyond_range};
+    if (!is_number_out_of_range(error.description())) {
+      problem = {.code = ProblemCode::not_toml,
+                 .subjects = {{"reason", std::string(without_macro(error.description()))}, {"of", std::string(of)}}};
+    }
+    return tl::unexpected(InputError({std::string(source), line, std::max<std::size_t>(1, error.source().begin.column)},
+                                     std::move(problem)));
   }
   return std::move(parsed).table();
 }

@@ -8,11 +8,6 @@
 
 namespace zwidth::internal {
 
-/// What is wrong where a number does not fit its type, and what fits everywhere in a device file.
-inline constexpr std::string_view number_out_of_range = "the number is out of range";
-inline constexpr std::string_view number_range =
-    "must be 0 or from 1e-30 to 1e30 in magnitude (coefficients: 1e-100 to 1e100)";
-
 /// Parses TOML text; an error carries the place in `source`, and says what the text is to be `of`. Never throws, never
 /// exhausts the stack.
 [[nodiscard]] tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::string_view source,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "io/column_names.hpp"
 #include "io/export_lines.hpp"
 #include "io/prose.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -57,10 +57,7 @@ std::optional<double> header_number(std::string_view cell) {
 /// A time in units of 100 ns since 1601, which a double does not hold.
 std::optional<std::uint64_t> file_time(std::string_view cell) {
   constexpr std::size_t fewest_digits = 16;  // since 1632
-  std::uint64_t ticks = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), ticks);
-  const bool is_whole = cell.size() >= fewest_digits && error == std::errc() && end == cell.data() + cell.size();
-  return is_whole ? std::optional(ticks) : std::nullopt;
+  return cell.size() >= fewest_digits ? whole_text_as<std::uint64_t>(cell) : std::nullopt;
 }
 
 class ScopeReader {
@@ -83,17 +80,16 @@ class ScopeReader {
       auto next = lines_.next();
       if (!next) return tl::unexpected(std::move(next.error()));
       if (!*next) {
-        return tl::unexpected(InputError{exported_.source, 0, 0, "", "is an export of TwinCAT Scope without channels",
-                                         "must have a line of channels, each group of which begins with \"Name\""});
+        return tl::unexpected(InputError{{.file = exported_.source},
+                                         {.code = ProblemCode::no_columns, .subjects = {{"format", "twincat"}}}});
       }
       const ExportLine& line = **next;
       const bool begins_again = line.cell(0) == name_key && (line.line.number > 1 || count_names(line) > 1);
       if (begins_again) return take_channels(line);
       if (line.cell(0) == "Starttime of export") origin_ = file_time(line.cell(1));
       if (read_number(line.cell(0), '.').kind == Kind::number) {
-        return tl::unexpected(lines_.refused(line, "is a row above the line of channels",
-                                             "must follow a line of channels that begins with \"Name\"; or pass the "
-                                             "header over (`skip_rows`)"));
+        return tl::unexpected(
+            lines_.refused(line, {.code = ProblemCode::line_without_header, .subjects = {{"format", "twincat"}}}));
       }
     }
   }
@@ -178,8 +174,8 @@ class ScopeReader {
   }
 
   InputError no_row(const ExportLine& line) const {
-    return lines_.refused(line, fmt::format("begins with {} among the rows", in_quotes(as_utf8(line.cell(0)))),
-                          "must be a row of numbers, or \"EOF\" at the end: export without tables of markers");
+    return lines_.refused(line, {.code = ProblemCode::line_among_rows,
+                                 .subjects = {{"format", "twincat"}, {"beginning", beginning_of(line)}}});
   }
 
   Read add_row(const ExportLine& line) {
@@ -204,13 +200,11 @@ class ScopeReader {
   }
 
   InputError wrong_size(const ExportLine& line, std::size_t size) const {
-    std::string allowed = groups_.size() == 1
-                              ? fmt::format("must have {}", exported_.columns.size())
-                              : fmt::format("must have {}, or end after a group of channels", exported_.columns.size());
-    return lines_.refused(line, fmt::format("has {} cells", size),
-                          allowed +
-                              ", as the line of channels has: export with time columns, and no comma both as "
-                              "separator and as decimal mark");
+    Problem problem{.code = ProblemCode::wrong_number_of_cells,
+                    .evidence = {counted("cells", size), counted("expected", exported_.columns.size())},
+                    .subjects = {{"as", "channels"}}};
+    if (groups_.size() > 1) problem.evidence.push_back(counted("groups", groups_.size()));
+    return lines_.refused(line, std::move(problem));
   }
 
   Read add_to(ScopeGroup& group, const ExportLine& line) {
@@ -222,9 +216,8 @@ class ScopeReader {
     if (std::isnan(*time)) {
       for (std::size_t c = group.time + 1; c < group.end; ++c) {
         if (is_missing(line.cells[c])) continue;
-        return tl::unexpected(
-            lines_.refused(line, fmt::format("{} has a value and no time", shortened(exported_.columns[c].name)),
-                           "must have the time of its group's column"));
+        return tl::unexpected(lines_.refused(line, {.code = ProblemCode::value_without_time,
+                                                    .subjects = {{"column", shortened(exported_.columns[c].name)}}}));
       }
       return {};
     }
@@ -329,10 +322,9 @@ tl::expected<ExportedColumns, InputError> read_twincat_scope(TextLines text, con
   const char delimiter = *scope_delimiter(text.buffered());
   if (delimiter == ' ' || delimiter == ':') {
     return tl::unexpected(
-        InputError{text.file().source(), 1, 1, "",
-                   fmt::format("is an export of TwinCAT Scope separated by {}", delimiter == ' ' ? "blanks" : "colons"),
-                   "must be separated by tabs or semicolons: names and times of day have blanks and "
-                   "colons in them"});
+        InputError{{.file = text.file().source(), .line = 1, .column = 1},
+                   {.code = ProblemCode::separator_not_possible,
+                    .subjects = {{"of", "twincat"}, {"separator", delimiter == ' ' ? "blanks" : "colons"}}}});
   }
   ExportLines lines(std::move(text), delimiter, options.decimal_mark, progress);
   return ScopeReader(lines, options).read();

@@ -1,9 +1,6 @@
 #include "io/uff_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -14,6 +11,7 @@
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/uff_number.hpp"
+#include "io/whole_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
@@ -24,6 +22,7 @@ using Refusal = tl::unexpected<InputError>;
 constexpr std::size_t largest_file = std::size_t{2} << 30;  // bytes
 constexpr std::size_t largest_block = std::size_t{1} << 24;
 constexpr std::size_t most_points = 1'000'000'000;
+constexpr std::size_t header_lines = 11;  // of a function
 
 bool is_boundary(std::string_view line) { return trimmed(line) == "-1"; }
 
@@ -34,11 +33,8 @@ std::string_view field(std::string_view line, std::size_t column, std::size_t wi
 
 template <class Integer>
 std::optional<Integer> whole_number(std::string_view text) {
-  Integer value = 0;
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  return whole_text_as<Integer>(text);
 }
 
 /// A field of text; empty where it says NONE.
@@ -100,8 +96,18 @@ class Scanner {
  private:
   std::optional<std::string_view> next_line();
   /// The refusal of the line that was read last.
-  [[nodiscard]] Refusal refused(std::string what, std::string allowed) const {
-    return Refusal(InputError{source_, line_, 1, "", std::move(what), std::move(allowed)});
+  [[nodiscard]] Refusal refused(Problem problem) const {
+    return Refusal(InputError({.file = source_, .line = line_, .column = 1}, std::move(problem)));
+  }
+  /// The same, where a number of its header is out of its range.
+  [[nodiscard]] Refusal wrong_field(std::string field, double value) const {
+    return refused(
+        {.code = ProblemCode::wrong_field, .evidence = {{"value", value}}, .subjects = {{"field", std::move(field)}}});
+  }
+  /// The same, where it is not what must stand there.
+  [[nodiscard]] Refusal not_readable(std::string_view line, std::string wanted) const {
+    return refused({.code = ProblemCode::text_not_readable,
+                    .subjects = {{"text", in_quotes(as_utf8(trimmed(line)))}, {"wanted", std::move(wanted)}}});
   }
   bool pass_to_boundary();
   tl::expected<UffRecord, InputError> take_function(std::string_view dataset_line);
@@ -154,10 +160,9 @@ tl::expected<void, InputError> Scanner::find_binary(UffRecord& record, std::size
   const std::size_t taken = record.single_abscissa ? mixed : size;
   if (!boundary_follows(place_ + taken)) {
     const std::size_t left = bytes_.size() - std::min(place_, bytes_.size());
-    return refused(
-        left < taken ? fmt::format("{} points take {} bytes, where the file ends after {}", record.points, taken, left)
-                     : fmt::format("the {} bytes of {} points are not followed by a line -1", taken, record.points),
-        fmt::format("the header says {} bytes: the file may be cut off or damaged", declared));
+    return refused({.code = left < taken ? ProblemCode::bytes_missing : ProblemCode::closing_line_missing,
+                    .evidence = {counted("points", record.points), counted("bytes", taken), counted("left", left),
+                                 counted("declared", declared)}});
   }
   record.data_end = place_ + taken;
   place_ = record.data_end;
@@ -183,9 +188,7 @@ tl::expected<void, InputError> Scanner::read_form(std::string_view line, UffReco
   DataForm form = form_in_columns(line);
   if (!form.is_sound()) form = form_in_words(line);
   if (!form.is_sound() || form.points > static_cast<long>(most_points)) {
-    return refused(fmt::format("{} is no form of data", in_quotes(as_utf8(trimmed(line)))),
-                   "must be the type (2, 4, 5 or 6), the number of points (1 to 1e9), the spacing (0 or 1), its first "
-                   "value and step");
+    return not_readable(line, "form");
   }
   record.is_complex = form.type >= 5;
   record.is_double = form.type == 4 || form.type == 6;
@@ -195,8 +198,9 @@ tl::expected<void, InputError> Scanner::read_form(std::string_view line, UffReco
   record.step = form.step;
   const bool rises = std::isfinite(form.first) && std::isfinite(form.step) && form.step > 0.0;
   if (record.is_even && !rises) {
-    return refused(fmt::format("the step of the abscissa is {:.6g}, its first value {:.6g}", form.step, form.first),
-                   "an even spacing must have a step above 0");
+    return refused({.code = ProblemCode::wrong_field,
+                    .evidence = {{"value", form.step}, {"first", form.first}},
+                    .subjects = {{"field", "step"}}});
   }
   return {};
 }
@@ -209,22 +213,20 @@ tl::expected<UffRecord, InputError> Scanner::take_function(std::string_view data
     std::string_view rest = dataset_line.substr(7);
     std::array<double, 4> numbers{};  // byte order, number format, lines of header, bytes of data
     for (double& number : numbers) number = take_fortran_number(rest).value_or(0.0);
-    if (numbers[0] != 1.0 && numbers[0] != 2.0) {
-      return refused(fmt::format("the byte order is {:.6g}", numbers[0]),
-                     "must be 1 (little-endian) or 2 (big-endian)");
-    }
-    if (numbers[1] != 2.0) {
-      return refused(fmt::format("the format of the binary numbers is {:.6g}", numbers[1]),
-                     "must be 2 (IEEE 754): export the file as text, dataset 58");
-    }
-    if (numbers[2] != 11.0) return refused(fmt::format("the header has {:.6g} lines", numbers[2]), "must be 11");
+    if (numbers[0] != 1.0 && numbers[0] != 2.0) return wrong_field("byte order", numbers[0]);
+    if (numbers[1] != 2.0) return wrong_field("number format", numbers[1]);
+    if (numbers[2] != header_lines) return wrong_field("header length", numbers[2]);
     record.binary = numbers[0] == 1.0 ? ByteOrder::little : ByteOrder::big;
     declared = numbers[3] >= 0.0 && numbers[3] < 1e15 ? static_cast<std::size_t>(numbers[3]) : 0;
   }
-  std::array<std::string_view, 11> header;
+  std::array<std::string_view, header_lines> header;
   for (std::size_t i = 0; i < header.size(); ++i) {
     const auto line = next_line();
-    if (!line) return refused("the file ends inside the header of a function", "must have 11 lines of header");
+    if (!line) {
+      return refused({.code = ProblemCode::data_end_inside,
+                      .evidence = {counted("lines", header_lines)},
+                      .subjects = {{"part", "a function's header"}}});
+    }
     header[i] = *line;
     if (i < 5) record.id_lines[i] = id_line(*line);
     if (i == 5) {
@@ -232,8 +234,7 @@ tl::expected<UffRecord, InputError> Scanner::take_function(std::string_view data
       const auto first_word = take_fortran_number(words);
       const auto type = whole_number<int>(field(*line, 0, 5));
       if (!type && !(first_word && std::abs(*first_word) < 1000.0)) {
-        return refused(fmt::format("{} begins with no function type", in_quotes(as_utf8(trimmed(*line)))),
-                       "must be a whole number in the first five columns, such as 1 (time) or 4 (frequency response)");
+        return not_readable(*line, "type");
       }
       record.function_type = type ? *type : static_cast<int>(*first_word);
       record.response = point_of(*line, 31);
@@ -256,17 +257,11 @@ tl::expected<void, InputError> Scanner::scan(std::vector<UffRecord>& records, st
   std::map<int, std::size_t> passed_over;
   while (const auto line = next_line()) {
     if (trimmed(*line).empty()) continue;
-    if (!is_boundary(*line)) {
-      return refused(fmt::format("{} stands outside of a dataset", in_quotes(as_utf8(trimmed(*line)))),
-                     "must be a universal file: a line -1, the number of a dataset, its lines, a line -1");
-    }
+    if (!is_boundary(*line)) return not_readable(*line, "boundary");
     const auto dataset_line = next_line();
     if (!dataset_line) break;
     const auto dataset = whole_number<int>(field(*dataset_line, 0, 6));
-    if (!dataset) {
-      return refused(fmt::format("{} is no number of a dataset", in_quotes(as_utf8(trimmed(*dataset_line)))),
-                     "must be one in the first six columns, such as 58");
-    }
+    if (!dataset) return not_readable(*dataset_line, "dataset");
     if (*dataset == 58) {
       auto record = take_function(*dataset_line);
       if (!record) return Refusal(std::move(record.error()));
@@ -280,10 +275,9 @@ tl::expected<void, InputError> Scanner::scan(std::vector<UffRecord>& records, st
   numbers.reserve(passed_over.size());
   for (const auto& [dataset, count] : passed_over) numbers.push_back(std::to_string(dataset));
   if (records.empty()) {
-    return Refusal(InputError{
-        source_, 0, 0, "",
-        numbers.empty() ? "holds no function" : fmt::format("holds datasets {} and no function", listed(numbers)),
-        "must hold dataset 58 (or 58b)"});
+    Problem none{.code = ProblemCode::holds_none, .subjects = {{"wanted", "function"}}};
+    if (!numbers.empty()) none.subjects.push_back({"datasets", listed(numbers)});
+    return Refusal(InputError({.file = source_}, std::move(none)));
   }
   if (!numbers.empty()) {
     remarks.push_back(note({.code = FindingCode::datasets_passed_over, .subjects = {{"datasets", listed(numbers)}}}));
@@ -312,8 +306,9 @@ tl::expected<UffFile, InputError> read_uff_file(const std::string& path, const P
   for (std::size_t count = block; count == block;) {
     const std::size_t size = bytes.size();
     if (size >= largest_file) {
-      return Refusal(InputError{file->source(), 0, 0, "", fmt::format("is larger than {} GiB", largest_file >> 30),
-                                "must be split into several files"});
+      return Refusal(InputError({.file = file->source()}, {.code = ProblemCode::has_too_many,
+                                                           .evidence = {counted("most", largest_file >> 30)},
+                                                           .subjects = {{"what", "GiB"}}}));
     }
     bytes.resize(size + block);
     const auto read = file->read({bytes.data() + size, block});
@@ -325,41 +320,6 @@ tl::expected<UffFile, InputError> read_uff_file(const std::string& path, const P
     }
   }
   return parse_uff(std::move(bytes), file->source());
-}
-
-std::string uff_function_name(int function_type) {
-  constexpr std::array<std::string_view, 29> names{"function of unknown type",
-                                                   "time response",
-                                                   "auto spectrum",
-                                                   "cross spectrum",
-                                                   "frequency response",
-                                                   "transmissibility",
-                                                   "coherence",
-                                                   "auto correlation",
-                                                   "cross correlation",
-                                                   "power spectral density",
-                                                   "energy spectral density",
-                                                   "probability density",
-                                                   "spectrum",
-                                                   "cumulative frequency distribution",
-                                                   "peaks and valleys",
-                                                   "stress and cycles",
-                                                   "strain and cycles",
-                                                   "orbit",
-                                                   "mode indicator function",
-                                                   "force pattern",
-                                                   "partial power",
-                                                   "partial coherence",
-                                                   "eigenvalue",
-                                                   "eigenvector",
-                                                   "shock response spectrum",
-                                                   "impulse response filter",
-                                                   "multiple coherence",
-                                                   "order function",
-                                                   "phase compensation"};
-  const auto index = static_cast<std::size_t>(function_type);
-  return function_type >= 0 && index < names.size() ? std::string(names[index])
-                                                    : fmt::format("function of type {}", function_type);
 }
 
 }  // namespace zwidth::internal

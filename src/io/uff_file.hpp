@@ -82,7 +82,4 @@ struct UffFile {
 /// The same of bytes that are already there.
 [[nodiscard]] tl::expected<UffFile, InputError> parse_uff(std::string bytes, const std::string& source);
 
-/// "time response", "frequency response function", ...
-[[nodiscard]] std::string uff_function_name(int function_type);
-
 }  // namespace zwidth::internal

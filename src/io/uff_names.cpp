@@ -7,8 +7,10 @@
 #include <map>
 #include <optional>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/prose.hpp"
+#include "uff_function_name.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -56,6 +58,12 @@ std::vector<std::string> uff_names(const UffFile& file) {
   return names;
 }
 
+InputError wrong_record(const UffFile& file, const UffRecord& record, const std::string& asked, std::string wanted) {
+  return {{.file = file.source, .line = record.line, .column = 1, .key = shortened(asked)},
+          {.code = ProblemCode::wrong_kind,
+           .subjects = {{"kind", "a " + uff_description(record)}, {"wanted", std::move(wanted)}}}};
+}
+
 std::string uff_description(const UffRecord& record) {
   const std::string unit = record.abscissa.unit.empty() ? "" : " " + record.abscissa.unit;
   return fmt::format("{}{}, {} points, {}", record.is_complex ? "complex " : "",
@@ -77,9 +85,10 @@ tl::expected<std::size_t, InputError> find_uff_record(const UffFile& file, const
     }
     if (numbers.size() == 1) return found;
     if (numbers.size() > 1) {
-      return tl::unexpected(InputError{file.source, 0, 0, shortened(asked),
-                                       fmt::format("{} records have this name", numbers.size()),
-                                       fmt::format("must be one of their numbers: {}", listed(numbers))});
+      return tl::unexpected(
+          InputError({.file = file.source, .key = shortened(asked)}, {.code = ProblemCode::column_name_not_unique,
+                                                                      .evidence = {counted("records", numbers.size())},
+                                                                      .subjects = {{"numbers", listed(numbers)}}}));
     }
   }
   return named;

@@ -21,6 +21,10 @@ namespace zwidth::internal {
 /// What a record is, in words: "time response, 250 points, every 0.01 s".
 [[nodiscard]] std::string uff_description(const UffRecord& record);
 
+/// The refusal of a record that was asked for and is of another kind; `wanted` is a name of the phrase.
+[[nodiscard]] InputError wrong_record(const UffFile& file, const UffRecord& record, const std::string& asked,
+                                      std::string wanted);
+
 /// Index of the record that is asked for: by its name (with or without the unit), one of its ID lines, its entity's
 /// name, its response point, or its number from 1. Refused: a name that no record or several have.
 [[nodiscard]] tl::expected<std::size_t, InputError> find_uff_record(const UffFile& file, const std::string& asked);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "io/recording_channels.hpp"
@@ -31,11 +32,6 @@ bool is_time_record(const UffRecord& record) {
          (record.function_type == uff_unknown_function && record.abscissa.quantity == uff_time);
 }
 
-InputError refused(const UffFile& file, const UffRecord& record, const std::string& asked, std::string what,
-                   std::string allowed) {
-  return {file.source, record.line, 1, shortened(asked), std::move(what), std::move(allowed)};
-}
-
 /// A record that was asked for, and its numbers.
 struct Series {
   const UffRecord* record = nullptr;
@@ -48,8 +44,7 @@ tl::expected<Series, InputError> read_series(const UffFile& file, const std::str
   if (!index) return Refusal(index.error());
   const UffRecord& record = file.records[*index];
   if (!is_time_record(record) || record.is_complex) {
-    return Refusal(refused(file, record, asked, fmt::format("is a {}", uff_description(record)),
-                           "must be a real time record (function type 1)"));
+    return Refusal(wrong_record(file, record, asked, "times"));
   }
   auto values = read_uff_values(file, record);
   if (!values) return Refusal(std::move(values.error()));
@@ -60,25 +55,36 @@ double seconds_per_unit(const UffRecord& record, const RecordingOptions& options
   return options.time_scale.value_or(seconds_per(record.abscissa.unit).value_or(1.0));
 }
 
+InputError refused(const UffFile& file, const Series& series, Problem problem) {
+  return {{.file = file.source, .line = series.record->line, .column = 1, .key = shortened(series.name)},
+          std::move(problem)};
+}
+
+/// Records of one recording have as many samples.
+tl::expected<void, InputError> check_size(const UffFile& file, const Series& series, const Series& first) {
+  const std::size_t samples = series.values.ordinate.size();
+  const std::size_t expected = first.values.ordinate.size();
+  if (samples == expected) return {};
+  return Refusal(refused(file, series,
+                         {.code = ProblemCode::samples_of_two_lengths,
+                          .evidence = {counted("samples", samples), counted("expected", expected)},
+                          .subjects = {{"other", shortened(first.name)}}}));
+}
+
 /// Records of one recording have their samples at the same times.
 tl::expected<void, InputError> check_axes(const UffFile& file, const std::vector<Series>& all) {
   const UffRecord& first = *all.front().record;
   for (const Series& series : all) {
     const UffRecord& record = *series.record;
-    if (series.values.ordinate.size() != all.front().values.ordinate.size()) {
-      return Refusal(refused(file, record, series.name,
-                             fmt::format("has {} samples, {} has {}", series.values.ordinate.size(),
-                                         shortened(all.front().name), all.front().values.ordinate.size()),
-                             "records of one recording must have equally many"));
-    }
+    if (auto checked = check_size(file, series, all.front()); !checked) return checked;
     const bool same = record.is_even == first.is_even &&
                       (record.is_even ? std::abs(record.step - first.step) <= same_step * first.step &&
                                             std::abs(record.first - first.first) <= same_start * first.step
                                       : series.values.abscissa == all.front().values.abscissa);
     if (!same || record.abscissa.unit != first.abscissa.unit) {
-      return Refusal(refused(file, record, series.name,
-                             fmt::format("has other times than {}", shortened(all.front().name)),
-                             "records of one recording must share their times"));
+      return Refusal(refused(
+          file, series,
+          {.code = ProblemCode::axes_differ, .subjects = {{"axis", "times"}, {"other", shortened(all.front().name)}}}));
     }
   }
   return {};
@@ -91,12 +97,7 @@ tl::expected<std::optional<RawColumn>, InputError> find_times(const UffFile& fil
   if (options.time_column) {
     auto times = read_series(file, *options.time_column);
     if (!times) return Refusal(std::move(times.error()));
-    if (times->values.ordinate.size() != first.values.ordinate.size()) {
-      return Refusal(refused(file, *times->record, times->name,
-                             fmt::format("has {} samples, {} has {}", times->values.ordinate.size(),
-                                         shortened(first.name), first.values.ordinate.size()),
-                             "records of one recording must have equally many"));
-    }
+    if (auto checked = check_size(file, *times, first); !checked) return Refusal(std::move(checked.error()));
     return RawColumn{file.source, times->name, std::move(times->values.ordinate), {}};
   }
   if (first.record->is_even) return std::nullopt;

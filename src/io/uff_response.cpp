@@ -9,20 +9,18 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/prose.hpp"
 #include "io/response_lines.hpp"
 #include "io/uff_file.hpp"
 #include "io/uff_names.hpp"
 #include "io/uff_values.hpp"
+#include "uff_function_name.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
-
-InputError refused(const UffFile& file, std::string key, std::string what, std::string allowed, std::size_t line = 0) {
-  return {file.source, line, line > 0 ? std::size_t{1} : 0, std::move(key), std::move(what), std::move(allowed)};
-}
 
 bool is_response(const UffRecord& record) {
   return record.is_complex &&
@@ -34,8 +32,7 @@ tl::expected<std::size_t, InputError> find_response(const UffFile& file, const s
   if (!asked.empty()) {
     const auto found = find_uff_record(file, asked);
     if (found && !is_response(file.records[*found])) {
-      return Refusal(refused(file, shortened(asked), fmt::format("is a {}", uff_description(file.records[*found])),
-                             "must be a complex frequency response (function type 4)", file.records[*found].line));
+      return Refusal(wrong_record(file, file.records[*found], asked, "response"));
     }
     return found;
   }
@@ -53,11 +50,13 @@ tl::expected<std::size_t, InputError> find_response(const UffFile& file, const s
   }
   if (responses.size() == 1) return found;
   if (responses.empty()) {
-    return Refusal(refused(file, "", fmt::format("holds no frequency response, only {}", listed(others)),
-                           "must hold a complex record of function type 4"));
+    return Refusal(InputError(
+        {.file = file.source},
+        {.code = ProblemCode::holds_none, .subjects = {{"wanted", "frequency response"}, {"others", listed(others)}}}));
   }
-  return Refusal(refused(file, "", fmt::format("holds {} frequency responses", responses.size()),
-                         fmt::format("name one of them: {}", listed(responses))));
+  return Refusal(InputError({.file = file.source}, {.code = ProblemCode::not_one_record,
+                                                    .evidence = {counted("records", responses.size())},
+                                                    .subjects = {{"choices", listed(responses)}}}));
 }
 
 /// What turns the ordinate into a position, and how that is said.
@@ -89,14 +88,14 @@ tl::expected<std::vector<double>, InputError> read_coherence(const UffFile& file
   if (!index) return Refusal(index.error());
   const UffRecord& record = file.records[*index];
   if (record.function_type != uff_coherence || record.is_complex) {
-    return Refusal(refused(file, shortened(asked), fmt::format("is a {}", uff_description(record)),
-                           "must be a real coherence (function type 6)", record.line));
+    return Refusal(wrong_record(file, record, asked, "coherence"));
   }
   auto values = read_uff_values(file, record);
   if (!values) return Refusal(std::move(values.error()));
   if (values->abscissa != frequencies) {
-    return Refusal(
-        refused(file, shortened(asked), "has other frequencies than the response", "must have the same", record.line));
+    return Refusal(InputError(
+        {.file = file.source, .line = record.line, .column = 1, .key = shortened(asked)},
+        {.code = ProblemCode::axes_differ, .subjects = {{"axis", "frequencies"}, {"other", "the response"}}}));
   }
   return std::move(values->ordinate);
 }
@@ -110,8 +109,8 @@ tl::expected<FrequencyResponse, InputError> read_uff_response(const std::string&
   if (!file) return Refusal(file.error());
   for (const std::string& column : {options.frequency, options.magnitude, options.phase, options.imaginary}) {
     if (column.empty()) continue;
-    return Refusal(refused(*file, shortened(column), "a universal file has no columns",
-                           "name the record as that of the real parts"));
+    return Refusal(
+        InputError({.file = file->source, .key = shortened(column)}, {.code = ProblemCode::file_without_columns}));
   }
   const auto index = find_response(*file, options.real);
   if (!index) return Refusal(index.error());

@@ -1,7 +1,5 @@
 #include "io/uff_values.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -34,9 +32,9 @@ tl::expected<std::vector<double>, InputError> text_numbers(const UffFile& file, 
     while (const auto number = take_fortran_number(text)) numbers.push_back(*number);
     if (!text.empty()) {
       const std::string_view word = text.substr(0, text.find_first_of(" \t\r"));
-      return Refusal(InputError{file.source, line, whole.size() - text.size() + 1, "",
-                                fmt::format("{} is no number", in_quotes(as_utf8(word))),
-                                "must be numbers up to the line -1"});
+      return Refusal(InputError({.file = file.source, .line = line, .column = whole.size() - text.size() + 1},
+                                {.code = ProblemCode::text_not_readable,
+                                 .subjects = {{"text", in_quotes(as_utf8(word))}, {"wanted", "number"}}}));
     }
     ++line;
   }
@@ -68,14 +66,12 @@ tl::expected<UffValues, InputError> read_uff_values(const UffFile& file, const U
   if (!numbers) return Refusal(std::move(numbers.error()));
   const std::size_t step = numbers_per_point(record);
   const std::size_t points = std::min(record.points, numbers->size() / step);
-  const auto refused = [&](std::string what, std::string allowed) {
-    return Refusal(InputError{file.source, record.data_line, 1, "", std::move(what), std::move(allowed)});
-  };
-  if (points == 0) return refused("the function has no point", "must have one at least");
-  if (numbers->size() > record.points * step + most_padding) {
-    return refused(
-        fmt::format("{} numbers, where {} points take {}", numbers->size(), record.points, record.points * step),
-        "the header and its data must agree");
+  if (points == 0 || numbers->size() > record.points * step + most_padding) {
+    return Refusal(InputError({.file = file.source, .line = record.data_line, .column = 1},
+                              {.code = ProblemCode::size_disagrees,
+                               .evidence = {counted("count", numbers->size()), counted("points", record.points),
+                                            counted("expected", record.points * step)},
+                               .subjects = {{"unit", "numbers"}}}));
   }
   UffValues values;
   if (points < record.points) {

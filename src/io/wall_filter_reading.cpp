@@ -1,7 +1,5 @@
 #include "io/wall_filter_reading.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -41,17 +39,14 @@ const std::vector<std::string>& keys_of_type(WallFilter::Kind kind) {
 }
 
 std::optional<WallFilter::Kind> read_kind(TableReader& reader) {
-  const std::string allowed = listed(type_names());
-  if (!reader.has("type")) reader.refuse_missing("type", "must be given as one of " + allowed);
+  if (!reader.has("type")) reader.refuse_missing("type", {"choice", listed(type_names())});
   const auto name = reader.text("type");
   if (!name) return std::nullopt;
   for (const WallFilter::Kind kind : all_kinds) {
     if (*name == wall_filter_type(kind)) return kind;
   }
   const std::string meant = nearest_word(*name, type_names());
-  reader.refuse("type", fmt::format("is {}", in_quotes(*name)),
-                meant.empty() ? "must be one of " + allowed : fmt::format("did you mean \"{}\"?", meant),
-                meant.empty() ? std::nullopt : std::optional(meant));
+  reader.refuse("type", not_one_of(*name, "one of " + listed(type_names()), meant), suggested(meant));
   return std::nullopt;
 }
 
@@ -59,21 +54,23 @@ void refuse_keys_of_other_types(TableReader& reader, WallFilter::Kind kind) {
   const std::vector<std::string>& keys = keys_of_type(kind);
   for (const std::string& key : keys_of(DeviceTable::filter)) {
     if (!reader.has(key) || std::ranges::count(keys, key) > 0) continue;
-    reader.refuse(key, fmt::format("is no key of a filter of type \"{}\"", wall_filter_type(kind)),
-                  fmt::format("its keys are {}", listed(keys)));
+    reader.refuse(key, {.code = ProblemCode::key_of_other_filters,
+                        .subjects = {{"type", std::string(wall_filter_type(kind))}, {"keys", listed(keys)}}});
   }
 }
 
 void read_low_pass(TableReader& reader, WallFilter& filter) {
   const double order = reader.number("order").value_or(filter.order);
   if (order != 1.0 && order != 2.0) {
-    reader.refuse("order", fmt::format("is {}", order), "must be 1 or 2");
+    reader.refuse(
+        "order",
+        {.code = ProblemCode::not_one_of, .evidence = {{"value", order}}, .subjects = {{"choices", "1 or 2"}}});
     return;
   }
   filter.order = order == 1.0 ? 1 : 2;
   filter.damping_ratio = reader.number("damping_ratio", Measure::ratio).value_or(filter.damping_ratio);
   if (filter.order == 1 && reader.has("damping_ratio")) {
-    reader.refuse("damping_ratio", "stands beside order 1, which has none", "must be left out, or set order = 2");
+    reader.refuse("damping_ratio", {.code = ProblemCode::damping_of_first_order});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "counted.hpp"
 #include "model/key_members.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
@@ -20,13 +21,33 @@ namespace {
 constexpr double smallest_coefficient = 1e-100;
 constexpr double largest_coefficient = 1e100;
 
-/// What a number outside the range must be.
-std::string allowed_in(const NumberRange& range, KeyType type, double value) {
+Problem out_of_range(const NumberRange& range, KeyType type, double value) {
   const bool is_plain = range == positive_numbers || range == not_negative_numbers;
   const bool is_positive = value > 0.0 && std::isfinite(value);
-  if (is_plain && !is_positive) return fmt::format("must be a finite number {} 0", range.takes_zero ? ">=" : ">");
-  return fmt::format("must be {}{}from {} to {}", type == KeyType::whole_number ? "a whole number " : "",
-                     range.takes_zero ? "0 or " : "", range.least, range.greatest);
+  Problem problem{.code = ProblemCode::no_finite_number, .evidence = {{"value", value}}};
+  if (is_plain && !is_positive) {
+    if (range.takes_zero) problem.evidence.push_back({"from_zero", 1.0});
+    return problem;
+  }
+  problem = {.code = ProblemCode::not_between,
+             .evidence = {{"value", value}, {"least", range.least}, {"most", range.greatest}}};
+  if (type == KeyType::whole_number) problem.evidence.push_back({"whole", 1.0});
+  if (range.takes_zero) problem.evidence.push_back({"or_zero", 1.0});
+  return problem;
+}
+
+Problem stands_too_often(std::size_t count, std::size_t most, const char* what) {
+  return {.code = ProblemCode::stands_too_often,
+          .evidence = {counted("count", count), counted("most", most)},
+          .subjects = {{"what", what}}};
+}
+
+Problem no_body_number(std::size_t body, std::size_t bodies) {
+  return {.code = ProblemCode::no_body_number, .evidence = {counted("body", body), counted("bodies", bodies)}};
+}
+
+Problem beside_transfer_function(const char* part) {
+  return {.code = ProblemCode::beside_transfer_function, .subjects = {{"part", part}}};
 }
 
 std::string body_key(const DeviceParameters& parameters, std::size_t body) {
@@ -40,9 +61,9 @@ class Checks {
   [[nodiscard]] std::vector<DeviceProblem> problems() && { return std::move(problems_); }
   [[nodiscard]] bool passed() const { return problems_.empty(); }
 
-  void refuse(std::string key, std::string what, std::string allowed) {
+  void refuse(std::string key, Problem problem) {
     if (std::ranges::find(problems_, key, &DeviceProblem::key) != problems_.end()) return;
-    problems_.push_back({std::move(key), std::move(what), std::move(allowed)});
+    problems_.push_back(device_problem(std::move(key), std::move(problem)));
   }
 
   /// Every number that the table's struct has, against the range of its key.
@@ -60,10 +81,10 @@ class Checks {
   void name(std::string key, const std::string& value) {
     const bool has_control = std::ranges::any_of(value, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
     if (has_control) {
-      refuse(std::move(key), "has a control character", "must be one line of plain text");
+      refuse(std::move(key), {.code = ProblemCode::control_character});
     } else if (value.size() > max_name_size) {
-      refuse(std::move(key), fmt::format("has {} bytes", value.size()),
-             fmt::format("must be at most {} bytes long", max_name_size));
+      refuse(std::move(key), {.code = ProblemCode::too_many_bytes,
+                              .evidence = {counted("bytes", value.size()), counted("most", max_name_size)}});
     }
   }
 
@@ -73,8 +94,10 @@ class Checks {
     const auto given = static_cast<double>(value);
     const bool is_sign = key.type == KeyType::sign;
     if (is_sign ? std::abs(given) == 1.0 : !key.range || key.range->contains(given)) return;
-    refuse(fmt::format("{}.{}", path, key.name), fmt::format("is {}", value),
-           is_sign ? "must be 1 or -1" : allowed_in(*key.range, key.type, given));
+    refuse(fmt::format("{}.{}", path, key.name), is_sign ? Problem{.code = ProblemCode::not_one_of,
+                                                                   .evidence = {{"value", given}},
+                                                                   .subjects = {{"choices", "1 or -1"}}}
+                                                         : out_of_range(*key.range, key.type, given));
   }
 
   std::vector<DeviceProblem> problems_;
@@ -83,18 +106,17 @@ class Checks {
 void check_bodies(const DeviceParameters& parameters, Checks& checks) {
   const auto& bodies = parameters.bodies;
   if (bodies.size() > max_bodies) {
-    checks.refuse("body", fmt::format("stands {} times", bodies.size()),
-                  fmt::format("must be at most {} bodies", max_bodies));
+    checks.refuse("body", stands_too_often(bodies.size(), max_bodies, "bodies"));
     return;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     const std::string name_key = fmt::format("body.{}.name", i);
-    if (body.name.empty()) checks.refuse(name_key, "is empty", "must be a name");
+    if (body.name.empty()) checks.refuse(name_key, {.code = ProblemCode::name_empty});
     checks.name(name_key, body.name);
     const auto same_name = [&](const Body& other) { return other.name == body.name; };
     if (std::any_of(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(i), same_name)) {
-      checks.refuse(name_key, fmt::format("\"{}\" names two bodies", body.name), "must be different for every body");
+      checks.refuse(name_key, {.code = ProblemCode::names_two_bodies, .subjects = {{"name", body.name}}});
     }
     const std::string key = body_key(parameters, i);
     checks.numbers(DeviceTable::body, key, body);
@@ -103,25 +125,23 @@ void check_bodies(const DeviceParameters& parameters, Checks& checks) {
 
 void check_links(const DeviceParameters& parameters, Checks& checks) {
   if (parameters.links.size() > max_links) {
-    checks.refuse("link", fmt::format("stands {} times", parameters.links.size()),
-                  fmt::format("must be at most {} links", max_links));
+    checks.refuse("link", stands_too_often(parameters.links.size(), max_links, "links"));
     return;
   }
   for (std::size_t i = 0; i < parameters.links.size(); ++i) {
     const Link& link = parameters.links[i];
     const std::string key = fmt::format("link.{}", i);
     if (std::max(link.first, link.second) >= parameters.bodies.size()) {
-      checks.refuse(
-          key + ".between",
-          fmt::format("has body number {} of {}", std::max(link.first, link.second), parameters.bodies.size()),
-          "must be two bodies of the device, counted from 0");
+      Problem problem = no_body_number(std::max(link.first, link.second), parameters.bodies.size());
+      problem.evidence.push_back({"of_two", 1.0});
+      checks.refuse(key + ".between", std::move(problem));
     } else if (link.first == link.second) {
-      checks.refuse(key + ".between", fmt::format("ties \"{}\" to itself", parameters.bodies[link.first].name),
-                    "must be two different bodies");
+      checks.refuse(key + ".between",
+                    {.code = ProblemCode::tied_to_itself, .subjects = {{"name", parameters.bodies[link.first].name}}});
     }
     checks.numbers(DeviceTable::link, key, link);
     if (link.stiffness == 0.0 && link.damping == 0.0) {
-      checks.refuse(key + ".stiffness", "and damping are both 0", "one of the two must be > 0, or there is no link");
+      checks.refuse(key + ".stiffness", {.code = ProblemCode::link_of_nothing});
     }
   }
 }
@@ -144,60 +164,57 @@ std::optional<DeviceProblem> find_loose_body(const DeviceParameters& parameters)
   const auto index = static_cast<std::size_t>(loose - reached.begin());
   const bool has_link = std::ranges::any_of(
       parameters.links, [index](const Link& link) { return link.first == index || link.second == index; });
-  return DeviceProblem{
-      body_key(parameters, index),
-      has_link ? fmt::format("is not connected to body \"{}\"", parameters.bodies[0].name) : "is tied to nothing",
-      "must be connected to every other body through [[link]]s"};
+  Problem problem{.code = ProblemCode::body_not_connected};
+  if (has_link) problem.subjects.push_back({"other", parameters.bodies[0].name});
+  return device_problem(body_key(parameters, index), std::move(problem));
 }
 
 void check_coefficients(const std::string& key, const std::vector<double>& coefficients, Checks& checks) {
-  if (coefficients.empty()) checks.refuse(key, "is empty", "must be one or more coefficients");
-  if (coefficients.size() > max_degree + 1) {
-    checks.refuse(key, fmt::format("has {} coefficients", coefficients.size()),
-                  fmt::format("must be at most {} coefficients", max_degree + 1));
+  if (coefficients.empty() || coefficients.size() > max_degree + 1) {
+    checks.refuse(key, {.code = ProblemCode::number_of_coefficients,
+                        .evidence = {counted("count", coefficients.size()), counted("most", max_degree + 1)}});
   }
   for (const double coefficient : coefficients) {
     const double magnitude = std::abs(coefficient);
     if (magnitude == 0.0 || (magnitude >= smallest_coefficient && magnitude <= largest_coefficient)) continue;
-    checks.refuse(key, fmt::format("has the coefficient {}", coefficient),
-                  fmt::format("every coefficient must be 0 or from {} to {} in magnitude", smallest_coefficient,
-                              largest_coefficient));
+    checks.refuse(
+        key, {.code = ProblemCode::coefficient_out_of_range,
+              .evidence = {{"value", coefficient}, {"least", smallest_coefficient}, {"most", largest_coefficient}}});
   }
 }
 
 void check_transfer_function(const DeviceParameters& parameters, Checks& checks) {
   const TransferFunction& transfer = *parameters.transfer_function;
   if (!parameters.bodies.empty() || !parameters.links.empty()) {
-    checks.refuse(parameters.bodies.empty() ? "link" : "body", "stands beside a transfer function",
-                  "must be either bodies and links or a transfer function");
+    checks.refuse(parameters.bodies.empty() ? "link" : "body", beside_transfer_function("bodies"));
   }
   check_coefficients("transfer_function.numerator", transfer.numerator, checks);
   check_coefficients("transfer_function.denominator", transfer.denominator, checks);
   if (!checks.passed()) return;
   const auto leading = std::ranges::find_if(transfer.numerator, [](double c) { return c != 0.0; });
   if (leading == transfer.numerator.end()) {
-    checks.refuse("transfer_function.numerator", "is 0", "must have a coefficient that is not 0");
+    checks.refuse("transfer_function.numerator", {.code = ProblemCode::all_coefficients_zero});
   }
   if (transfer.denominator.front() == 0.0) {
-    checks.refuse("transfer_function.denominator", "begins with 0", "the leading coefficient must not be 0");
+    checks.refuse("transfer_function.denominator", {.code = ProblemCode::begins_with_zero});
   }
   const auto degree = transfer.denominator.size() - 1;
   const auto numerator_degree = transfer.numerator.end() - leading - 1;
   if (std::cmp_greater_equal(numerator_degree, degree)) {
     checks.refuse("transfer_function.numerator",
-                  fmt::format("has degree {} under a denominator of degree {}", numerator_degree, degree),
-                  "must be of lower degree than the denominator");
+                  {.code = ProblemCode::degree_not_lower,
+                   .evidence = {{"degree", static_cast<double>(numerator_degree)}, counted("denominator", degree)}});
   }
   if (transfer.numerator.size() > transfer.denominator.size()) {
-    checks.refuse("transfer_function.numerator", "is longer than the denominator", "leave out its leading zeros");
+    checks.refuse("transfer_function.numerator", {.code = ProblemCode::longer_than_denominator});
   }
   const Loop& loop = parameters.loop;
   if (loop.actuated != 0 || loop.sensed != 0 || loop.held != 0) {
-    checks.refuse("loop", "names a body beside a transfer function", "a transfer function has no bodies");
+    checks.refuse("loop", beside_transfer_function("loop"));
   }
   const User& user = parameters.user;
   if (user.mass != 0.0 || user.damping != 0.0 || user.stiffness != 0.0) {
-    checks.refuse("operator", "stands beside a transfer function", "an operator needs bodies: leave it out");
+    checks.refuse("operator", beside_transfer_function("operator"));
   }
 }
 
@@ -205,9 +222,7 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
   const Loop& loop = parameters.loop;
   const auto is_body = [&](std::string_view member, std::size_t body) {
     if (body < parameters.bodies.size()) return;
-    checks.refuse(fmt::format("loop.{}", member),
-                  fmt::format("is body number {} of {}", body, parameters.bodies.size()),
-                  "must be a body of the device, counted from 0");
+    checks.refuse(fmt::format("loop.{}", member), no_body_number(body, parameters.bodies.size()));
   };
   if (!parameters.transfer_function) {
     is_body("actuated", loop.actuated);
@@ -216,23 +231,23 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
   }
   checks.numbers(DeviceTable::loop, "loop", loop);
   if (positive_numbers.contains(loop.sampling_period) && loop.delay > max_delay_samples * loop.sampling_period) {
-    checks.refuse("loop.delay",
-                  fmt::format("is {} s, {:.6g} sampling periods", loop.delay, loop.delay / loop.sampling_period),
-                  fmt::format("must be at most {} sampling periods", max_delay_samples));
+    checks.refuse("loop.delay", {.code = ProblemCode::delay_of_too_many_periods,
+                                 .evidence = {{"delay", loop.delay},
+                                              {"periods", loop.delay / loop.sampling_period},
+                                              {"most", max_delay_samples}}});
   }
 }
 
 void check_filters(const DeviceParameters& parameters, Checks& checks) {
   const std::vector<WallFilter>& filters = parameters.wall.filters;
   if (filters.size() > max_wall_filters) {
-    checks.refuse("wall.filter", fmt::format("stands {} times", filters.size()),
-                  fmt::format("must be at most {} filters", max_wall_filters));
+    checks.refuse("wall.filter", stands_too_often(filters.size(), max_wall_filters, "filters"));
     return;
   }
   if (!positive_numbers.contains(parameters.loop.sampling_period)) return;  // their frequencies stand beside it
   for (std::size_t i = 0; i < filters.size(); ++i) {
-    const auto problem = find_problem(filters[i], parameters.loop.sampling_period);
-    if (problem) checks.refuse(fmt::format("wall.filter.{}.{}", i, problem->member), problem->what, problem->allowed);
+    const auto found = find_problem(filters[i], parameters.loop.sampling_period);
+    if (found) checks.refuse(fmt::format("wall.filter.{}.{}", i, found->member), found->problem.value());
   }
 }
 
@@ -240,13 +255,12 @@ void check_driver(const DeviceParameters& parameters, Checks& checks) {
   if (!parameters.driver) return;
   const MotorDrive& drive = *parameters.driver;
   if (parameters.motion == Motion::linear && !drive.travel) {
-    checks.refuse("driver.travel", "is missing",
-                  "must be given: how far the device moves in a turn, such as \"25 mm\"");
+    checks.refuse("driver.travel", {.code = ProblemCode::travel_per_turn_missing});
   }
   checks.numbers(DeviceTable::driver, "driver", drive);
   const bool is_letter = drive.command.size() == 1 && ((drive.command[0] >= 'A' && drive.command[0] <= 'Z') ||
                                                        (drive.command[0] >= 'a' && drive.command[0] <= 'z'));
-  if (!is_letter) checks.refuse("driver.command", "is no letter", "must be one letter, such as \"M\"");
+  if (!is_letter) checks.refuse("driver.command", {.code = ProblemCode::no_letter});
 }
 
 void check_loop_parts(const DeviceParameters& parameters, Checks& checks) {
@@ -266,8 +280,7 @@ std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameter
   if (parameters.transfer_function) {
     check_transfer_function(parameters, checks);
   } else if (parameters.bodies.empty()) {
-    checks.refuse("body", "is missing: the device has no [[body]] and no [transfer_function]",
-                  "must be one or more bodies, or a transfer function");
+    checks.refuse("body", {.code = ProblemCode::no_body_at_all});
     return std::move(checks).problems();
   } else {
     check_bodies(parameters, checks);
@@ -290,6 +303,7 @@ std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
 Device::Device(DeviceParameters parameters) : parameters_(std::move(parameters)) {
   if (const auto problem = find_problem(parameters_)) {
     InputProblem told{{}, problem->what, problem->allowed, {}};
+    told.problem = problem->problem;
     told.place.key = problem->key;
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed),
                 {std::move(told)});
@@ -299,7 +313,9 @@ Device::Device(DeviceParameters parameters) : parameters_(std::move(parameters))
 std::size_t Device::body_index(const std::string& name) const {
   const auto& bodies = parameters_.bodies;
   const auto found = std::ranges::find(bodies, name, &Body::name);
-  if (found == bodies.end()) throw Error(ErrorCode::no_such_body, fmt::format("the device has no body \"{}\"", name));
+  if (found == bodies.end()) {
+    throw Error(ErrorCode::no_such_body, Problem{.code = ProblemCode::no_such_body, .subjects = {{"name", name}}});
+  }
   return static_cast<std::size_t>(found - bodies.begin());
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// M x'' + D x' + K x = f of a device of bodies, operator included. One home for the assembly.
+// M x'' + D x' + K x = f of a device of bodies, its user included. One home for the assembly.
 
 #include <cstddef>
 #include <tuple>

@@ -2,6 +2,7 @@
 
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace zwidth::internal {
 namespace {
@@ -25,17 +26,20 @@ std::optional<Remark> implausible_period(double period, const std::string& whose
   constexpr double longest = 0.1;
   constexpr double shortest = 1e-6;
   if (period >= shortest && period <= longest) return std::nullopt;
+  std::vector<Subject> subjects;
+  if (!whose.empty()) subjects.push_back({"whose", whose});
   constexpr double usual = 0.03;  // 0.2 to 30 are milliseconds given as seconds, more are microseconds
   if (period < shortest) {
     return warning({.code = FindingCode::period_too_short,
                     .evidence = {{"period", period}, {"threshold", shortest}},
-                    .subjects = {{"whose", whose}},
+                    .subjects = std::move(subjects),
                     .key = "loop.sampling_period"});
   }
   const Unit unit = likely_unit(period, usual);
+  subjects.push_back({"likely_unit", unit.name});
   return warning({.code = FindingCode::period_too_long,
                   .evidence = {{"period", period}, {"threshold", longest}, {"likely", period * unit.seconds}},
-                  .subjects = {{"whose", whose}, {"likely_unit", unit.name}},
+                  .subjects = std::move(subjects),
                   .key = "loop.sampling_period"});
 }
 
@@ -68,7 +72,7 @@ std::vector<Remark> implausible_masses(const Device& device, double heaviest) {
 std::vector<Remark> implausible_numbers(const Device& device) {
   std::vector<Remark> remarks;
   const double period = device.loop().sampling_period;
-  if (auto remark = implausible_period(period, "the sampling period")) remarks.push_back(*std::move(remark));
+  if (auto remark = implausible_period(period, "")) remarks.push_back(*std::move(remark));
   if (auto remark = implausible_actuation_delay(device, period)) remarks.push_back(*std::move(remark));
   const double heaviest = device.parameters().motion == Motion::rotary ? 10.0 : 1000.0;
   for (Remark& remark : implausible_masses(device, heaviest)) remarks.push_back(std::move(remark));

@@ -81,7 +81,10 @@ void set_parameter(DeviceParameters& parameters, std::string_view key, double va
     member = value;
     found = true;
   });
-  if (!found) throw Error(ErrorCode::invalid_argument, "no parameter is called " + wanted);
+  if (!found) {
+    throw Error(ErrorCode::invalid_argument,
+                Problem{.code = ProblemCode::no_parameter_of_device, .subjects = {{"name", wanted}}});
+  }
 }
 
 }  // namespace zwidth

@@ -1,10 +1,9 @@
 #include "zwidth/model/wall_filter.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "counted.hpp"
 #include "model/key_members.hpp"
 
 namespace zwidth {
@@ -15,13 +14,13 @@ constexpr double smallest_coefficient = 1e-100;
 constexpr double largest_coefficient = 1e100;
 constexpr double smallest_frequency = 1e-30;  // Hz: its square is still a number
 
-using Problem = std::optional<WallFilterProblem>;
+using Found = std::optional<OptionProblem>;
 
-Problem check_range(const char* member, double value) {
+Found check_range(const char* member, double value) {
   const NumberRange range = key_of(DeviceTable::filter, member).range.value();
   if (range.contains(value)) return std::nullopt;
-  return WallFilterProblem{member, fmt::format("is {}", value),
-                           fmt::format("must be from {} to {}", range.least, range.greatest)};
+  return option_problem(member, {.code = ProblemCode::not_between,
+                                 .evidence = {{"value", value}, {"least", range.least}, {"most", range.greatest}}});
 }
 
 // All roots in Re s < 0: for degrees 1 and 2, all coefficients of one sign.
@@ -43,68 +42,71 @@ double sum(const std::vector<double>& coefficients) {
   return total;
 }
 
-Problem check_coefficients(const WallFilter& filter) {
+Found check_coefficients(const WallFilter& filter) {
   const bool digital = filter.kind == WallFilter::Kind::digital;
   const std::vector<double>& numerator = filter.numerator;
   const std::vector<double>& denominator = filter.denominator;
   if (denominator.size() < 2 || denominator.size() > 3) {
-    return WallFilterProblem{"denominator", fmt::format("has {} coefficients", denominator.size()),
-                             "must have 2 or 3, by falling powers"};
+    return option_problem(
+        "denominator", {.code = ProblemCode::number_of_coefficients,
+                        .evidence = {counted("count", denominator.size()), counted("least", 2), counted("most", 3)}});
   }
   if (numerator.empty() || numerator.size() > denominator.size()) {
-    return WallFilterProblem{"numerator", fmt::format("has {} coefficients", numerator.size()),
-                             "must have at least 1 and no more than the denominator"};
+    return option_problem(
+        "numerator", {.code = ProblemCode::number_of_coefficients,
+                      .evidence = {counted("count", numerator.size()), counted("denominator", denominator.size())}});
   }
   for (const std::vector<double>* each : {&numerator, &denominator}) {
     for (const double c : *each) {
       if (c == 0.0 || (std::abs(c) >= smallest_coefficient && std::abs(c) <= largest_coefficient)) continue;
-      return WallFilterProblem{each == &numerator ? "numerator" : "denominator",
-                               fmt::format("has the coefficient {}", c),
-                               fmt::format("every coefficient must be 0 or from {} to {} in magnitude",
-                                           smallest_coefficient, largest_coefficient)};
+      return option_problem(
+          each == &numerator ? "numerator" : "denominator",
+          {.code = ProblemCode::coefficient_out_of_range,
+           .evidence = {{"value", c}, {"least", smallest_coefficient}, {"most", largest_coefficient}}});
     }
   }
   if (denominator.front() == 0.0) {
-    return WallFilterProblem{"denominator", "begins with 0", "the leading coefficient must not be 0"};
+    return option_problem("denominator", {.code = ProblemCode::begins_with_zero});
   }
   if (digital ? !is_stable_in_z(denominator) : !is_stable_in_s(denominator)) {
-    return WallFilterProblem{"denominator", "has a pole that does not die out",
-                             digital ? "all roots in z must lie inside the unit circle"
-                                     : "all coefficients must have one sign, none may be 0"};
+    return option_problem("denominator",
+                          {.code = ProblemCode::filter_not_stable, .subjects = {{"variable", digital ? "z" : "s"}}});
   }
   const double gain = digital ? sum(numerator) / sum(denominator) : numerator.back() / denominator.back();
   if (!(gain > 0.0)) {
-    return WallFilterProblem{"numerator", fmt::format("gives the static gain {}", gain),
-                             "the static gain must be > 0, or the wall does not push back"};
+    return option_problem("numerator", {.code = ProblemCode::static_gain_not_positive, .evidence = {{"gain", gain}}});
   }
   return std::nullopt;
 }
 
-Problem check_frequency(const WallFilter& filter, double sampling_period) {
+Found check_frequency(const WallFilter& filter, double sampling_period) {
   using enum WallFilter::Kind;
   const double nyquist = 0.5 / sampling_period;
   if (filter.kind == digital) {
     if (filter.frequency_hz == 0.0) return std::nullopt;
-    return WallFilterProblem{"frequency_hz", fmt::format("is {}", filter.frequency_hz),
-                             "a digital filter runs as it stands: leave it out"};
+    return option_problem("frequency_hz", {.code = ProblemCode::frequency_of_digital_filter,
+                                           .evidence = {{"value", filter.frequency_hz}}});
   }
   if (filter.kind == biquad && filter.frequency_hz == 0.0) return std::nullopt;
   if (filter.frequency_hz >= smallest_frequency && filter.frequency_hz < nyquist) return std::nullopt;
-  return WallFilterProblem{
-      "frequency_hz", fmt::format("is {}", filter.frequency_hz),
-      fmt::format("must be at least {} and below the Nyquist frequency, {:.6g} Hz", smallest_frequency, nyquist)};
+  return option_problem(
+      "frequency_hz",
+      {.code = ProblemCode::filter_frequency_out_of_range,
+       .evidence = {{"value", filter.frequency_hz}, {"least", smallest_frequency}, {"nyquist", nyquist, "Hz"}}});
 }
 
 }  // namespace
 
-std::optional<WallFilterProblem> find_problem(const WallFilter& filter, double sampling_period) {
+std::optional<OptionProblem> find_problem(const WallFilter& filter, double sampling_period) {
   using enum WallFilter::Kind;
   if (auto problem = check_frequency(filter, sampling_period)) return problem;
   const auto damping_ratio = [&] { return check_range("damping_ratio", filter.damping_ratio); };
   switch (filter.kind) {
     case low_pass:
       if (filter.order != 1 && filter.order != 2) {
-        return WallFilterProblem{"order", fmt::format("is {}", filter.order), "must be 1 or 2"};
+        return option_problem("order", {.code = ProblemCode::not_one_of,
+                                        .evidence = {{"value", static_cast<double>(filter.order)}},
+                                        .subjects = {{"choices", "1 or 2"}}});
       }
       return filter.order == 2 ? damping_ratio() : std::nullopt;
     case notch:

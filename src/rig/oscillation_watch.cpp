@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "zwidth/error.hpp"
+#include "require_argument.hpp"
 #include "zwidth/signal/ring_down.hpp"
 
 namespace zwidth {
@@ -22,14 +22,8 @@ constexpr std::size_t shortest_window = 16;
 
 OscillationWatch::OscillationWatch(std::span<const double> frequencies, double sampling_period, double floor)
     : period_(sampling_period), floor_(floor) {
-  if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::sampling_period_not_positive,
-                                              .evidence = {{"value", sampling_period}},
-                                              .subjects = {{"unit", "s"}}});
-  }
-  if (!(std::isfinite(floor) && floor >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::floor_below_zero, .evidence = {{"value", floor}}});
-  }
+  internal::require_positive({"sampling period", sampling_period, "s"});
+  internal::require_not_negative({"floor", floor});
   for (const double frequency : frequencies) {
     const double step = frequency * sampling_period;
     if (!(step > 0.0 && step < highest_share * pi) || count_ == most_frequencies) continue;

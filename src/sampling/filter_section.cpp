@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "require_argument.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -85,10 +86,7 @@ FilterSection digital_section(const WallFilter& filter) {
 }  // namespace
 
 FilterSection filter_section(const WallFilter& filter, double period) {
-  if (!(period > 0.0) || !std::isfinite(period)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::sampling_period_not_positive, .evidence = {{"value", period}, {"the", 1.0}}});
-  }
+  internal::require_positive({"sampling period", period, "s"});
   if (const auto problem = find_problem(filter, period)) {
     throw Error(ErrorCode::invalid_argument,
                 "wall.filter." + std::string(problem->member) + " " + problem->what + "; " + problem->allowed);

@@ -4,20 +4,14 @@
 #include <limits>
 #include <string>
 
-#include "zwidth/error.hpp"
+#include "require_argument.hpp"
 
 namespace zwidth::internal {
 
 SamplingInstants sampling_instants(const Sampling& sampling) {
   const auto [period, delay] = sampling;
-  if (!(period > 0.0) || !std::isfinite(period)) {
-    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::sampling_period_not_positive,
-                                              .evidence = {{"value", period}, {"finite", 1.0}},
-                                              .subjects = {{"unit", "s"}}});
-  }
-  if (!(delay >= 0.0) || !std::isfinite(delay)) {
-    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::delay_below_zero, .evidence = {{"value", delay}}});
-  }
+  require_positive({"sampling period", period, "s"});
+  require_not_negative({"delay", delay, "s"});
   // A fraction within rounding of a whole number of samples is that number.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * delay;
   double whole = std::floor(delay / period);

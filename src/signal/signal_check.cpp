@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "counted.hpp"
+#include "require_argument.hpp"
 #include "signal/clipping.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"
@@ -266,10 +267,7 @@ void check_dropouts(const Signal& signal, const Extent& extent, std::span<const 
 }  // namespace
 
 std::vector<Remark> check_signal(const Channel& channel, double sampling_period, SignalRole role) {
-  if (!std::isfinite(sampling_period) || sampling_period <= 0.0) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::signal_period_not_positive, .evidence = {{"value", sampling_period}}});
-  }
+  internal::require_positive({"sampling period", sampling_period, "s"});
   const auto& samples = channel.samples;
   if (!std::all_of(samples.begin(), samples.end(), [](double value) { return std::isfinite(value); })) {
     throw Error(ErrorCode::invalid_argument,

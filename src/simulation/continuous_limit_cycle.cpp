@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linear_systems.hpp"
+#include "require_argument.hpp"
 #include "simulation/check_relay.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
@@ -121,7 +122,7 @@ std::vector<LimitCycle> relay_limit_cycles(const ContinuousStateSpace& system, c
                                            double longest, double delay, const Progress& progress) {
   check_relay(relay);
   require(std::isfinite(longest) && shortest > 0.0 && shortest < longest, ProblemCode::half_periods_not_ordered);
-  require(std::isfinite(delay) && delay >= 0.0, ProblemCode::delay_not_possible);
+  require_not_negative({"delay", delay, "s"});
   // To +d the relay switches where y falls to -hysteresis.
   const auto excess = [&](double length) {
     return HalfPeriod(system, relay, length, delay).output_at_switch() + relay.hysteresis;

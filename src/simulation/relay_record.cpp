@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "require_argument.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
 #include "simulation/oscillation_cycles.hpp"
@@ -40,11 +41,11 @@ void check(std::span<const double> force, std::span<const double> position, doub
             .evidence = {counted("force", force.size()), counted("position", position.size())}});
   }
   const auto is_finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(force.begin(), force.end(), is_finite)) refuse({.code = ProblemCode::force_not_finite});
-  if (!std::all_of(position.begin(), position.end(), is_finite)) refuse({.code = ProblemCode::position_not_finite});
-  if (!(is_finite(sampling_period) && sampling_period > 0.0)) {
-    refuse({.code = ProblemCode::no_sampling_period, .evidence = {{"value", sampling_period}}});
+  for (const auto& [channel, samples] : {std::pair{"force", force}, std::pair{"position", position}}) {
+    if (std::all_of(samples.begin(), samples.end(), is_finite)) continue;
+    refuse({.code = ProblemCode::samples_of_channel_not_finite, .subjects = {{"channel", channel}}});
   }
+  require_positive({"sampling period", sampling_period, "s"});
   if (const auto problem = find_problem(options)) {
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));

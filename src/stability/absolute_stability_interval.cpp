@@ -16,7 +16,8 @@ StiffnessInterval absolute_stability_interval(const Device& device, VirtualDampe
   const auto& uncertainty = device.parameters().uncertainty;
   if (!uncertainty || uncertainty->parameters.empty())
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_uncertainty});
-  if (draws == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_draws});
+  if (draws == 0)
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::none_asked, .subjects = {{"name", "draws"}}});
   const double own = absolute_stability_limit(device, damper).stiffness;
   internal::DeviceDraws drawn(device, seed);
   std::vector<Device> devices;

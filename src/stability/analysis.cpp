@@ -126,15 +126,14 @@ void judge_certainty_of_wall(const Device& device, Analysis& analysis) {
        .key = "wall.stiffness"});
 }
 
-/// Whether a limit that rests on this one can be given; where not, the analysis says what is left out.
-bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& analysis) {
+/// Whether the family of users can be given, which rests on this limit; where not, the analysis says so.
+bool stands(const CriticalStiffness& limit, Analysis& analysis) {
   if (!limit.trust.refused()) {
     analysis.trust.inherit(limit.trust);
     return true;
   }
   for (const std::string& reason : limit.trust.reasons) {
-    analysis.trust.doubt(
-        {.code = FindingCode::left_out, .subjects = {{"what", std::string(what)}, {"reason", reason}}});
+    analysis.trust.doubt({.code = FindingCode::left_out, .subjects = {{"reason", reason}}});
   }
   return false;
 }
@@ -253,8 +252,8 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, St
   const UserFamily family = user_family(*options.family, device.parameters().user);
   UserFamilyAnswer answer{family, worst_of_family(device, family, virtual_damper(device), stages.stage()),
                           critical_stiffness(device_without_user(device))};
-  if (stands(answer.free, "the family of users", analysis) &&
-      stands(critical_stiffness(device_with_user(device, answer.worst.user)), "the family of users", analysis)) {
+  if (stands(answer.free, analysis) &&
+      stands(critical_stiffness(device_with_user(device, answer.worst.user)), analysis)) {
     analysis.user_family = std::move(answer);
   }
 }

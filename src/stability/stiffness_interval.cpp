@@ -119,7 +119,8 @@ StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, st
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (!uncertainty || uncertainty->parameters.empty())
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_uncertainty});
-  if (draws == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_draws});
+  if (draws == 0)
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::none_asked, .subjects = {{"name", "draws"}}});
   const Limit own = limit_of(device);
   internal::StagedProgress stages(progress);
   constexpr double main_stage = 0.8;

@@ -264,9 +264,10 @@ void require(const StudyRun& run, const RareFailureOptions& options) {
   }
   if (options.samples < least_samples || options.samples > most_samples) {
     throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::samples_out_of_range,
+                {.code = ProblemCode::count_out_of_range,
                  .evidence = {internal::counted("value", options.samples), internal::counted("least", least_samples),
-                              internal::counted("most", most_samples)}});
+                              internal::counted("most", most_samples)},
+                 .subjects = {{"name", "samples"}}});
   }
 }
 

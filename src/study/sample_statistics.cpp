@@ -9,6 +9,7 @@
 #include <span>
 
 #include "counted.hpp"
+#include "require_argument.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -35,14 +36,6 @@ std::uint64_t binomial_quantile(double share, std::uint64_t n, double p) {
   return low;
 }
 
-void require_share(double value, const char* name) {
-  if (!(value > 0.0 && value < 1.0)) {
-    throw Error(
-        ErrorCode::invalid_argument,
-        {.code = ProblemCode::share_not_possible, .evidence = {{"value", value}}, .subjects = {{"name", name}}});
-  }
-}
-
 constexpr unsigned digit_bits = 16;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
 
@@ -63,7 +56,7 @@ double value_of(std::uint64_t key) {
 }  // namespace
 
 Proportion proportion(std::uint64_t count, std::uint64_t total, double confidence) {
-  require_share(confidence, "confidence");
+  internal::require_fraction({"confidence", confidence});
   if (total == 0 || count > total) {
     throw Error(ErrorCode::invalid_argument,
                 {.code = ProblemCode::count_no_share,
@@ -79,7 +72,7 @@ Proportion proportion(std::uint64_t count, std::uint64_t total, double confidenc
 }
 
 StatisticInterval weighted_sum_interval(double sum, double squares, double largest, double confidence) {
-  require_share(confidence, "confidence");
+  internal::require_fraction({"confidence", confidence});
   if (!(largest > 0.0 && largest <= sum && squares > 0.0 && std::isfinite(sum) && std::isfinite(squares))) {
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::weights_not_possible,
                                               .evidence = {{"sum", sum}, {"squares", squares}, {"largest", largest}}});
@@ -92,8 +85,8 @@ StatisticInterval weighted_sum_interval(double sum, double squares, double large
 }
 
 QuantileRanks quantile_ranks(double p, std::uint64_t samples, double confidence) {
-  require_share(p, "p");
-  require_share(confidence, "confidence");
+  internal::require_fraction({"p", p});
+  internal::require_fraction({"confidence", confidence});
   const double tail = 0.5 * (1.0 - confidence);
   QuantileRanks ranks;
   // P(B <= lower - 1) <= tail, lower as large as can be; P(B <= upper - 1) >= 1 - tail, upper as small as can be.
@@ -106,16 +99,16 @@ QuantileRanks quantile_ranks(double p, std::uint64_t samples, double confidence)
 }
 
 std::optional<std::uint64_t> tolerance_rank(double coverage, double confidence, std::uint64_t samples) {
-  require_share(coverage, "coverage");
-  require_share(confidence, "confidence");
+  internal::require_fraction({"coverage", coverage});
+  internal::require_fraction({"confidence", confidence});
   std::uint64_t rank = binomial_quantile(1.0 - confidence, samples, 1.0 - coverage);
   if (binomial_probability(rank, samples, 1.0 - coverage) <= 1.0 - confidence) ++rank;
   return rank >= 1 ? std::optional(rank) : std::nullopt;
 }
 
 std::uint64_t wilks_samples(double coverage, double confidence) {
-  require_share(coverage, "coverage");
-  require_share(confidence, "confidence");
+  internal::require_fraction({"coverage", coverage});
+  internal::require_fraction({"confidence", confidence});
   return static_cast<std::uint64_t>(std::ceil(std::log1p(-confidence) / std::log(coverage)));
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "require_argument.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/study/sampling_plan.hpp"
 
@@ -31,9 +32,7 @@ MeanAndError mean_of(std::size_t count, const Term& term) {
 std::vector<double> checked(std::vector<double> values, std::size_t count) {
   if (values.size() != count) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::answers_not_one_a_point});
   for (const double value : values) {
-    if (!std::isfinite(value))
-      throw Error(ErrorCode::invalid_argument,
-                  {.code = ProblemCode::answer_not_finite, .evidence = {{"value", value}}});
+    internal::require_argument(std::isfinite(value), ProblemCode::not_finite, {"an answer", value});
   }
   return values;
 }

@@ -130,7 +130,7 @@ std::optional<DeviceProblem> find_problem(const Device& device, const StudyDistr
     }
     seen.push_back(std::move(key));
     if (const auto problem = find_problem(parameters[i].distribution)) {
-      return DeviceProblem{fmt::format("{}.{}", place, problem->member), problem->what, problem->allowed};
+      return device_problem(fmt::format("{}.{}", place, problem->member), problem->problem.value());
     }
     if (auto problem = find_reach_problem(device, parameters[i], place)) return problem;
   }

@@ -65,9 +65,12 @@ std::span<const Phrase> design_phrases() {
       Phrase{no_ripple_asked, "no_ripple_asked", note, "no greatest force per encoder count was asked",
              "one step of the encoder moves the force by {force_per_count}",
              "ask for a ripple where that can be felt or heard"},
-      Phrase{force_per_count_unknown, "force_per_count_unknown", warning,
-             "the force per encoder count could not be bounded",
-             "the device has no encoder resolution: {what} may be too coarse to feel", "give sensor.resolution"},
+      Phrase{
+          force_per_count_unknown, "force_per_count_unknown", warning,
+          "the force per encoder count could not be bounded",
+          "the device has no encoder resolution: {?what=damper|the damper}{!what=damper|stiffness and damping} may be "
+          "too coarse to feel",
+          "give sensor.resolution"},
       Phrase{no_any_user_limit, "no_any_user_limit", warning,
              "the limit for any passive user is not available: the device as it is decides",
              "whoever holds the device may destabilise this {what}", "describe the device by bodies and links"},

@@ -20,7 +20,7 @@ const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
     for (const std::span<const Phrase> room :
-         {model_phrases(), stability_phrases(), design_phrases(), reason_phrases(), study_phrases(),
+         {model_phrases(), stability_phrases(), design_phrases(), design_reason_phrases(), study_phrases(),
           simulation_phrases(), relay_phrases(), rig_phrases(), signal_phrases(), io_phrases(), response_phrases(),
           identification_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);

@@ -44,7 +44,7 @@ inline constexpr std::string_view of_holder = "of_holder";
 [[nodiscard]] std::span<const Phrase> model_phrases();
 [[nodiscard]] std::span<const Phrase> stability_phrases();
 [[nodiscard]] std::span<const Phrase> design_phrases();
-[[nodiscard]] std::span<const Phrase> reason_phrases();  // of design
+[[nodiscard]] std::span<const Phrase> design_reason_phrases();
 [[nodiscard]] std::span<const Phrase> study_phrases();
 [[nodiscard]] std::span<const Phrase> simulation_phrases();
 [[nodiscard]] std::span<const Phrase> relay_phrases();  // of simulation: reasons

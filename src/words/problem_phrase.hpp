@@ -14,6 +14,22 @@ struct ProblemPhrase {
   const char* allowed;
 };
 
-[[nodiscard]] std::span<const ProblemPhrase> problem_phrases();
+// Of device files.
+[[nodiscard]] std::span<const ProblemPhrase> device_file_problem_phrases();
+
+// Of recordings as text.
+[[nodiscard]] std::span<const ProblemPhrase> recording_problem_phrases();
+
+// Of recordings in other files.
+[[nodiscard]] std::span<const ProblemPhrase> mat_uff_problem_phrases();
+
+// Of studies in files.
+[[nodiscard]] std::span<const ProblemPhrase> study_file_problem_phrases();
+
+// Of models and designs.
+[[nodiscard]] std::span<const ProblemPhrase> model_problem_phrases();
+
+// All of them, as lists by what is asked for.
+[[nodiscard]] std::span<const std::span<const ProblemPhrase>> problem_phrases();
 
 }  // namespace zwidth::internal

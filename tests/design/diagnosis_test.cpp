@@ -135,7 +135,7 @@ TEST(Diagnosis, NoDamperIsProposedWithWhichSomeUserDestabilisesEveryWall) {
   EXPECT_TRUE(damper->safe.value());
   bool lowers_before = false;
   for (const DiagnosisChange& each : diagnosis.changes) {
-    SCOPED_TRACE(each.what);
+    SCOPED_TRACE(words_of(each));
     EXPECT_EQ(each.safe.value(), each.absolute_stability_limit_then.value() >= any_user * (1.0 - 1e-9));
     EXPECT_FALSE(lowers_before && *each.safe) << "what lowers it comes last";
     lowers_before = !*each.safe;
@@ -181,7 +181,7 @@ TEST(Diagnosis, ADamperAloneIsDiagnosedByItsOwnLimit) {
   // What cures cures, by poles.
   int ending = 0;
   for (const DiagnosisChange& each : diagnosis.changes) {
-    SCOPED_TRACE(each.what);
+    SCOPED_TRACE(words_of(each));
     EXPECT_DOUBLE_EQ(each.limit_now.value(), limit);
     DeviceParameters then = device.parameters();
     if (each.key == "body.*.damping") {
@@ -250,7 +250,7 @@ TEST(Diagnosis, ChangesAreWhatTheLibraryComputes) {
   EXPECT_TRUE(std::ranges::is_sorted(diagnosis.changes, std::greater<>(),
                                      [](const DiagnosisChange& each) { return *each.limit_then; }));
   for (const DiagnosisChange& each : diagnosis.changes)
-    EXPECT_EQ(each.absolute_stability_limit_then, each.limit_then) << each.what;
+    EXPECT_EQ(each.absolute_stability_limit_then, each.limit_then) << words_of(each);
 }
 
 // A damper of 20 times was the first remedy, which makes the wall half as stiff as leaving the filter out; without the
@@ -279,7 +279,7 @@ TEST(Diagnosis, ASlowVelocityFilterIsAmongWhatMovesIt) {
   EXPECT_DOUBLE_EQ(*unfiltered->limit_then, critical_stiffness(Device(slow)).stiffness);
   for (const DiagnosisChange& each : diagnosis.changes) {
     if (each.safe.value()) {
-      EXPECT_LT(*each.limit_then, *unfiltered->limit_then) << each.what;
+      EXPECT_LT(*each.limit_then, *unfiltered->limit_then) << words_of(each);
     }
   }
 }

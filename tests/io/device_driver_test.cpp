@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/refused_problem.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth {
@@ -15,9 +16,9 @@ const std::string linear = "[[body]]\nname = \"a\"\nmass = 1\n[loop]\nsampling_p
 const std::string rotary =
     "motion = \"rotary\"\n[[body]]\nname = \"a\"\ninertia = 1\n[loop]\nsampling_period = 0.01\n[driver]\n";
 
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const auto device = parse_device(text, "f.toml", overrides);
-  return device ? "" : device.error().str();
+InputProblem refusal_of_drive(const std::string& text) {
+  const auto device = parse_device(text, "f.toml");
+  return device ? InputProblem{{}, "", "", {}} : InputProblem(device.error());
 }
 
 TEST(DeviceDriver, IsReadInUnits) {
@@ -60,7 +61,7 @@ TEST(DeviceDriver, HasTheKeysOfItsDocument) {
   for (const std::string least :
        {"travel = 1e-9\n", "gear = 0.001\n", "sign = -1\n", "torque_constant = 1e-6\n", "torque_per_volt = 1e-6\n",
         "id = 0\n", "id = 127\n", "command = \"z\"\n", "baud = 1200\n", "baud = 4000000\n"}) {
-    EXPECT_EQ(refusal(rotary + least), "") << least;
+    EXPECT_EQ(refusal_of_drive(rotary + least).str(), "") << least;
   }
 }
 
@@ -81,22 +82,40 @@ TEST(DeviceDriver, IsWrittenAsItWasRead) {
 }
 
 TEST(DeviceDriver, IsRefusedWithItsPlace) {
-  EXPECT_EQ(
-      refusal(linear),
-      "f.toml:6:1: driver.travel: is missing; must be given: how far the device moves in a turn, such as \"25 mm\"");
-  EXPECT_EQ(refusal(linear + "travel = 1\ngears = 2\n"),
-            "f.toml:8:1: driver.gears: unknown key \"gears\"; did you mean \"gear\"?");
-  EXPECT_NE(refusal(linear + "travel = \"1 turn\"\n").find("\"turn\" is no unit of a length"), std::string::npos);
-  EXPECT_NE(refusal(rotary + "torque_constant = \"5 A\"\n").find("is no unit of a torque constant"), std::string::npos);
-  EXPECT_EQ(refusal(rotary + "sign = 2\n"), "f.toml:8:8: driver.sign: is 2; must be 1 or -1");
-  EXPECT_EQ(refusal(rotary + "gear = 0\n"), "f.toml:8:8: driver.gear: is 0; must be a finite number > 0");
-  EXPECT_EQ(refusal(rotary + "id = 1.5\n"), "f.toml:8:6: driver.id: is 1.5; must be a whole number of at most 1e9");
-  EXPECT_EQ(refusal(rotary + "id = 128\n"), "f.toml:8:6: driver.id: is 128; must be a whole number from 0 to 127");
-  EXPECT_EQ(refusal(rotary + "baud = 1e30\n"),
-            "f.toml:8:8: driver.baud: is 1e+30; must be a whole number of at most 1e9");
-  EXPECT_EQ(refusal(rotary + "baud = nan\n"), "f.toml:8:8: driver.baud: is nan; must be a whole number of at most 1e9");
-  EXPECT_EQ(refusal(rotary + "command = \"MM\"\n"),
-            "f.toml:8:11: driver.command: is no letter; must be one letter, such as \"M\"");
+  test::expect_refused(refusal_of_drive(linear),
+                       {{"f.toml", 6, 1, "driver.travel"}, {.code = ProblemCode::travel_per_turn_missing}});
+  test::expect_refused(refusal_of_drive(linear + "travel = 1\ngears = 2\n"),
+                       {{"f.toml", 8, 1, "driver.gears"},
+                        {.code = ProblemCode::unknown_key, .subjects = {{"name", "gears"}, {"meant", "gear"}}}});
+  test::expect_refused(refusal_of_drive(linear + "travel = \"1 turn\"\n"),
+                       {{"f.toml", 7, 10, "driver.travel"},
+                        {.code = ProblemCode::unit_of_other_measure,
+                         .subjects = {{"unit", "turn"}, {"measure", "length"}, {"in", "m"}}}});
+  test::expect_refused(refusal_of_drive(rotary + "torque_constant = \"5 A\"\n"),
+                       {{"f.toml", 8, 19, "driver.torque_constant"},
+                        {.code = ProblemCode::unit_of_other_measure,
+                         .subjects = {{"unit", "A"}, {"measure", "torque constant"}, {"in", "N m/A"}}}});
+  test::expect_refused(
+      refusal_of_drive(rotary + "sign = 2\n"),
+      {{"f.toml", 8, 8, "driver.sign"},
+       {.code = ProblemCode::not_one_of, .evidence = {{"value", 2.0}}, .subjects = {{"choices", "1 or -1"}}}});
+  test::expect_refused(
+      refusal_of_drive(rotary + "gear = 0\n"),
+      {{"f.toml", 8, 8, "driver.gear"}, {.code = ProblemCode::no_finite_number, .evidence = {{"value", 0.0}}}});
+  test::expect_refused(refusal_of_drive(rotary + "id = 1.5\n"),
+                       {{"f.toml", 8, 6, "driver.id"},
+                        {.code = ProblemCode::no_whole_number, .evidence = {{"value", 1.5}, {"most", 1e9}}}});
+  test::expect_refused(refusal_of_drive(rotary + "id = 128\n"),
+                       {{"f.toml", 8, 6, "driver.id"},
+                        {.code = ProblemCode::not_between, .evidence = {{"value", 128.0}, {"whole", 1.0}}}});
+  test::expect_refused(refusal_of_drive(rotary + "baud = 1e30\n"),
+                       {{"f.toml", 8, 8, "driver.baud"},
+                        {.code = ProblemCode::no_whole_number, .evidence = {{"value", 1e+30}, {"most", 1e9}}}});
+  test::expect_refused(refusal_of_drive(rotary + "baud = nan\n"),
+                       {{"f.toml", 8, 8, "driver.baud"},
+                        {.code = ProblemCode::no_whole_number, .evidence = {{"value", std::nan("")}, {"most", 1e9}}}});
+  test::expect_refused(refusal_of_drive(rotary + "command = \"MM\"\n"),
+                       {{"f.toml", 8, 11, "driver.command"}, {.code = ProblemCode::no_letter}});
 }
 
 }  // namespace

@@ -72,4 +72,8 @@ stiffness = 79.5e3
 sampling_period = 1e-3
 )";
 
+/// A body "a" with more keys below it, and a loop.
+inline std::string body_text(const std::string& rest) { return "[[body]]\nname = \"a\"\nmass = 1\n" + rest + "\n"; }
+inline std::string loop_text(const std::string& rest = "") { return "[loop]\nsampling_period = 1e-3\n" + rest + "\n"; }
+
 }  // namespace zwidth

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/device_texts.hpp"
+#include "io/refused_problem.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth {
@@ -16,9 +17,9 @@ std::string uncertainty(const std::string& parameters, const std::string& covari
   return two_body_text + "[uncertainty]\nparameters = " + parameters + "\ncovariance = " + covariance + "\n";
 }
 
-std::string message_of(const std::string& text) {
+InputProblem problem_of(const std::string& text) {
   const auto device = parse_device(text, "f.toml");
-  return device ? "no error" : device.error().str();
+  return device ? InputProblem{{}, "is read", "", {}} : InputProblem(device.error());
 }
 
 TEST(DeviceUncertainty, IsReadAsWritten) {
@@ -65,8 +66,10 @@ TEST(DeviceUncertainty, AVerdictSurvivesTheFile) {
 }
 
 TEST(DeviceUncertainty, AnUnknownVerdictIsRefused) {
-  EXPECT_EQ(message_of(two_body_text + "[uncertainty]\nverdict = \"fine\"\nwarning = \"x\"\n"),
-            "f.toml:13:11: uncertainty.verdict: is \"fine\"; must be \"sound\", \"doubtful\" or \"refused\"");
+  test::expect_refused(problem_of(two_body_text + "[uncertainty]\nverdict = \"fine\"\nwarning = \"x\"\n"),
+                       {{"f.toml", 13, 11, "uncertainty.verdict"},
+                        {.code = ProblemCode::not_one_of,
+                         .subjects = {{"given", "fine"}, {"choices", "\"sound\", \"doubtful\" or \"refused\""}}}});
 }
 
 // Random covariances A A^T of all sizes and units come back to the last digit.
@@ -106,96 +109,150 @@ TEST(DeviceUncertainty, CanBeSetOnTheCommandLine) {
   EXPECT_EQ(device->parameters().uncertainty->covariance[0][0], 100.0);
 }
 
-struct Refused {
+struct BadUncertainty {
   std::string name;
   std::string parameters;
   std::string covariance;
-  std::string message;  // after "f.toml:"
+  test::RefusedProblem refused;
 };
 
-class RefusedUncertainty : public testing::TestWithParam<Refused> {};
+class RefusedUncertainty : public testing::TestWithParam<BadUncertainty> {};
 
 TEST_P(RefusedUncertainty, IsNamedWithItsPlace) {
-  EXPECT_EQ(message_of(uncertainty(GetParam().parameters, GetParam().covariance)), "f.toml:" + GetParam().message);
+  test::expect_refused(problem_of(uncertainty(GetParam().parameters, GetParam().covariance)), GetParam().refused);
 }
 
 const std::string one = "[\"link.stiffness\"]";
 const std::string two = "[\"link.stiffness\", \"body.motor.mass\"]";
 
-const Refused refused[] = {
-    {"empty", "[]", "[]",
-     "13:14: uncertainty.parameters: is empty; must be one or more keys; or leave out [uncertainty]"},
-    {"unknown_key", "[\"link.stifness\"]", "[[1]]",
-     "13:14: uncertainty.parameters: \"link.stifness\" is no parameter of the device; must be keys such as "
-     "body.NAME.mass, link.0.stiffness or loop.delay"},
-    {"absent_value", "[\"wall.stiffness\"]", "[[1]]",
-     "13:14: uncertainty.parameters: \"wall.stiffness\" has no value in the device; give it one, or leave it out here"},
-    {"given_twice", "[\"link.stiffness\", \"link.0.stiffness\"]", "[[1, 0], [0, 1]]",
-     "13:14: uncertainty.parameters: \"link.0.stiffness\" stands twice; must be different keys"},
-    {"not_text", "[3]", "[[1]]",
-     "13:15: uncertainty.parameters: is the number 3; every element must be text in quotes"},
-    {"no_array", "\"link.stiffness\"", "[[1]]",
-     "13:14: uncertainty.parameters: is the text \"link.stiffness\"; must be an array of keys such as "
-     "\"link.0.stiffness\""},
-    {"too_few_rows", two, "[[1, 0]]",
-     "14:14: uncertainty.covariance: has 1 rows; must have a row for each of the 2 parameters"},
-    {"short_row", two, "[[1, 0], [0]]",
-     "14:14: uncertainty.covariance: row 2 has 1 numbers; must have a number for each of the 2 parameters"},
-    {"flat", one, "[1]", "14:15: uncertainty.covariance: is the number 1; every row must be an array of numbers"},
-    {"text_in_row", one, "[[\"x\"]]",
-     "14:16: uncertainty.covariance: is the text \"x\"; every element must be a number"},
-    {"negative_variance", one, "[[-1]]",
-     "14:14: uncertainty.covariance: the variance of \"link.stiffness\" is -1; must be 0 or from 1e-60 to 1e+60"},
-    {"not_a_number", one, "[[nan]]",
-     "14:14: uncertainty.covariance: the variance of \"link.stiffness\" is nan; must be 0 or from 1e-60 to 1e+60"},
-    {"not_symmetric", two, "[[1, 0.5], [0.4, 1]]",
-     "14:14: uncertainty.covariance: rows 1 and 2 have 0.5 and 0.4 for one pair; must be a symmetric matrix of finite "
-     "numbers"},
-    {"infinite", two, "[[1, inf], [inf, 1]]",
-     "14:14: uncertainty.covariance: rows 1 and 2 have inf and inf for one pair; must be a symmetric matrix of finite "
-     "numbers"},
-    {"beyond_correlation", two, "[[1, 2], [2, 1]]",
-     "14:14: uncertainty.covariance: \"link.stiffness\" and \"body.motor.mass\" have a covariance of 2; must be at "
-     "most "
-     "the product of their standard deviations, 1"},
-    {"not_semidefinite", "[\"link.stiffness\", \"body.motor.mass\", \"body.handle.mass\"]",
+const BadUncertainty refused[] = {
+    {"empty",
+     "[]",
+     "[]",
+     {{"f.toml", 13, 14, "uncertainty.parameters"}, {.code = ProblemCode::uncertainty_says_nothing}}},
+    {"unknown_key",
+     "[\"link.stifness\"]",
+     "[[1]]",
+     {{"f.toml", 13, 14, "uncertainty.parameters"},
+      {.code = ProblemCode::no_parameter_of_device, .subjects = {{"name", "link.stifness"}}}}},
+    {"absent_value",
+     "[\"wall.stiffness\"]",
+     "[[1]]",
+     {{"f.toml", 13, 14, "uncertainty.parameters"},
+      {.code = ProblemCode::number_without_value, .subjects = {{"name", "wall.stiffness"}}}}},
+    {"given_twice",
+     "[\"link.stiffness\", \"link.0.stiffness\"]",
+     "[[1, 0], [0, 1]]",
+     {{"f.toml", 13, 14, "uncertainty.parameters"},
+      {.code = ProblemCode::key_twice, .subjects = {{"name", "link.0.stiffness"}}}}},
+    {"not_text",
+     "[3]",
+     "[[1]]",
+     {{"f.toml", 13, 15, "uncertainty.parameters"},
+      {.code = ProblemCode::of_other_type, .evidence = {{"number", 3.0}}, .subjects = {{"needed", "text"}}}}},
+    {"no_array",
+     "\"link.stiffness\"",
+     "[[1]]",
+     {{"f.toml", 13, 14, "uncertainty.parameters"},
+      {.code = ProblemCode::of_other_type,
+       .subjects = {{"text", "link.stiffness"}, {"needed", "keys"}, {"example", "link.0.stiffness"}}}}},
+    {"too_few_rows",
+     two,
+     "[[1, 0]]",
+     {{"f.toml", 14, 14, "uncertainty.covariance"},
+      {.code = ProblemCode::covariance_rows_missing, .evidence = {{"rows", 1.0}, {"parameters", 2.0}}}}},
+    {"short_row",
+     two,
+     "[[1, 0], [0]]",
+     {{"f.toml", 14, 14, "uncertainty.covariance"},
+      {.code = ProblemCode::covariance_numbers_missing, .evidence = {{"row", 2.0}, {"numbers", 1.0}}}}},
+    {"flat",
+     one,
+     "[1]",
+     {{"f.toml", 14, 15, "uncertainty.covariance"},
+      {.code = ProblemCode::of_other_type,
+       .evidence = {{"number", 1.0}, {"row", 1.0}},
+       .subjects = {{"needed", "numbers"}}}}},
+    {"text_in_row",
+     one,
+     "[[\"x\"]]",
+     {{"f.toml", 14, 16, "uncertainty.covariance"},
+      {.code = ProblemCode::of_other_type, .subjects = {{"text", "x"}, {"needed", "number"}}}}},
+    {"negative_variance",
+     one,
+     "[[-1]]",
+     {{"f.toml", 14, 14, "uncertainty.covariance"},
+      {.code = ProblemCode::no_variance, .evidence = {{"value", -1.0}}, .subjects = {{"name", "link.stiffness"}}}}},
+    {"not_a_number",
+     one,
+     "[[nan]]",
+     {{"f.toml", 14, 14, "uncertainty.covariance"},
+      {.code = ProblemCode::no_variance,
+       .evidence = {{"value", std::nan("")}},
+       .subjects = {{"name", "link.stiffness"}}}}},
+    {"not_symmetric",
+     two,
+     "[[1, 0.5], [0.4, 1]]",
+     {{"f.toml", 14, 14, "uncertainty.covariance"},
+      {.code = ProblemCode::covariance_not_symmetric,
+       .evidence = {{"row", 1.0}, {"other", 2.0}, {"value", 0.5}, {"mirrored", 0.4}}}}},
+    {"infinite",
+     two,
+     "[[1, inf], [inf, 1]]",
+     {{"f.toml", 14, 14, "uncertainty.covariance"},
+      {.code = ProblemCode::covariance_not_symmetric,
+       .evidence = {{"row", 1.0}, {"other", 2.0}, {"value", INFINITY}, {"mirrored", INFINITY}}}}},
+    {"beyond_correlation",
+     two,
+     "[[1, 2], [2, 1]]",
+     {{"f.toml", 14, 14, "uncertainty.covariance"},
+      {.code = ProblemCode::covariance_too_large,
+       .evidence = {{"value", 2.0}, {"most", 1.0}},
+       .subjects = {{"name", "link.stiffness"}, {"other", "body.motor.mass"}}}}},
+    {"not_semidefinite",
+     "[\"link.stiffness\", \"body.motor.mass\", \"body.handle.mass\"]",
      "[[1, 0.9, 0.9], [0.9, 1, -0.9], [0.9, -0.9, 1]]",
-     "14:14: uncertainty.covariance: is no covariance: some combination of the parameters would have a negative "
-     "variance; must be positive semidefinite"},
+     {{"f.toml", 14, 14, "uncertainty.covariance"}, {.code = ProblemCode::no_covariance}}},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, RefusedUncertainty, testing::ValuesIn(refused),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(DeviceUncertainty, MissingAndUnknownKeysAreNamed) {
-  EXPECT_EQ(message_of(two_body_text + "[uncertainty]\ncovariance = [[1]]\n"),
-            "f.toml:12:1: uncertainty.parameters: is missing; must be given as an array of keys such as "
-            "\"link.0.stiffness\"");
-  EXPECT_EQ(message_of(two_body_text + "[uncertainty]\nparameter = 3\n"),
-            "f.toml:13:1: uncertainty.parameter: unknown key \"parameter\"; did you mean \"parameters\"?");
+  test::expect_refused(
+      problem_of(two_body_text + "[uncertainty]\ncovariance = [[1]]\n"),
+      {{"f.toml", 12, 1, "uncertainty.parameters"},
+       {.code = ProblemCode::is_missing, .subjects = {{"needed", "keys"}, {"example", "link.0.stiffness"}}}});
+  test::expect_refused(
+      problem_of(two_body_text + "[uncertainty]\nparameter = 3\n"),
+      {{"f.toml", 13, 1, "uncertainty.parameter"},
+       {.code = ProblemCode::unknown_key, .subjects = {{"name", "parameter"}, {"meant", "parameters"}}}});
 }
 
 TEST(DeviceUncertainty, AssumedNumbersAreOfTheDeviceEachOnce) {
-  const auto message = [](const std::string& assumed) {
-    return message_of(two_body_text + "[uncertainty]\nassumed = " + assumed + "\n");
+  const auto problem = [](const std::string& assumed) {
+    return problem_of(two_body_text + "[uncertainty]\nassumed = " + assumed + "\n");
   };
-  EXPECT_EQ(message("[]"), "no error");
   EXPECT_FALSE(parse_device(two_body_text + "[uncertainty]\nassumed = []\n", "f.toml")->parameters().uncertainty);
-  EXPECT_EQ(message("[\"body.motor.mas\"]"),
-            "f.toml:13:11: uncertainty.assumed: \"body.motor.mas\" is no parameter of the device; must be keys such as "
-            "body.NAME.mass, link.0.stiffness or loop.delay");
-  EXPECT_EQ(message("[\"link.stiffness\", \"link.0.stiffness\"]"),
-            "f.toml:13:11: uncertainty.assumed: \"link.0.stiffness\" stands twice; must be different keys");
-  EXPECT_EQ(message("\"body.motor.mass\""),
-            "f.toml:13:11: uncertainty.assumed: is the text \"body.motor.mass\"; must be an array of keys such as "
-            "\"body.motor.mass\"");
+  test::expect_refused(problem("[\"body.motor.mas\"]"),
+                       {{"f.toml", 13, 11, "uncertainty.assumed"},
+                        {.code = ProblemCode::no_parameter_of_device, .subjects = {{"name", "body.motor.mas"}}}});
+  test::expect_refused(problem("[\"link.stiffness\", \"link.0.stiffness\"]"),
+                       {{"f.toml", 13, 11, "uncertainty.assumed"},
+                        {.code = ProblemCode::key_twice, .subjects = {{"name", "link.0.stiffness"}}}});
+  test::expect_refused(
+      problem("\"body.motor.mass\""),
+      {{"f.toml", 13, 11, "uncertainty.assumed"},
+       {.code = ProblemCode::of_other_type,
+        .subjects = {{"text", "body.motor.mass"}, {"needed", "keys"}, {"example", "body.motor.mass"}}}});
 }
 
 TEST(DeviceUncertainty, HasAtMostAHundredParameters) {
   std::string keys = "[";
   for (int i = 0; i < 101; ++i) keys += "\"k" + std::to_string(i) + "\",\n";
-  EXPECT_EQ(message_of(uncertainty(keys + "]", "[]")),
-            "f.toml:13:14: uncertainty.parameters: has 101 keys; must be at most 100 keys");
+  test::expect_refused(problem_of(uncertainty(keys + "]", "[]")),
+                       {{"f.toml", 13, 14, "uncertainty.parameters"},
+                        {.code = ProblemCode::too_many_uncertain, .evidence = {{"keys", 101.0}, {"most", 100.0}}}});
 }
 
 }  // namespace

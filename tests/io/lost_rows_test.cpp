@@ -136,7 +136,9 @@ TEST(LostRows, OfARoughForceTheLongestWholeStretchIsUsed) {
   RecordingOptions options = columns_named({"force", "position"});
   const auto refused = read_recording(without(all, [](std::size_t k) { return k % 10 == 9; }).columns(), options);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().str().find("999 of 9999 rows are lost"), std::string::npos) << refused.error().str();
+  ASSERT_EQ(refused.error().problem->code, ProblemCode::too_many_rows_lost);
+  EXPECT_EQ(refused.error().problem->evidence.at(0).value, 999.0);   // lost
+  EXPECT_EQ(refused.error().problem->evidence.at(1).value, 9999.0);  // rows
 }
 
 TEST(LostRows, ALongPauseIsNotBridged) {

@@ -130,6 +130,7 @@ TEST(NumberWithUnit, OtherKindsAndWhatIsNoFactorAreRefused) {
     const auto value = number_with_unit(each.text, each.measure, each.motion);
     EXPECT_FALSE(value.has_value()) << each.text << " is " << value.value_or(0.0);
     if (!value) {
+      EXPECT_TRUE(value.error().problem) << each.text;
       EXPECT_FALSE(value.error().what.empty() || value.error().allowed.empty()) << each.text;
     }
   }
@@ -325,8 +326,9 @@ TEST(NumberWithUnit, ACommaIsToldToBeAPoint) {
   for (const char* text : {"0,01", "0,01 kg", "1,000 kg"}) {
     const auto number = number_with_unit(text, mass, linear);
     ASSERT_FALSE(number.has_value()) << text;
-    EXPECT_EQ(number.error().what, fmt::format("\"{}\" has a comma", text));
-    EXPECT_EQ(number.error().allowed, "the decimal mark is a point, and nothing stands between thousands");
+    ASSERT_TRUE(number.error().problem) << text;
+    EXPECT_EQ(number.error().problem->code, ProblemCode::decimal_comma);
+    EXPECT_EQ(number.error().suggestion, with_decimal_point(text)) << text;
   }
 }
 

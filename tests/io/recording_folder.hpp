@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/problem_data.hpp"
 #include "zwidth/io/recording_file.hpp"
 
 namespace zwidth {
@@ -45,10 +46,10 @@ class TextRecording : public RecordingFolder {
   [[nodiscard]] tl::expected<Recording, InputError> read(std::string_view text, const RecordingOptions& options) const {
     return read_recording(write("a.csv", text), options);
   }
-  /// The message without the file's name.
+  /// As data_of() says it.
   [[nodiscard]] std::string refusal(std::string_view text, const RecordingOptions& options) const {
     const auto recording = read(text, options);
-    return recording ? "read" : recording.error().str().substr(path("a.csv").size() + 1);
+    return recording ? "read" : data_of(recording.error());
   }
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/problem_data.hpp"
 #include "io/recording_folder.hpp"
 #include "io/uff_text.hpp"
 #include "zwidth/error.hpp"
@@ -182,47 +183,46 @@ TEST_F(ResponseTable, IntervalsOfRepeatedFrequenciesHoldTheTruth) {
   EXPECT_NEAR(static_cast<double>(held) / (tables * lines), 0.95, 0.02);
 }
 
-TEST_F(ResponseTable, RefusesWhatIsNoResponseAtItsLine) {
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,0,-2\n10,3,4\n"),
-            "4:1: frequency: 10 Hz is also at line 2, with the same value; must come once, or be measured again");
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n-20,0,-2\n"), "3:1: frequency: is -20 Hz; must be above 0");
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n"), " has 1 usable of 1 lines of a response; must have two at least");
-  EXPECT_EQ(refusal("f,mag,phase\n10,3,4\n20,-6,-2\n"),
-            "3:4: mag: the magnitude is -6; must not be negative, unless it is in dB");
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,x,-2\n").substr(0, 24), "3:4: re: \"x\" is no numbe");
+class RefusedResponse : public ResponseTable {
+ protected:
+  [[nodiscard]] std::string data(const std::string& text, const ResponseTableOptions& options = {}) const {
+    const auto response = read(text, options);
+    return response ? "read" : data_of(response.error());
+  }
+};
+
+TEST_F(RefusedResponse, SaysWhatIsNoResponseAtItsLine) {
+  EXPECT_EQ(data("f,re,im\n10,3,4\n20,0,-2\n10,3,4\n"), "4:1: frequency: response_line_twice hertz=10 line=2");
+  EXPECT_EQ(data("f,re,im\n10,3,4\n-20,0,-2\n"), "3:1: frequency: frequency_out_of_range hertz=-20");
+  EXPECT_EQ(data("f,re,im\n10,3,4\n"), "too_few_samples samples=1 lines=1");
+  EXPECT_EQ(data("f,mag,phase\n10,3,4\n20,-6,-2\n"), "3:4: mag: magnitude_below_zero value=-6");
+  EXPECT_EQ(data("f,re,im\n10,3,4\n20,x,-2\n"), "3:4: re: no_number_in_cell cell=\"x\" decimal_mark=.");
   ResponseTableOptions sampled;
   sampled.sampling_period = 0.01;
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n50,1,0\n50.1,0,-2\n", sampled),
-            "4:1: frequency: is 50.1 Hz; must be at most half the sampling rate, 50 Hz");
+  EXPECT_EQ(data("f,re,im\n10,3,4\n50,1,0\n50.1,0,-2\n", sampled),
+            "4:1: frequency: frequency_out_of_range hertz=50.1 nyquist=50");
   ResponseTableOptions coherent;
   coherent.coherence = "c";
-  EXPECT_EQ(refusal("f,re,im,c\n10,3,4,0.9\n20,0,-2,1.1\n", coherent), "3:1: coherence: is 1.1; must be 0 to 1");
+  EXPECT_EQ(data("f,re,im,c\n10,3,4,0.9\n20,0,-2,1.1\n", coherent), "3:1: coherence: no_share value=1.1");
   ResponseTableOptions large;
   large.scale = 1e300;
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,1e10,-2\n", large).substr(0, 30), "3:1: the value is too large fo");
+  EXPECT_EQ(data("f,re,im\n10,3,4\n20,1e10,-2\n", large), "3:1: sample_too_large scale=1e+300");
 }
 
-TEST_F(ResponseTable, RefusesColumnsThatAreNotClear) {
-  EXPECT_EQ(
-      refusal("10 3 4\n20 0 -2\n"),
-      " it is not clear which columns are the response; name magnitude and phase, or real and imaginary part; the "
-      "columns are 1, 2, 3");
-  EXPECT_EQ(refusal("f,re,real,im\n10,3,3,4\n20,0,0,-2\n"),
-            " \"re\" and \"real\" may be the real; name the columns of the response");
-  EXPECT_NE(refusal("f,mag,phase\n10,3,4\n20,6,-2\n", in_columns("mga", "phase")).find("did you mean \"mag\"?"),
-            std::string::npos);
-  EXPECT_EQ(refusal("f,mag,x\n10,3,4\n20,6,-2\n", in_columns("mag", "")),
-            " the phase has no column; name it; the columns are f, mag, x");
-  EXPECT_EQ(refusal("(1+2j)\n(3+4j)\n"),
-            " has one column and so no frequencies; state the step of frequency between its lines");
-  EXPECT_EQ(refusal("10 3\n20 0\n"),
-            "1:4: 2: \"3\" is no complex number; must be one such as (1.5+2e-3j); or name "
-            "magnitude and phase, or real and imaginary part");
+TEST_F(RefusedResponse, SaysWhichColumnsAreNotClear) {
+  EXPECT_EQ(data("10 3 4\n20 0 -2\n"), "no_response_column names=1, 2, 3");
+  EXPECT_EQ(data("f,re,real,im\n10,3,3,4\n20,0,0,-2\n"),
+            "response_column_ambiguous first=\"re\" second=\"real\" quantity=real");
+  EXPECT_EQ(data("f,mag,phase\n10,3,4\n20,6,-2\n", in_columns("mga", "phase")),
+            "mga: no_such_column columns=3 names=f, mag, phase meant=mag");
+  EXPECT_EQ(data("f,mag,x\n10,3,4\n20,6,-2\n", in_columns("mag", "")),
+            "no_response_column names=f, mag, x quantity=phase");
+  EXPECT_EQ(data("(1+2j)\n(3+4j)\n"), "no_response_column names=1 quantity=frequency");
+  EXPECT_EQ(data("10 3\n20 0\n"), "1:4: 2: no_number_in_cell cell=\"3\" as=complex");
   ResponseTableOptions both;
   both.frequency = "f";
   both.frequency_step = 1.0;
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,0,-2\n", both),
-            " f: a column of frequencies is asked for beside a step of frequency; must be one of the two");
+  EXPECT_EQ(data("f,re,im\n10,3,4\n20,0,-2\n", both), "f: asked_for_beside of=frequencies");
 }
 
 TEST_F(ResponseTable, RefusesImpossibleOptions) {
@@ -297,25 +297,26 @@ TEST_F(ResponseTable, ReadsTheCoherenceOfAUniversalFile) {
   EXPECT_NEAR(response->points[0].coherence, 0.9, 1e-6);
   EXPECT_NEAR(response->points[1].coherence, 0.8, 1e-6);
   coherence.step = 5.0;
-  EXPECT_NE(refusal(response_text + uff_text(coherence), options).find("has other frequencies than the response"),
-            std::string::npos);
+  const auto refused = read(response_text + uff_text(coherence), options);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(data_of(refused.error()), "17:1: gamma2: axes_differ axis=frequencies other=the response");
 }
 
 TEST_F(ResponseTable, AsksForTheRecordWhereAUniversalFileHasSeveral) {
   UffFunction second = uff_response(8, {1.0, 0.0, 0.5, 0.0});
   second.id_lines[0] = "G";
   const std::string file = uff_text(uff_response(8, {2.0, 0.0, 0.25, 0.0})) + uff_text(second);
-  EXPECT_EQ(refusal(file), " holds 2 frequency responses; name one of them: H [m], G [m]");
+  EXPECT_EQ(data_of(read(file, {}).error()), "not_one_record records=2 choices=H [m], G [m]");
   ResponseTableOptions options;
   options.real = "G";
   const auto response = read(file, options);
   ASSERT_TRUE(response.has_value()) << response.error().str();
   EXPECT_EQ(response->points[0].value, std::complex(1.0, 0.0));
-  EXPECT_EQ(refusal(file, in_columns("2", "3")),
-            " 2: a universal file has no columns; name the record as that of the real parts");
+  EXPECT_EQ(data_of(read(file, in_columns("2", "3")).error()), "2: file_without_columns");
   UffFunction time;
   time.numbers = {1.0, 2.0};
-  EXPECT_NE(refusal(uff_text(time)).find("holds no frequency response, only"), std::string::npos);
+  EXPECT_EQ(data_of(read(uff_text(time), {}).error()),
+            "holds_none wanted=frequency response others=1+Z [m] (time response)");
 }
 
 class RecordedResponse : public testing::Test {
@@ -349,8 +350,8 @@ TEST_F(RecordedResponse, OfAListOfComplexNumbers) {
 TEST_F(RecordedResponse, APowerSpectralDensityIsNone) {
   const auto response = read_response_table(folder + "sample_dataset58_psd.uff", {});
   ASSERT_FALSE(response.has_value());
-  EXPECT_EQ(response.error().what,
-            "holds no frequency response, only Power Spectral Density (PSD) (power spectral density)");
+  EXPECT_EQ(data_of(response.error()),
+            "holds_none wanted=frequency response others=Power Spectral Density (PSD) (power spectral density)");
 }
 
 }  // namespace

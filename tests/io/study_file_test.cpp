@@ -1,10 +1,13 @@
 #include "zwidth/io/study_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lhifam.hpp"
 
@@ -66,72 +69,116 @@ TEST(StudyFile, SaysWhatVaries) {
   EXPECT_EQ(study->distributions.correlation[0][1], 0.0);
 }
 
-std::string refusal(const std::string& text, const Device& of = device) {
-  const auto study = parse_study(text, "study.toml", of);
-  return study ? "" : study.error().str();
-}
-
 std::string parameter_with(const std::string& lines) { return "[[parameter]]\n" + lines; }
 
-TEST(StudyFile, RefusesWithThePlace) {
-  const auto begins = [](const std::string& text, const std::string& with) {
-    const std::string said = refusal(text);
-    EXPECT_TRUE(said.starts_with(with)) << said;
-  };
-  begins("sample = 3\n", "study.toml:1:1: sample: unknown key \"sample\"; did you mean \"samples\"?");
-  begins("samples = 3.5\n", "study.toml:1:11: samples: is 3.5; must be a whole number");
-  begins("sampling = \"sobel\"\n", "study.toml:1:12: sampling: is \"sobel\"; must be \"random\"");
-  begins("", "study.toml:1:1: parameter: none is given");
-  begins("[specification]\ncritical_stiffness = \"3 kg\"\n", "study.toml:2:22: specification.critical_stiffness: ");
-  begins("[specification]\nany_user = 0\n", "study.toml:2:12: specification.any_user: is 0; must be finite and > 0");
-  begins(parameter_with("key = \"link.stifness\"\n"),
-         "study.toml:2:7: parameter.0.key: \"link.stifness\" is no number of the device");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"gauss\"\n"),
-         "study.toml:3:16: parameter.0.distribution: is \"gauss\"");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"normal\"\n"),
-         "study.toml:1:1: parameter.0.standard_deviation: is missing");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"normal\"\nmode = 3\n"),
-         "study.toml:4:1: parameter.0.mode: unknown key \"mode\"");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"normal\"\nstandard_deviation = 2e4\n"),
-         "study.toml:1:1: parameter.0: link.stiffness: reaches -");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"uniform\"\nlower = 2\nupper = 1\n"),
-         "study.toml:5:9: parameter.0.upper: is 1; must be above the lower end, 2");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"device\"\n"),
-         "study.toml:3:16: parameter.0.distribution: the device's [uncertainty] does not tell link.stiffness");
-  begins(parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"),
-         "study.toml:4:8: parameter.0.file: ./none.txt: ");
-  std::string twice = whole;
-  twice += "[[parameter]]\nkey = \"link.0.stiffness\"\ndistribution = \"uniform\"\nlower = 1\nupper = 2\n";
-  begins(twice, "study.toml:30:7: parameter.4.key: \"link.0.stiffness\" is given twice");
-  std::string definite = whole;
-  definite.replace(definite.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 1.0], [1.0, 1]]");
-  begins(definite, "study.toml:28:10: correlation.matrix: is not positive definite");
-  begins("a = [\n", "study.toml:");
-  begins("a = 1\na = 2\n", "study.toml:2:");
-  EXPECT_TRUE(refusal("a = [\n").ends_with("must be the TOML text of a study")) << refusal("a = [\n");
-  const std::string normal = "key = \"link.stiffness\"\ndistribution = \"normal\"\n";
-  begins(parameter_with(normal + "mean = nan\nstandard_deviation = 1\n"),
-         "study.toml:4:8: parameter.0.mean: is nan; must be finite");
-  begins(parameter_with(normal + "standard_deviation = 1\nlower = nan\n"),
-         "study.toml:5:9: parameter.0.lower: is nan; must be a number");
-  begins(parameter_with(normal + "standard_deviation = 1\nupper = nan\n"),
-         "study.toml:5:9: parameter.0.upper: is nan; must be a number");
-  begins(parameter_with(normal + "standard_deviation = inf\n"),
-         "study.toml:4:22: parameter.0.standard_deviation: is inf; must be finite and > 0");
-  begins(parameter_with(normal + "relative_deviation = -0.1\n"),
-         "study.toml:4:22: parameter.0.relative_deviation: is -0.1, of a mean of 79500; must be finite and > 0");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"uniform\"\nrelative_tolerance = -0.1\n"),
-         "study.toml:4:22: parameter.0.relative_tolerance: leaves no width; must be > 0");
-  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"lognormal\"\nlog_deviation = 0\n"),
-         "study.toml:4:17: parameter.0.log_deviation: is 0; must be finite and > 0");
-  begins(parameter_with("key = \"loop.delay\"\ndistribution = \"triangular\"\nlower = 1e-4\nupper = 2e-4\nmode = 1\n"),
-         "study.toml:6:8: parameter.0.mode: is 1; ");
+struct RefusedStudy {
+  std::string text;
+  std::string place;  // "LINE:COLUMN KEY"
+  ProblemCode code;
+};
+
+std::vector<RefusedStudy> refused_studies() {
+  using enum ProblemCode;
+  const std::string link = "key = \"link.stiffness\"\n";
+  const std::string normal = link + "distribution = \"normal\"\n";
   const std::string discrete = "key = \"body.motor.mass\"\ndistribution = \"discrete\"\n";
-  begins(parameter_with(discrete + "values = [1, 2]\nweights = [0, 0]\n"),
-         "study.toml:5:11: parameter.0.weights: are all 0; must be > 0 for one value");
-  EXPECT_THAT(refusal(parameter_with(discrete + "values = [-1, 2]\n")),
-              ::testing::EndsWith("body.motor.mass must be a finite number > 0; leave that value out"));
-  begins(parameter_with(discrete + "values = [1, \"2 m\"]\n"), "study.toml:4:14: parameter.0.values: \"m\" is no unit");
+  const std::string twice =
+      "[[parameter]]\nkey = \"link.0.stiffness\"\ndistribution = \"uniform\"\nlower = 1\nupper = 2\n";
+  std::string indefinite = whole;
+  indefinite.replace(indefinite.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 1.0], [1.0, 1]]");
+  std::string not_square = whole;
+  not_square.replace(not_square.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 0.5]]");
+  std::string of_none = whole;
+  of_none.replace(of_none.find("[\"body.motor.mass\", "), 20, "[\"loop.sampling_period\", ");
+  return {
+      {"sample = 3\n", "1:1 sample", unknown_key},
+      {"samples = 3.5\n", "1:11 samples", no_whole_number},
+      {"sampling = \"sobel\"\n", "1:12 sampling", not_one_of},
+      {"", "1:1 parameter", no_parameters},
+      {"[specification]\ncritical_stiffness = \"3 kg\"\n", "2:22 specification.critical_stiffness",
+       unit_of_other_measure},
+      {"[specification]\nany_user = 0\n", "2:12 specification.any_user", not_finite_and_positive},
+      {parameter_with("distribution = \"normal\"\n"), "1:1 parameter.0.key", is_missing},
+      {parameter_with("key = \"link.stifness\"\n"), "2:7 parameter.0.key", no_number_of_device},
+      {parameter_with(link), "1:1 parameter.0.distribution", is_missing},
+      {parameter_with(link + "distribution = \"gauss\"\n"), "3:16 parameter.0.distribution", not_one_of},
+      {parameter_with(normal), "1:1 parameter.0.standard_deviation", is_missing},
+      {parameter_with(normal + "mode = 3\n"), "4:1 parameter.0.mode", unknown_key},
+      {parameter_with(normal + "standard_deviation = 2e4\n"), "1:1 parameter.0", reaches_no_device},
+      {parameter_with(link + "distribution = \"uniform\"\nlower = 2\nupper = 1\n"), "5:9 parameter.0.upper",
+       not_above_lower_end},
+      {parameter_with(link + "distribution = \"uniform\"\nrelative_tolerance = 0.1\nupper = 1\n"),
+       "4:22 parameter.0.relative_tolerance", given_beside},
+      {parameter_with(link + "distribution = \"device\"\n"), "3:16 parameter.0.distribution", not_told_by_uncertainty},
+      {parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\n"), "1:1 parameter.0.file", is_missing},
+      {parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"), "4:8 parameter.0.file",
+       cannot_be_read},
+      {whole + twice, "30:7 parameter.4.key", parameter_given_twice},
+      {indefinite, "28:10 correlation.matrix", not_positive_definite},
+      {not_square, "28:10 correlation.matrix", rows_not_one_a_parameter},
+      {of_none, "27:14 correlation.parameters", not_a_parameter_of_study},
+      {parameter_with(normal + "mean = nan\nstandard_deviation = 1\n"), "4:8 parameter.0.mean", not_finite},
+      {parameter_with(normal + "standard_deviation = 1\nlower = nan\n"), "5:9 parameter.0.lower", not_a_number},
+      {parameter_with(normal + "standard_deviation = 1\nupper = nan\n"), "5:9 parameter.0.upper", not_a_number},
+      {parameter_with(normal + "standard_deviation = inf\n"), "4:22 parameter.0.standard_deviation",
+       not_finite_and_positive},
+      {parameter_with(normal + "relative_deviation = -0.1\n"), "4:22 parameter.0.relative_deviation",
+       no_relative_width},
+      {parameter_with(normal + "relative_deviation = 0.1\nstandard_deviation = 1\n"),
+       "4:22 parameter.0.relative_deviation", given_beside},
+      {parameter_with(link + "distribution = \"uniform\"\nrelative_tolerance = -0.1\n"),
+       "4:22 parameter.0.relative_tolerance", no_relative_width},
+      {parameter_with(link + "distribution = \"lognormal\"\nlog_deviation = 0\n"), "4:17 parameter.0.log_deviation",
+       not_finite_and_positive},
+      {parameter_with("key = \"loop.delay\"\ndistribution = \"triangular\"\nlower = 1e-4\nupper = 2e-4\nmode = 1\n"),
+       "6:8 parameter.0.mode", not_between},
+      {parameter_with(discrete + "values = [1, 2]\nweights = [1]\n"), "5:11 parameter.0.weights",
+       weights_not_one_a_value},
+      {parameter_with(discrete + "values = [1, 2]\nweights = [0, 0]\n"), "5:11 parameter.0.weights", weights_all_zero},
+      {parameter_with(discrete + "values = [-1, 2]\n"), "1:1 parameter.0", reaches_no_device},
+      {parameter_with(discrete + "values = [1, \"2 m\"]\n"), "4:14 parameter.0.values", unit_of_other_measure},
+  };
+}
+
+TEST(StudyFile, RefusesWithThePlace) {
+  for (const RefusedStudy& each : refused_studies()) {
+    SCOPED_TRACE(each.text);
+    const auto study = parse_study(each.text, "study.toml", device, ".");
+    ASSERT_FALSE(study);
+    const InputError& error = study.error();
+    EXPECT_EQ(error.place.file, "study.toml");
+    EXPECT_EQ(fmt::format("{}:{} {}", error.place.line, error.place.column, error.place.key), each.place);
+    ASSERT_TRUE(error.problem) << error.str();
+    EXPECT_EQ(error.problem->code, each.code) << error.str();
+  }
+}
+
+TEST(StudyFile, RefusesWhatIsNoToml) {
+  for (const auto& [text, line] : {std::pair{"a = [\n", 0U}, {"a = 1\na = 2\n", 2U}}) {
+    const auto study = parse_study(text, "study.toml", device);
+    ASSERT_FALSE(study);
+    EXPECT_EQ(study.error().place.file, "study.toml");
+    if (line > 0) {
+      EXPECT_EQ(study.error().place.line, line);
+    }
+    ASSERT_TRUE(study.error().problem) << study.error().str();
+    EXPECT_EQ(study.error().problem->code, ProblemCode::not_toml);
+  }
+}
+
+TEST(StudyFile, NamesTheFileThatIsNotThere) {
+  const auto study = parse_study(parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"),
+                                 "study.toml", device, ".");
+  ASSERT_FALSE(study);
+  EXPECT_TRUE(study.error().what.starts_with("./none.txt: ")) << study.error().what;
+}
+
+TEST(StudyFile, NeedsAFolderForAFile) {
+  const auto study = parse_study(parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"),
+                                 "study.toml", device, std::nullopt);
+  ASSERT_FALSE(study);
+  ASSERT_TRUE(study.error().problem);
+  EXPECT_EQ(study.error().problem->code, ProblemCode::no_file_beside_study);
 }
 
 TEST(StudyFile, TakesValuesWithUnits) {
@@ -175,7 +222,10 @@ TEST(StudyFile, TakesNoCommaBetweenDigitsForASeparator) {
   std::ofstream(folder + "/commas.txt") << "# unit: ms\n0,25\n0,5\n";
   const auto refused = parse_study(text, "study.toml", device, folder);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().str(), ::testing::HasSubstr("commas.txt:2: \"0,25\" is no sample; must be a number"));
+  EXPECT_THAT(refused.error().what, ::testing::HasSubstr("commas.txt:2: "));
+  ASSERT_TRUE(refused.error().problem);
+  EXPECT_EQ(*refused.error().problem,
+            (Problem{.code = ProblemCode::no_samples_in_file, .subjects = {{"text", "0,25"}}}));
   std::ofstream(folder + "/commas.txt") << "250e-6, 3\n400e-6; 1\n";
   const auto study = parse_study(text, "study.toml", device, folder);
   ASSERT_TRUE(study) << study.error().str();

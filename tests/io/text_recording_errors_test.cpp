@@ -13,87 +13,71 @@ namespace {
 
 TEST_F(TextRecording, RefusesMoreThanAHundredthMissing) {
   EXPECT_EQ(refusal("F,x\n1,2\n#\nnan,2\n3,4\n", at_1_khz({"F"})),
-            "4:1: F: is NaN, infinite or empty, the first of 1 such samples among 3; at most 1 % may be missing");
-  EXPECT_EQ(refusal("F,x\n,2\n,4\n", at_1_khz({"F"})),
-            "2:1: F: is NaN, infinite or empty, the first of 2 such samples among 2; at most 1 % may be missing");
+            "4:1: F: too_many_samples_missing missing=1 samples=3");
+  EXPECT_EQ(refusal("F,x\n,2\n,4\n", at_1_khz({"F"})), "2:1: F: too_many_samples_missing missing=2 samples=2");
 }
 
 TEST_F(TextRecording, RefusesCellsThatAreNoNumbers) {
   const auto cell = [&](const std::string& text) {
-    const std::string message = refusal("F;x\n1.5;2\n" + text + ";3\n1.5;2\n", at_1_khz({"F"}));
-    return message.substr(0, message.find(';'));
+    return refusal("F;x\n1.5;2\n" + text + ";3\n1.5;2\n", at_1_khz({"F"}));
   };
-  EXPECT_EQ(cell("0x1F"), "3:1: F: \"0x1F\" is hexadecimal");
-  EXPECT_EQ(cell("abc"), "3:1: F: \"abc\" is no number");
-  EXPECT_EQ(cell("1.5e"), "3:1: F: \"1.5e\" is no number");
-  EXPECT_EQ(cell("1.5 N"), "3:1: F: \"1.5 N\" is no number");
-  EXPECT_EQ(cell("+-1"), "3:1: F: \"+-1\" is no number");
-  EXPECT_EQ(cell("1e999"), "3:1: F: \"1e999\" is too large");
-  EXPECT_EQ(cell("-1e300"), "3:1: F: is -1e+300");
-  EXPECT_EQ(cell("1.5D-3"), "3:1: F: \"1.5D-3\" has the exponent of Fortran");
-  EXPECT_EQ(cell("1,234.5"), "3:1: F: \"1,234.5\" groups its thousands");
-  EXPECT_EQ(cell("1,5"), "3:1: F: \"1,5\" is no number: the decimal mark is a point");
-  EXPECT_EQ(cell("   x"), "3:4: F: \"x\" is no number");
+  const auto no_number = [](const std::string& text, const std::string& why = "") {
+    return "F: no_number_in_cell cell=\"" + text + "\" decimal_mark=." + why;
+  };
+  EXPECT_EQ(cell("0x1F"), "3:1: " + no_number("0x1F", " why=hexadecimal"));
+  EXPECT_EQ(cell("abc"), "3:1: " + no_number("abc"));
+  EXPECT_EQ(cell("1.5e"), "3:1: " + no_number("1.5e"));
+  EXPECT_EQ(cell("1.5 N"), "3:1: " + no_number("1.5 N"));
+  EXPECT_EQ(cell("+-1"), "3:1: " + no_number("+-1"));
+  EXPECT_EQ(cell("1e999"), "3:1: " + no_number("1e999", " why=range"));
+  EXPECT_EQ(cell("-1e300"), "3:1: F: sample_too_large value=-1e+300");
+  EXPECT_EQ(cell("1.5D-3"), "3:1: " + no_number("1.5D-3", " why=fortran"));
+  EXPECT_EQ(cell("1,234.5"), "3:1: " + no_number("1,234.5", " why=thousands"));
+  EXPECT_EQ(cell("1,5"), "3:1: " + no_number("1,5", " why=decimal_mark"));
+  EXPECT_EQ(cell("   x"), "3:4: " + no_number("x"));
 }
 
 TEST_F(TextRecording, RefusesRowsOfAnotherLength) {
   EXPECT_EQ(refusal("t,F\n0,1\n1\n2,3\n3,4\n", columns_named({"F"})),
-            "3:1: has 1 cell; must have 2 cells as the header has");
+            "3:1: wrong_number_of_cells cells=1 expected=2 as=header");
   EXPECT_EQ(refusal("0,1\n1,2,3\n2,3\n3,4\n", at_1_khz({"1"})),
-            "2:1: has 3 cells; must have 2 cells as most of the first lines have; lines of a header can be passed over "
-            "(`skip_rows`)");
+            "2:1: wrong_number_of_cells cells=3 expected=2 rows=1 as=most_lines");
 }
 
 TEST_F(TextRecording, NamesTheColumnsWhereOneIsMissing) {
   EXPECT_EQ(refusal("t,force [N],x\n0,1,2\n1,2,3\n", columns_named({"froce"})),
-            " froce: no such column; did you mean \"force\"? the file has 3 columns: t, force [N], x");
-  EXPECT_EQ(refusal("0,1\n1,2\n", at_1_khz({"3"})), " 3: no such column; the file has 2 columns: 1, 2");
-  EXPECT_EQ(refusal("F,F\n0,1\n1,2\n", at_1_khz({"F"})),
-            " F: 2 columns have this name; must be one of their numbers: 1, 2");
-  EXPECT_EQ(
-      refusal("a,b\n0,1\n1,2\n", columns_named({"a"})),
-      " has no column whose name says time; state the rate in Hz (`rate`) or the column of times (`time_column`); the "
-      "file has 2 columns: a, b");
+            "froce: no_such_column columns=3 names=t, force [N], x meant=force");
+  EXPECT_EQ(refusal("0,1\n1,2\n", at_1_khz({"3"})), "3: no_such_column columns=2 names=1, 2");
+  EXPECT_EQ(refusal("F,F\n0,1\n1,2\n", at_1_khz({"F"})), "F: column_name_not_unique columns=2 numbers=1, 2");
+  EXPECT_EQ(refusal("a,b\n0,1\n1,2\n", columns_named({"a"})), "no_times columns=2 names=a, b");
 }
 
 TEST_F(TextRecording, RefusesATimeOfDay) {
   EXPECT_EQ(refusal("time,F\n12:30:01,1\n12:30:02,2\n", columns_named({"F"})),
-            "2:1: time: \"12:30:01\" is a time of day; times must be numbers, such as seconds from the start; or state "
-            "the rate instead (`rate`)");
+            "2:1: time: no_number_in_cell cell=\"12:30:01\" decimal_mark=. why=time_of_day as=time");
   EXPECT_TRUE(read("time,F\n12:30:01,1\n12:30:02,2\n", at_1_khz({"F"})).has_value());
 }
 
 TEST_F(TextRecording, RefusesATimeBesideARate) {
   RecordingOptions options = at_1_khz({"F"});
   options.time_column = "t";
-  EXPECT_EQ(refusal("t,F\n0,1\n1,2\n", options),
-            " t: a column of times is asked for beside a rate; must be one of the two");
+  EXPECT_EQ(refusal("t,F\n0,1\n1,2\n", options), "t: asked_for_beside of=times");
 }
 
 TEST_F(TextRecording, RefusesWhatIsNoTable) {
   const RecordingOptions options = at_1_khz({"1"});
-  EXPECT_EQ(refusal("", options), " is empty; must be a recording");
-  EXPECT_EQ(refusal("\n \n", options),
-            " has comments or empty lines only; must be a table with a row of numbers for each sample");
-  EXPECT_EQ(refusal("# a\n# b\n", options),
-            " has comments or empty lines only; must be a table with a row of numbers for each sample");
-  const std::string table =
-      "; must be a table: columns of numbers separated by commas, semicolons, tabs or blanks, below a header that may "
-      "be "
-      "passed over (`skip_rows`)";
-  EXPECT_EQ(refusal("t,F,x\n", options), " has one line, \"t,F,x\", and no row of numbers" + table);
-  EXPECT_EQ(refusal("Dear all,\nthe rig is broken.\n", options),
-            " has no rows of numbers; it begins with \"Dear all,\"" + table);
-  EXPECT_EQ(refusal(std::string_view("\xFF\xFEt\0,\0", 6), options),
-            " is text in UTF-16; must be UTF-8 or ASCII: convert it with iconv -f UTF-16 -t UTF-8");
-  EXPECT_EQ(refusal(std::string_view("1,2\0\n", 5), options),
-            " is binary data; must be a text table, a MAT file (v5 or v7.3) or a UFF file (dataset 58)");
-  EXPECT_EQ(refusal("PK\x03\x04...", options),
-            " is a ZIP archive or a spreadsheet; must be a recording: save the sheet as CSV");
-  EXPECT_EQ(refusal("F,x\r1,2\r3,4\r", options),
-            " ends its lines with a carriage return alone; must end them with a line feed, before it or not");
-  EXPECT_EQ(refusal("x\n1\n" + std::string(6 << 20, '1') + "\n", options),
-            "3:1: the line is longer than 4 MiB; must be a table of numbers with a line for each sample");
+  EXPECT_EQ(refusal("", options), "no_rows_of_numbers lines=0");
+  EXPECT_EQ(refusal("\n \n", options), "no_rows_of_numbers lines=2");
+  EXPECT_EQ(refusal("# a\n# b\n", options), "no_rows_of_numbers lines=2");
+  EXPECT_EQ(refusal("t,F,x\n", options), "no_rows_of_numbers lines=1 beginning=\"t,F,x\"");
+  EXPECT_EQ(refusal("Dear all,\nthe rig is broken.\n", options), "no_rows_of_numbers lines=2 beginning=\"Dear all,\"");
+  EXPECT_EQ(refusal(std::string_view("\xFF\xFEt\0,\0", 6), options), "no_text_table kind=utf16");
+  EXPECT_EQ(refusal(std::string_view("1,2\0\n", 5), options), "no_text_table kind=binary");
+  EXPECT_EQ(refusal("PK\x03\x04...", options), "no_text_table kind=sheet");
+  EXPECT_EQ(refusal("F,x\r1,2\r3,4\r", options), "no_text_table kind=carriage_returns");
+  const auto long_line = read("x\n1\n" + std::string(6 << 20, '1') + "\n", options);
+  ASSERT_FALSE(long_line);
+  EXPECT_EQ(long_line.error().place.line, 3U);
 }
 
 TEST_F(TextRecording, RefusesWhatIsNoFile) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/problem_data.hpp"
 #include "io/recording_folder.hpp"
 #include "io/uff_number.hpp"
 #include "io/uff_text.hpp"
@@ -23,7 +24,7 @@ class UffRecording : public RecordingFolder {
   }
   [[nodiscard]] std::string refusal(const std::string& bytes, const RecordingOptions& options) const {
     const auto recording = read(bytes, options);
-    return recording ? "read" : recording.error().str().substr(path("a.uff").size() + 1);
+    return recording ? "read" : data_of(recording.error());
   }
 };
 
@@ -103,9 +104,11 @@ TEST_F(UffRecording, FindsRecordsByIdPointEntityAndNumber) {
   const auto both = read(file, columns_named({"2", "4-X"}));
   ASSERT_TRUE(both.has_value()) << both.error().str();
   EXPECT_EQ(both->channels[1].samples, (Samples{1.0, 2.0}));
-  EXPECT_EQ(refusal(file, columns_named({"Run 7"})),
-            " Run 7: 2 records have this name; must be one of their numbers: 1, 2");
-  EXPECT_NE(refusal(file, columns_named({"HANDEL"})).find("did you mean \"HANDLE\"?"), std::string::npos);
+  EXPECT_EQ(refusal(file, columns_named({"Run 7"})), "Run 7: column_name_not_unique records=2 numbers=1, 2");
+  const auto unknown = read(file, columns_named({"HANDEL"}));
+  ASSERT_FALSE(unknown.has_value());
+  EXPECT_EQ(unknown.error().place.key, "HANDEL");
+  EXPECT_NE(unknown.error().allowed.find("\"HANDLE\""), std::string::npos) << unknown.error().allowed;
 }
 
 TEST_F(UffRecording, TakesALineOfMinusOneInTheHeaderForText) {
@@ -122,7 +125,7 @@ TEST_F(UffRecording, PassesOverOtherDatasetsAndSaysSo) {
   const auto recording = read(units + uff_text(named("x", {1.0, 2.0})), columns_named({"x"}));
   ASSERT_TRUE(recording.has_value()) << recording.error().str();
   EXPECT_TRUE(mentions(recording->remarks, "passed over: 164"));
-  EXPECT_EQ(refusal(units, columns_named({"x"})), " holds datasets 164 and no function; must hold dataset 58 (or 58b)");
+  EXPECT_EQ(refusal(units, columns_named({"x"})), "holds_none wanted=function datasets=164");
 }
 
 TEST_F(UffRecording, TakesAHeaderWithShortLines) {
@@ -158,11 +161,10 @@ TEST_F(UffRecording, WarnsOfARecordThatIsCutShort) {
 TEST_F(UffRecording, RefusesBinaryDataOfAnotherLength) {
   const std::string whole = uff_binary(named("x", {1.0, 2.0, 3.0}), UffOrder::little);
   EXPECT_EQ(refusal(whole.substr(0, whole.size() - 10), columns_named({"x"})),
-            "13:1: 3 points take 24 bytes, where the file ends after 21; the header says 24 bytes: the file may be cut "
-            "off or damaged");
+            "13:1: bytes_missing points=3 bytes=24 left=21 declared=24");
   std::string longer = whole;
   longer.insert(longer.size() - 7, "x");
-  EXPECT_NE(refusal(longer, columns_named({"x"})).find("are not followed by a line -1"), std::string::npos);
+  EXPECT_EQ(refusal(longer, columns_named({"x"})), "13:1: closing_line_missing points=3 bytes=24 left=32 declared=24");
 }
 
 // Writers exist that state the bytes of one number per point whatever the record holds.
@@ -184,9 +186,10 @@ TEST_F(UffRecording, RefusesRecordsThatWereNotSampledTogether) {
   slower.step = 2e-3;
   const std::string file = uff_text(x) + uff_text(later) + uff_text(slower) + uff_text(named("short", {1.0, 2.0}));
   const auto other = [&](const std::string& name) { return refusal(file, columns_named({"x", name})); };
-  EXPECT_NE(other("later").find("later [m]: has other times than x [m]"), std::string::npos);
-  EXPECT_NE(other("slower").find("slower [m]: has other times than x [m]"), std::string::npos);
-  EXPECT_NE(other("short").find("short [m]: has 2 samples, x [m] has 3"), std::string::npos);
+  EXPECT_NE(other("later").find("later [m]: axes_differ axis=times other=x [m]"), std::string::npos);
+  EXPECT_NE(other("slower").find("slower [m]: axes_differ axis=times other=x [m]"), std::string::npos);
+  EXPECT_NE(other("short").find("short [m]: samples_of_two_lengths samples=2 expected=3 other=x [m]"),
+            std::string::npos);
 }
 
 TEST_F(UffRecording, RefusesWhatIsNoTimeRecord) {
@@ -196,8 +199,7 @@ TEST_F(UffRecording, RefusesWhatIsNoTimeRecord) {
   response.abscissa_quantity = 18;
   response.abscissa_unit = "Hz";
   EXPECT_EQ(refusal(uff_text(response), columns_named({"H"})),
-            "2:1: H: is a complex frequency response, 2 points, every 0.001 Hz; must be a real time record (function "
-            "type 1)");
+            "2:1: H: wrong_kind kind=a complex frequency response, 2 points, every 0.001 Hz wanted=times");
 }
 
 TEST_F(UffRecording, WarnsWhereTheGivenRateIsNotTheFiles) {
@@ -219,24 +221,22 @@ TEST_F(UffRecording, NamesTheLineOfWhatIsWrong) {
   std::string text = uff_text(named("x", {1.0, 2.0, 3.0, 4.0, 5.0}));
   std::string damaged = text;
   damaged.replace(damaged.find("5.000000000000E+00"), 18, "five");
-  EXPECT_EQ(refusal(damaged, columns_named({"x"})), "15:3: \"five\" is no number; must be numbers up to the line -1");
+  EXPECT_EQ(refusal(damaged, columns_named({"x"})), "15:3: text_not_readable text=\"five\" wanted=number");
   EXPECT_EQ(refusal("    -1\n    58\nx\ny\n", columns_named({"x"})),
-            "4:1: the file ends inside the header of a function; must have 11 lines of header");
+            "4:1: data_end_inside lines=11 part=a function's header");
   std::string form = text;
   form.replace(form.find("         4         5         1"), 30, "         3         5         1");
-  EXPECT_EQ(refusal(form, columns_named({"x"})).substr(0, 12), "9:1: \"3     ");
+  EXPECT_EQ(refusal(form, columns_named({"x"})).find("9:1: text_not_readable text=\"3     "), 0U);
+  EXPECT_TRUE(refusal(form, columns_named({"x"})).ends_with(" wanted=form"));
   std::string step = text;
   step.replace(step.find("1.00000E-03"), 11, "0.00000E+00");
-  EXPECT_EQ(refusal(step, columns_named({"x"})),
-            "9:1: the step of the abscissa is 0, its first value 0; an even spacing must have a step above 0");
+  EXPECT_EQ(refusal(step, columns_named({"x"})), "9:1: wrong_field value=0 first=0 field=step");
   std::string more = text;
   more.insert(more.rfind("    -1"), " 1 2 3 4 5 6 7\n");
-  EXPECT_EQ(refusal(more, columns_named({"x"})),
-            "14:1: 12 numbers, where 5 points take 5; the header and its data must agree");
+  EXPECT_EQ(refusal(more, columns_named({"x"})), "14:1: size_disagrees count=12 points=5 expected=5 unit=numbers");
   std::string binary = uff_binary(named("x", {1.0, 2.0}), UffOrder::little);
   binary.replace(binary.find("58b     1     2"), 15, "58b     1     1");
-  EXPECT_EQ(refusal(binary, columns_named({"x"})),
-            "2:1: the format of the binary numbers is 1; must be 2 (IEEE 754): export the file as text, dataset 58");
+  EXPECT_EQ(refusal(binary, columns_named({"x"})), "2:1: wrong_field value=1 field=number format");
 }
 
 TEST_F(UffRecording, NeverCrashesOnAFileThatIsCutOff) {
@@ -294,7 +294,7 @@ class RecordedUff : public testing::Test {
   }
   [[nodiscard]] static std::string refusal(const std::string& name) {
     const auto recording = read_recording(folder + name, columns_named({"1"}));
-    return recording ? "read" : recording.error().what;
+    return recording || !recording.error().problem ? "no data" : data_of(*recording.error().problem);
   }
   inline static const std::string folder = ZWIDTH_SHARED_DIR "/data/uff58/";
 };
@@ -345,8 +345,10 @@ TEST_F(RecordedUff, ARecordOfFewerPointsThanItSaysIsReadWithAWarning) {
 }
 
 TEST_F(RecordedUff, SpectraAreRefusedAsTimeRecords) {
-  EXPECT_EQ(refusal("sample_dataset58_psd.uff"), "is a complex power spectral density, 3201 points, unevenly spaced");
-  EXPECT_EQ(refusal("non_ascii_header.uff"), "is a complex frequency response, 6 points, every 0.195313 Hz");
+  EXPECT_EQ(refusal("sample_dataset58_psd.uff"),
+            "wrong_kind kind=a complex power spectral density, 3201 points, unevenly spaced wanted=times");
+  EXPECT_EQ(refusal("non_ascii_header.uff"),
+            "wrong_kind kind=a complex frequency response, 6 points, every 0.195313 Hz wanted=times");
 }
 
 // A line of complex numbers is no time record; read_response_table() takes it.

@@ -1,11 +1,13 @@
-// [[wall.filter]] in device files and overrides: what is read, and what is refused, word for word.
+// [[wall.filter]] in device files and overrides: what is read, and what is refused.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "io/device_texts.hpp"
+#include "io/refused_problem.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth {
@@ -45,9 +47,9 @@ std::vector<WallFilter> filters_of(const std::string& text, const std::vector<st
   return device->parameters().wall.filters;
 }
 
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+InputProblem refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const auto device = parse_device(text, "f.toml", overrides);
-  return device ? "" : device.error().str();
+  return device ? InputProblem{{}, "is read", "", {}} : InputProblem(device.error());
 }
 
 // small_device_text has 5 lines: the filter's keys begin in line 7.
@@ -80,91 +82,126 @@ TEST(WallFilterFile, OverridesReachFilters) {
   EXPECT_EQ(added.at(0), (WallFilter{.kind = low_pass, .frequency_hz = 60.0}));
 }
 
-struct Refused {
+struct BadFilter {
   std::string keys;
-  std::string message;
+  test::RefusedProblem refused;
 };
 
 TEST(WallFilterFile, RefusedWithItsPlace) {
-  const std::vector<Refused> cases{
+  const std::vector<BadFilter> cases{
       {"frequency_hz = 60\n",
-       "6:1: wall.filter.0.type: is missing; must be given as one of low_pass, notch, lead_lag, biquad, digital"},
-      {"type = 3\n", "7:8: wall.filter.0.type: is the number 3; must be text in quotes"},
-      {"type = \"lowpass\"\n", "7:8: wall.filter.0.type: is \"lowpass\"; did you mean \"low_pass\"?"},
+       {{"f.toml", 6, 1, "wall.filter.0.type"}, {.code = ProblemCode::is_missing, .subjects = {{"needed", "choice"}}}}},
+      {"type = 3\n",
+       {{"f.toml", 7, 8, "wall.filter.0.type"},
+        {.code = ProblemCode::of_other_type, .evidence = {{"number", 3.0}}, .subjects = {{"needed", "text"}}}}},
+      {"type = \"lowpass\"\n",
+       {{"f.toml", 7, 8, "wall.filter.0.type"},
+        {.code = ProblemCode::not_one_of, .subjects = {{"given", "lowpass"}, {"meant", "low_pass"}}}}},
       {"type = \"elliptic\"\n",
-       "7:8: wall.filter.0.type: is \"elliptic\"; must be one of low_pass, notch, lead_lag, biquad, digital"},
-      {"type = \"notch\"\n", "6:1: wall.filter.0.frequency_hz: is missing; must be given as a number > 0"},
+       {{"f.toml", 7, 8, "wall.filter.0.type"},
+        {.code = ProblemCode::not_one_of,
+         .subjects = {{"given", "elliptic"}, {"choices", "one of low_pass, notch, lead_lag, biquad, digital"}}}}},
+      {"type = \"notch\"\n",
+       {{"f.toml", 6, 1, "wall.filter.0.frequency_hz"},
+        {.code = ProblemCode::is_missing, .subjects = {{"needed", "positive"}}}}},
       {"type = \"notch\"\nfrequncy_hz = 3\n",
-       "8:1: wall.filter.0.frequncy_hz: unknown key \"frequncy_hz\"; did you mean \"frequency_hz\"?"},
+       {{"f.toml", 8, 1, "wall.filter.0.frequncy_hz"},
+        {.code = ProblemCode::unknown_key, .subjects = {{"name", "frequncy_hz"}, {"meant", "frequency_hz"}}}}},
       {"type = \"notch\"\nfrequency_hz = 3\nratio = 2\n",
-       "9:9: wall.filter.0.ratio: is no key of a filter of type \"notch\"; its keys are type, frequency_hz, "
-       "damping_ratio, depth"},
+       {{"f.toml", 9, 9, "wall.filter.0.ratio"},
+        {.code = ProblemCode::key_of_other_filters,
+         .subjects = {{"type", "notch"}, {"keys", "type, frequency_hz, damping_ratio, depth"}}}}},
       {"type = \"digital\"\nnumerator = [1]\ndenominator = [1, 0.5]\nfrequency_hz = 3\n",
-       "10:16: wall.filter.0.frequency_hz: is no key of a filter of type \"digital\"; its keys are type, numerator, "
-       "denominator"},
+       {{"f.toml", 10, 16, "wall.filter.0.frequency_hz"},
+        {.code = ProblemCode::key_of_other_filters,
+         .subjects = {{"type", "digital"}, {"keys", "type, numerator, denominator"}}}}},
       {"type = \"lead_lag\"\nfrequency_hz = 3\n",
-       "6:1: wall.filter.0.ratio: is missing; must be given as a number > 0"},
+       {{"f.toml", 6, 1, "wall.filter.0.ratio"},
+        {.code = ProblemCode::is_missing, .subjects = {{"needed", "positive"}}}}},
       {"type = \"biquad\"\nnumerator = [1]\n",
-       "6:1: wall.filter.0.denominator: is missing; must be given as an array of numbers"},
-      {"type = \"low_pass\"\nfrequency_hz = 3\norder = 1.5\n", "9:9: wall.filter.0.order: is 1.5; must be 1 or 2"},
+       {{"f.toml", 6, 1, "wall.filter.0.denominator"},
+        {.code = ProblemCode::is_missing, .subjects = {{"needed", "numbers"}}}}},
+      {"type = \"low_pass\"\nfrequency_hz = 3\norder = 1.5\n",
+       {{"f.toml", 9, 9, "wall.filter.0.order"},
+        {.code = ProblemCode::not_one_of, .evidence = {{"value", 1.5}}, .subjects = {{"choices", "1 or 2"}}}}},
       {"type = \"low_pass\"\nfrequency_hz = 3\ndamping_ratio = 1\n",
-       "9:17: wall.filter.0.damping_ratio: stands beside order 1, which has none; must be left out, or set order = 2"},
+       {{"f.toml", 9, 17, "wall.filter.0.damping_ratio"}, {.code = ProblemCode::damping_of_first_order}}},
       {"type = \"low_pass\"\nfrequency_hz = 500\n",
-       "8:16: wall.filter.0.frequency_hz: is 500; must be at least 1e-30 and below the Nyquist frequency, 500 Hz"},
+       {{"f.toml", 8, 16, "wall.filter.0.frequency_hz"},
+        {.code = ProblemCode::filter_frequency_out_of_range, .evidence = {{"value", 500.0}, {"nyquist", 500.0}}}}},
       {"type = \"low_pass\"\nfrequency_hz = -1\n",
-       "8:16: wall.filter.0.frequency_hz: is -1; must be at least 1e-30 and below the Nyquist frequency, 500 Hz"},
-      {"type = \"notch\"\nfrequency_hz = 5\ndepth = 0\n", "9:9: wall.filter.0.depth: is 0; must be from 1e-06 to 1"},
+       {{"f.toml", 8, 16, "wall.filter.0.frequency_hz"},
+        {.code = ProblemCode::filter_frequency_out_of_range, .evidence = {{"value", -1.0}, {"nyquist", 500.0}}}}},
+      {"type = \"notch\"\nfrequency_hz = 5\ndepth = 0\n",
+       {{"f.toml", 9, 9, "wall.filter.0.depth"}, {.code = ProblemCode::not_between, .evidence = {{"value", 0.0}}}}},
       {"type = \"notch\"\nfrequency_hz = 5\ndepth = nan\n",
-       "9:9: wall.filter.0.depth: is nan; must be from 1e-06 to 1"},
+       {{"f.toml", 9, 9, "wall.filter.0.depth"},
+        {.code = ProblemCode::not_between, .evidence = {{"value", std::nan("")}}}}},
       {"type = \"digital\"\nnumerator = [1]\ndenominator = [1, -1]\n",
-       "9:15: wall.filter.0.denominator: has a pole that does not die out; all roots in z must lie inside the unit "
-       "circle"},
+       {{"f.toml", 9, 15, "wall.filter.0.denominator"}, {.code = ProblemCode::filter_not_stable}}},
       {"type = \"biquad\"\nnumerator = [1, 2, 3, 4]\ndenominator = [1, 2, 3]\n",
-       "8:13: wall.filter.0.numerator: has 4 coefficients; must have at least 1 and no more than the denominator"},
+       {{"f.toml", 8, 13, "wall.filter.0.numerator"},
+        {.code = ProblemCode::number_of_coefficients, .evidence = {{"count", 4.0}}}}},
       {"type = \"biquad\"\nnumerator = [1e-300]\ndenominator = [1, 2, 3]\n",
-       "8:13: wall.filter.0.numerator: has the coefficient 1e-300; every coefficient must be 0 or from 1e-100 to "
-       "1e+100 in magnitude"},
+       {{"f.toml", 8, 13, "wall.filter.0.numerator"},
+        {.code = ProblemCode::coefficient_out_of_range, .evidence = {{"value", 1e-300}}}}},
   };
-  for (const Refused& each : cases) EXPECT_EQ(refusal(with_filter(each.keys)), "f.toml:" + each.message);
+  for (const BadFilter& each : cases) test::expect_refused(refusal(with_filter(each.keys)), each.refused);
 }
 
 TEST(WallFilterFile, FiltersMustBeTables) {
-  EXPECT_EQ(refusal(small_device_text + "[wall.filter]\ntype = \"notch\"\n"),
-            "f.toml:6:1: wall.filter: is a table; must be tables, [[wall.filter]]");
-  EXPECT_EQ(refusal(small_device_text + "[wall]\nfilter = [3]\n"),
-            "f.toml:7:11: wall.filter: is the number 3; must be tables, [[wall.filter]]");
-  EXPECT_EQ(refusal("frequency_hz = 3\n" + small_device_text),
-            "f.toml:1:1: frequency_hz: unknown key \"frequency_hz\"; it belongs in [[wall.filter]]");
+  test::expect_refused(refusal(small_device_text + "[wall.filter]\ntype = \"notch\"\n"),
+                       {{"f.toml", 6, 1, "wall.filter"},
+                        {.code = ProblemCode::of_other_type, .subjects = {{"kind", "table"}, {"needed", "tables"}}}});
+  test::expect_refused(
+      refusal(small_device_text + "[wall]\nfilter = [3]\n"),
+      {{"f.toml", 7, 11, "wall.filter"},
+       {.code = ProblemCode::of_other_type, .evidence = {{"number", 3.0}}, .subjects = {{"needed", "tables"}}}});
+  test::expect_refused(
+      refusal("frequency_hz = 3\n" + small_device_text),
+      {{"f.toml", 1, 1, "frequency_hz"},
+       {.code = ProblemCode::unknown_key, .subjects = {{"name", "frequency_hz"}, {"homes", "[[wall.filter]]"}}}});
 }
 
 TEST(WallFilterFile, AtMostTwenty) {
   std::string text = small_device_text;
   for (int i = 0; i < 21; ++i) text += "[[wall.filter]]\ntype = \"low_pass\"\nfrequency_hz = 60\n";
-  EXPECT_EQ(refusal(text), "f.toml:6:1: wall.filter: stands 21 times; must be at most 20 filters");
+  test::expect_refused(refusal(text), {{"f.toml", 6, 1, "wall.filter"},
+                                       {.code = ProblemCode::stands_too_often, .evidence = {{"count", 21.0}}}});
 }
 
 TEST(WallFilterFile, BadOverridesAreNamed) {
-  EXPECT_EQ(
-      refusal(five_filters, {"wall.filter.depth=1"}),
-      "an override: wall.filter.depth: could be in any of 5 [[wall.filter]]; write for instance wall.filter.0.depth");
-  EXPECT_EQ(refusal(five_filters, {"wall.filter.5.depth=1"}),
-            "an override: wall.filter.5.depth: there is no wall.filter \"5\"; must be wall.filter.0 to wall.filter.4");
-  EXPECT_EQ(refusal(five_filters, {"wall.filter.1.dept=1"}),
-            "an override: wall.filter.1.dept: unknown key \"dept\"; did you mean \"depth\"?");
-  EXPECT_EQ(
-      refusal(five_filters, {"wall.filter.0.depth=1"}),
-      "an override: wall.filter.0.depth: is no key of a filter of type \"low_pass\"; its keys are type, frequency_hz, "
-      "order, damping_ratio");
-  EXPECT_EQ(refusal(five_filters, {"wall.filter.1.frequency_hz=600"}),
-            "an override: wall.filter.1.frequency_hz: is 600; must be at least 1e-30 and below the Nyquist frequency, "
-            "500 Hz");
-  EXPECT_EQ(refusal(small_device_text, {"wall.filter.0.depth=1"}),
-            "an override: wall.filter.0.depth: the device has no [[wall.filter]]; to add one write "
-            "wall.filter=[{type=\"low_pass\", frequency_hz=60}]");
-  EXPECT_EQ(refusal(small_device_text, {"wall.fliter.0.depth=1"}),
-            "an override: wall.fliter.0.depth: unknown key \"fliter\"; did you mean \"filter\"?");
-  EXPECT_EQ(refusal("wall = 3\n" + small_device_text, {"wall.filter.0.depth=1"}),
-            "f.toml:1:8: wall: is the number 3; must be a table, [wall]");
+  test::expect_refused(refusal(five_filters, {"wall.filter.depth=1"}),
+                       {test::of_override("wall.filter.depth"),
+                        {.code = ProblemCode::in_several_tables,
+                         .evidence = {{"count", 5.0}},
+                         .subjects = {{"header", "[[wall.filter]]"}, {"example", "wall.filter.0.depth"}}}});
+  test::expect_refused(refusal(five_filters, {"wall.filter.5.depth=1"}),
+                       {test::of_override("wall.filter.5.depth"),
+                        {.code = ProblemCode::no_such_name,
+                         .evidence = {{"last", 4.0}},
+                         .subjects = {{"what", "wall.filter"}, {"name", "5"}}}});
+  test::expect_refused(refusal(five_filters, {"wall.filter.1.dept=1"}),
+                       {test::of_override("wall.filter.1.dept"),
+                        {.code = ProblemCode::unknown_key, .subjects = {{"name", "dept"}, {"meant", "depth"}}}});
+  test::expect_refused(refusal(five_filters, {"wall.filter.0.depth=1"}),
+                       {test::of_override("wall.filter.0.depth"),
+                        {.code = ProblemCode::key_of_other_filters,
+                         .subjects = {{"type", "low_pass"}, {"keys", "type, frequency_hz, order, damping_ratio"}}}});
+  test::expect_refused(
+      refusal(five_filters, {"wall.filter.1.frequency_hz=600"}),
+      {test::of_override("wall.filter.1.frequency_hz"),
+       {.code = ProblemCode::filter_frequency_out_of_range, .evidence = {{"value", 600.0}, {"nyquist", 500.0}}}});
+  test::expect_refused(refusal(small_device_text, {"wall.filter.0.depth=1"}),
+                       {test::of_override("wall.filter.0.depth"),
+                        {.code = ProblemCode::no_table_to_override, .subjects = {{"header", "[[wall.filter]]"}}}});
+  test::expect_refused(refusal(small_device_text, {"wall.fliter.0.depth=1"}),
+                       {test::of_override("wall.fliter.0.depth"),
+                        {.code = ProblemCode::unknown_key, .subjects = {{"name", "fliter"}, {"meant", "filter"}}}});
+  test::expect_refused(
+      refusal("wall = 3\n" + small_device_text, {"wall.filter.0.depth=1"}),
+      {{"f.toml", 1, 8, "wall"},
+       {.code = ProblemCode::of_other_type, .evidence = {{"number", 3.0}}, .subjects = {{"needed", "table"}}}});
 }
 
 }  // namespace

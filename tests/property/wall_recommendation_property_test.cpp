@@ -153,7 +153,7 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
     std::vector<RecommendedWall> walls = answer.alternatives;
     walls.push_back(*answer.wall);
     for (const RecommendedWall& each : walls) {
-      SCOPED_TRACE(each.what);
+      SCOPED_TRACE(words_of(each.kind));
       const Wall& wall = each.wall;
       const double gain = options.gain_margin;
       ASSERT_GT(*wall.stiffness, 0.0);
@@ -164,7 +164,7 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
         without.wall.velocity_filter_hz = wall.velocity_filter_hz;
         const Device plain(without);
         // Not lowered by the notch.
-        if (each.what == "recommended") {
+        if (each.kind == RecommendedWall::Kind::recommended) {
           EXPECT_GE(*each.absolute_stability_limit,
                     absolute_stability_limit(plain, virtual_damper(plain)).stiffness * (1.0 - 1e-6));
         }

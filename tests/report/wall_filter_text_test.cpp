@@ -50,7 +50,7 @@ TEST(WallFilterText, StandsInEveryReport) {
   EXPECT_THAT(region_text(analysed.device, walls), HasSubstr(filters));
   EXPECT_THAT(region_text(analysed.device, walls), HasSubstr("filters in the wall"));
   for (const ComparedApproximation& each : walls.approximations) {
-    EXPECT_THAT(each.formula.not_met, ::testing::Contains("filters in the wall"));
+    EXPECT_THAT(each.formula.not_met, ::testing::Contains(UnmetAssumption::wall_filters));
   }
   EXPECT_THAT(*what_limits(analysed), HasSubstr("the wall's filters, "));
   const AnalysedDevice bare = lhifam_with_wall();

@@ -11,7 +11,7 @@ from pathlib import Path
 
 # Room: the rooms that its files may include, besides itself and the public headers that stand in no room.
 LIBRARY = {
-    "words": ["model", "stability"],  # the problems of a device, the names of who holds it
+    "words": ["model", "stability", "design"],  # the problems of a device, the names of who holds it and of what is advised
     "model": [],
     "signal": [],
     "sampling": ["model"],
@@ -76,7 +76,7 @@ def room_of_library(path):
 
 
 def sub_room(path):
-    """"stability/users/termination_circles.hpp" -> its place in the order; nothing for what stands in the room itself."""
+    """"stability/users/termination_discs.hpp" -> its place in the order; nothing for what stands in the room itself."""
     parts = path.split("/")
     order = SUB_ROOMS.get(parts[0], [])
     return order.index(parts[1]) if len(parts) == 3 and parts[1] in order else None

@@ -69,7 +69,7 @@ def phrases(root):
     for path in sorted((root / "src/words").glob("*_phrases.cpp")):
         source = path.read_text(encoding="utf-8")
         names = {each[1]: tokens_until(source, each.end(), ";")[0] for each in re.finditer(r"const char\* (\w+) =", source)}
-        for each in re.finditer(r"Phrase{", source):
+        for each in re.finditer(r"\bPhrase{", source):
             code, name, severity, *parts = tokens_until(source, each.end(), "}")
             if code != name or severity not in SEVERITIES:
                 raise SystemExit(f"{path.name}: {code} is named {name}, of severity {severity}")

@@ -9,7 +9,7 @@
 
 #include "stability/second_route/pole_count.hpp"
 #include "stability/users/dissipation_zeros.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -149,7 +149,7 @@ TEST(DissipationZeros, AreTheAntiresonancesOfTheBranchesOnTheWayToTheDamper) {
 // The Taylor polynomials against the sums over modes, where those still have digits.
 TEST(DissipationZeros, DiscsBesideThemAreThoseOfTheDirectSums) {
   const DeviceParameters device = three_bodies();
-  const TerminationCircles discs{Device(device)};
+  const TerminationDiscs discs{Device(device)};
   ASSERT_EQ(discs.zeros().sharp.size(), 1U);
   const SharpZero& zero = discs.zeros().sharp[0];
   EXPECT_NEAR(zero.frequency, std::sqrt(1.53e6 / 0.057), 1.0);
@@ -158,7 +158,7 @@ TEST(DissipationZeros, DiscsBesideThemAreThoseOfTheDirectSums) {
   const double image = 2.0 * pi / 1e-3 - zero.frequency;
   for (const double away : {-0.02, -1e-3, -1e-6, 0.0, 1e-6, 1e-3, 0.02}) {
     const double at = image * (1.0 + away);
-    const TerminationCircles::Disc disc = discs.at(at);
+    const TerminationDiscs::Disc disc = discs.at(at);
     const double least = 1.0 / (std::sqrt(disc.centre.real() * disc.centre.real() - disc.power) - disc.centre.real());
     EXPECT_NEAR(static_cast<double>(stiffness_of_discs(static_cast<long double>(at))), least, 1e-8 * least) << away;
   }

@@ -10,7 +10,7 @@
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
 #include "stability/loop/damper_response.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {
@@ -109,16 +109,16 @@ TEST(AbsoluteStabilityLimit, OfAChainThatOnlyItsMotorDamps) {
   EXPECT_FALSE(limit.needs_no_user);  // alone it bears 218.6
   EXPECT_LE(limit.truncation, 0.01);
   EXPECT_NEAR(limit.stiffness, 94.57765526 * (1.0 - limit.truncation), 1e-6);
-  const TerminationCircles discs{Device(device)};
+  const TerminationDiscs discs{Device(device)};
   EXPECT_LT(discs.truncation(), 1e-12);
-  const TerminationCircles::Disc at_zero = discs.at(81.344897337015396);
+  const TerminationDiscs::Disc at_zero = discs.at(81.344897337015396);
   EXPECT_NEAR(at_zero.centre.imag(), -0.0830823, 1e-7);
   EXPECT_NEAR(at_zero.radius, 0.0831423, 1e-7);
   EXPECT_TRUE(std::isfinite(discs.at(2500.0).radius));
 }
 
 // Below clear_angle another formula takes over.
-TEST(TerminationCircles, TheFormulaNearZeroAgreesWithTheSums) {
+TEST(TerminationDiscs, TheFormulaNearZeroAgreesWithTheSums) {
   for (const std::size_t sensed : {0u, 1u}) {
     for (const std::size_t held : {0u, 1u}) {
       for (const double delay : {0.0, 0.25e-3, 1e-3}) {
@@ -128,10 +128,10 @@ TEST(TerminationCircles, TheFormulaNearZeroAgreesWithTheSums) {
         WallFilter filter;
         filter.frequency_hz = 50.0;
         parameters.wall.filters = {filter};
-        const TerminationCircles discs{Device(parameters)};
+        const TerminationDiscs discs{Device(parameters)};
         const double at = clear_angle / 1e-3;
-        const TerminationCircles::Disc below = discs.at(at * (1.0 - 1e-12));
-        const TerminationCircles::Disc above = discs.at(at * (1.0 + 1e-12));
+        const TerminationDiscs::Disc below = discs.at(at * (1.0 - 1e-12));
+        const TerminationDiscs::Disc above = discs.at(at * (1.0 + 1e-12));
         EXPECT_LT(std::abs(below.centre - above.centre), 1e-8 * above.radius);
         EXPECT_NEAR(below.radius, above.radius, 1e-8 * above.radius);
         // |c|² - r² of the sums has lost digits by subtraction.

@@ -10,7 +10,7 @@
 
 #include "property/random_devices.hpp"
 #include "stability/loop/damper_response.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {
@@ -24,7 +24,7 @@ std::size_t device_count() {
   return wish != nullptr ? std::strtoul(wish, nullptr, 10) : 15;
 }
 
-std::vector<double> dense_frequencies(const TerminationCircles& discs, double period, test::RandomDevices& random) {
+std::vector<double> dense_frequencies(const TerminationDiscs& discs, double period, test::RandomDevices& random) {
   const double nyquist = std::numbers::pi / period;
   std::vector<double> frequencies{nyquist};
   for (int i = 0; i < 1300; ++i) frequencies.push_back(nyquist * random.uniform(1e-4, 1.0));
@@ -50,12 +50,12 @@ TEST(AbsoluteStabilityScan, NothingLiesBetweenItsFrequencies) {
     const VirtualDamper damper{parameters.wall.damping, parameters.wall.velocity_filter_hz};
     const double limit = absolute_stability_limit(device, damper).stiffness;
     if (!(limit > 0.0)) continue;
-    const TerminationCircles discs(device);
+    const TerminationDiscs discs(device);
     const double period = parameters.loop.sampling_period;
     double worst = 1.0;  // share of the limit at which the condition is broken
     double worst_frequency = 0.0;
     for (const double frequency : dense_frequencies(discs, period, random)) {
-      const TerminationCircles::Disc disc = discs.at(frequency);
+      const TerminationDiscs::Disc disc = discs.at(frequency);
       for (const double share : {1.0 - rounding, 0.999, 0.99, 0.9, 0.7, 0.5, 0.2, 0.01}) {
         const double stiffness = std::isfinite(limit) ? share * limit : 1e9 * share;
         const std::complex<double> controller = stiffness + damper_response(damper, period, frequency);

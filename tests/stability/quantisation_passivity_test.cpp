@@ -30,7 +30,7 @@ TEST(QuantisationPassivity, SaysWhatTheDeviceIsNot) {
   parameters.loop.delay = 1e-3;
   parameters.wall.damping = 1.0;
   EXPECT_EQ(quantisation_passivity(Device(parameters))->not_met,
-            (std::vector<std::string>{"a delay", "a virtual damper"}));
+            (std::vector{UnmetAssumption::delay, UnmetAssumption::virtual_damper}));
 }
 
 TEST(QuantisationPassivity, NeedsFrictionAndAnEncoder) {

@@ -8,10 +8,13 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "counted.hpp"
+#include "require_argument.hpp"
 #include "words/problem_phrase.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/input_problem.hpp"
 
 namespace zwidth {
 namespace {
@@ -27,10 +30,15 @@ std::string line(Problem problem) {
 
 TEST(ProblemText, EveryCodeHasWordsOfItsOwnName) {
   std::set<std::string_view> names;
-  for (const internal::ProblemPhrase& each : internal::problem_phrases()) {
-    EXPECT_EQ(name_of(each.code), each.name);
-    names.insert(each.name);
+  std::size_t count = 0;
+  for (const std::span<const internal::ProblemPhrase> list : internal::problem_phrases()) {
+    for (const internal::ProblemPhrase& each : list) {
+      EXPECT_EQ(name_of(each.code), each.name);
+      names.insert(each.name);
+      ++count;
+    }
   }
+  EXPECT_EQ(names.size(), count) << "a name stands twice";
   EXPECT_EQ(names.size(), static_cast<std::size_t>(ProblemCode::poles_not_told_apart) + 1) << "the last code";
 }
 
@@ -100,6 +108,76 @@ TEST(ProblemText, HasVariantsOfWholeSentences) {
   EXPECT_EQ(line(slow),
             "20 bytes per cycle at 115200 Bd leave 460 Hz at most, the loop runs at 1000 Hz; set the drive and "
             "driver.baud to 460800 or more, or loop.sampling_period to 0.0022 s or more");
+}
+
+TEST(ProblemText, HasVariantsOfDevices) {
+  const auto coefficients = [](std::vector<Evidence> evidence) {
+    return line({.code = ProblemCode::number_of_coefficients, .evidence = std::move(evidence)});
+  };
+  EXPECT_EQ(coefficients({{"count", 0.0}, {"most", 101.0}}), "is empty; must be one or more coefficients");
+  EXPECT_EQ(coefficients({{"count", 102.0}, {"most", 101.0}}),
+            "has 102 coefficients; must be at most 101 coefficients");
+  EXPECT_EQ(coefficients({{"count", 4.0}, {"least", 2.0}, {"most", 3.0}}),
+            "has 4 coefficients; must have 2 to 3, by falling powers");
+  EXPECT_EQ(coefficients({{"count", 4.0}, {"denominator", 3.0}}),
+            "has 4 coefficients; must have at least 1 and no more than the denominator");
+  const auto beside = [](const char* part) {
+    return line({.code = ProblemCode::beside_transfer_function, .subjects = {{"part", part}}});
+  };
+  EXPECT_EQ(beside("loop"), "names a body beside [transfer_function]; a transfer function has no bodies: leave it out");
+  EXPECT_EQ(beside("operator"), "stands beside [transfer_function]; an operator needs bodies: leave it out");
+  EXPECT_EQ(line({.code = ProblemCode::not_between,
+                  .evidence = {{"value", 128.0}, {"least", 0.0}, {"most", 127.0}, {"whole", 1.0}}}),
+            "is 128; must be a whole number from 0 to 127");
+  EXPECT_EQ(line({.code = ProblemCode::no_finite_number, .evidence = {{"value", -1.0}, {"from_zero", 1.0}}}),
+            "is -1; must be a finite number >= 0");
+  EXPECT_EQ(line({.code = ProblemCode::no_finite_number, .evidence = {{"value", 0.0}}}),
+            "is 0; must be a finite number > 0");
+}
+
+TEST(ProblemText, NamesTheArgumentOfACall) {
+  const auto refused = [](const auto& call) {
+    try {
+      call();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused([] {
+              internal::require_positive({"sampling period", -1.0, "s"});
+            }),
+            "sampling period is -1 s; must be finite and > 0");
+  EXPECT_EQ(refused([] { internal::require_not_negative({"floor", -1.0}); }), "floor is -1; must be >= 0");
+  EXPECT_EQ(refused([] {
+              internal::require_fraction({"coverage", 1.0});
+            }),
+            "coverage is 1; must be above 0 and below 1");
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_NE(refused([=] { internal::require_positive({"period", infinite}); }), "");
+  EXPECT_NE(refused([=] { internal::require_not_negative({"delay", infinite}); }), "");
+  EXPECT_EQ(refused([] { internal::require_not_negative({"delay", 0.0}); }), "");
+}
+
+TEST(ProblemText, NamesOptionsWhereThePhraseDoesAndNotWhereAUserDoes) {
+  InputProblem told = input_problem({.file = "study.toml", .line = 3, .column = 1},
+                                    {.code = ProblemCode::reaches_no_device,
+                                     .evidence = {{"value", -1.0}},
+                                     .subjects = {{"name", "`most`"},
+                                                  {"key", "loop.delay"},
+                                                  {"what", "is -1"},
+                                                  {"allowed", "must be >= 0"},
+                                                  {"end", "least"}}},
+                                    "0");
+  EXPECT_EQ(told.place.line, 3U);
+  ASSERT_TRUE(told.problem);
+  EXPECT_EQ(told.problem->code, ProblemCode::reaches_no_device);
+  EXPECT_EQ(told.suggestion, "0");
+  EXPECT_EQ(told.what, "`most`: reaches -1, which is no device: loop.delay is -1");
+  EXPECT_TRUE(told.options_of_what.empty());
+  ASSERT_EQ(told.options_of_allowed.size(), 1U);
+  EXPECT_EQ(told.options_of_allowed[0].name, "least");
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(WordsOfDiagnosis, HaveTheirVariants) {
                                {"softest_hz", 30.0, "Hz"},
                                {"without_operator", 1.0}}}),
             "a phase crossover at 98 Hz: unstable from 9 kN/m on, but walls from 4 kN/m on already oscillate at 30 Hz; "
-            "it does so without the operator too");
+            "it does so without the user too");
 }
 
 TEST(WordsOfRelays, HaveTheirVariants) {

@@ -23,7 +23,7 @@ std::string cause_text(OscillationCause cause) {
     case OscillationCause::device:
       return "the device itself, nobody holding";
     case OscillationCause::with_user:
-      return "the device with its operator";
+      return "the device with its user";
     case OscillationCause::passive_user:
       return "the grasp of a user";
     case OscillationCause::quantisation:
@@ -74,7 +74,7 @@ std::string otherwise_text(const OscillationCandidate& candidate, const Units& u
                                 quantity(hertz(candidate.frequency), "Hz")));
   }
   if (needed.amplitude != 1.0) parts.push_back(fmt::format("its swing is {}", moved_text(needed.amplitude)));
-  if (parts.empty()) return "it fits where the operator lets go";
+  if (parts.empty()) return "it fits where the user lets go";
   return fmt::format("it fits where {}", fmt::join(parts, " and "));
 }
 
@@ -145,12 +145,12 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
     std::string effect = "-";
     if (each.limit_then) effect = limits.text(*each.limit_then);
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
-    table.rows.push_back({each.what, value_text(each, each.value_now, motion),
+    table.rows.push_back({words_of(each), value_text(each, each.value_now, motion),
                           value_text(each, each.value_then, motion), effect, end_text(diagnosis, each)});
     if (judged)
       table.rows.back().push_back(each.absolute_stability_limit_then ? limits.text(*each.absolute_stability_limit_then)
                                                                      : "-");
-    if (!each.safe.value_or(true)) lowering += (lowering.empty() ? "" : ", ") + each.what;
+    if (!each.safe.value_or(true)) lowering += (lowering.empty() ? "" : ", ") + words_of(each);
   }
   std::string now;
   if (!diagnosis.changes.empty()) {

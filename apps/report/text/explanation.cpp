@@ -346,7 +346,9 @@ std::vector<std::string> encoder_notes(const AnalysedDevice& analysed) {
         "(Abbott & Okamura 2005; passivity of a rigid device with a spring alone, not a limit of stability){}",
         quantity(bound->stiffness, units.stiffness), quantity(bound->friction_stiffness, units.stiffness),
         quantity(bound->damping_stiffness, units.stiffness),
-        bound->not_met.empty() ? "" : fmt::format("; here it does not hold: {}", fmt::join(bound->not_met, ", "))));
+        bound->not_met.empty()
+            ? ""
+            : fmt::format("; here it does not hold: {}", fmt::join(words_of(bound->not_met), ", "))));
   }
   return notes;
 }

@@ -189,11 +189,11 @@ class RegionWriter {
       const FormulaFacts facts = facts_of(formula.formula);
       table.rows.push_back({std::string(facts.name), formula.any_user ? "any user" : "this device",
                             stiffness(formula.at_zero_damping), stiffness(error.at_zero_damping), off, shares});
-      notes += wrap(
-          fmt::format(
-              "{}: {}. For a {}{}.", facts.source, facts.equation, facts.valid_for,
-              formula.not_met.empty() ? "" : fmt::format("; this device has {}", fmt::join(formula.not_met, ", "))),
-          line_width, 2);
+      notes += wrap(fmt::format("{}: {}. For a {}{}.", facts.source, facts.equation, facts.valid_for,
+                                formula.not_met.empty()
+                                    ? ""
+                                    : fmt::format("; this device has {}", fmt::join(words_of(formula.not_met), ", "))),
+                    line_width, 2);
     }
     return "Formulas of the literature beside it, K at B = 0 (b: damping of all bodies)\n" + layout(table) + notes;
   }

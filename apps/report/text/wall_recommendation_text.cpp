@@ -170,7 +170,7 @@ class RecommendationWriter {
 
   [[nodiscard]] std::vector<std::string> row(const RecommendedWall& each) const {
     const WallMargins& margins = each.margins;
-    return {each.what,
+    return {std::string(words_of(each.kind)),
             stiffness(*each.wall.stiffness),
             number(each.wall.damping),
             each.wall.velocity_filter_hz > 0.0 ? quantity(each.wall.velocity_filter_hz, "Hz") : "-",

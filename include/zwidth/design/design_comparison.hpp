@@ -39,7 +39,7 @@ struct DesignComparison {
   std::vector<ComparedDesign> designs;       ///< in the order given
   std::optional<BestDesigns> best_free;      ///< the stiffest with nobody holding; absent where none can be told
   std::optional<BestDesigns> best_any_user;  ///< the stiffest in every passive hand
-  std::optional<BestDesigns> best_held;      ///< the stiffest with the operator of its file
+  std::optional<BestDesigns> best_held;      ///< the stiffest with the user of its file
   Trust trust;                               ///< the worst of the designs'
 };
 

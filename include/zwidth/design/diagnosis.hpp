@@ -64,23 +64,42 @@ struct OscillationCandidate {
 
 /// One change of the device or the wall alone, recomputed.
 struct DiagnosisChange {
-  std::string what;         ///< "damping of every body + 20 %"
-  std::string key;          ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
+  /// What is done to it.
+  enum class Kind {
+    more_body_damping,    ///< 20 % more damping of every body
+    half_delay,           ///< half the delay
+    twice_sampling_rate,  ///< twice the sampling rate
+    half_actuator_lag,    ///< half the actuator's lag
+    no_velocity_filter,   ///< the damper's velocity as it comes
+    stiffer_link,         ///< a link 20 % stiffer
+    finer_encoder,        ///< an encoder four times as fine
+    half_damper,          ///< half the damper, where steps of the encoder make the device swing
+    weaker_damper,        ///< a damper 6 dB below the limit
+    half_stiffness,       ///< half the stiffness, where steps of the encoder make the device swing
+    softer_wall,          ///< a stiffness 6 dB below the limit
+    other_damper,         ///< the best of some virtual dampers
+    notch,                ///< a notch at the frequency observed
+  };
+  Kind kind = Kind::more_body_damping;
+  std::optional<std::size_t> link = {};  ///< of stiffer_link: from 0
+  std::string key = {};     ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
   double value_now = 0.0;   ///< SI units
   double value_then = 0.0;  ///< of wall.filter: the centre of a notch, Hz
   /// The stiffness (of a damper alone its B) up to which the cause is absent: K_CR, that with friction holding, or the
   /// absolute stability limit; absent of quantisation, whose amplitude the change alters.
-  std::optional<double> limit_now;
-  std::optional<double> limit_then;      ///< infinite where unbounded
-  std::optional<double> amplitude_now;   ///< m or rad, of a cycle; absent where its size is not known
-  std::optional<double> amplitude_then;  ///< the same, after the change
+  std::optional<double> limit_now = {};
+  std::optional<double> limit_then = {};      ///< infinite where unbounded
+  std::optional<double> amplitude_now = {};   ///< m or rad, of a cycle; absent where its size is not known
+  std::optional<double> amplitude_then = {};  ///< the same, after the change
   /// limit_then times the nearest cause's `otherwise.limit` is above K (B); absent where K is not known.
-  std::optional<bool> ends_it;
+  std::optional<bool> ends_it = {};
   /// absolute_stability_limit() after the change, of a damper alone absolute_stability_damping(); infinite where nobody can destabilise a
   /// wall, absent where the device cannot be held or the limit is not found.
   std::optional<double> absolute_stability_limit_then = {};
   std::optional<bool> safe = {};  ///< no lower then than now; absent where one is not known
 };
+/// What is done to it: "damping of every body + 20 %".
+[[nodiscard]] std::string words_of(const DiagnosisChange& change);
 
 /// What an oscillation is, and what moves it.
 struct Diagnosis {

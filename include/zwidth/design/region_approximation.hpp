@@ -1,13 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_walls.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/stability/unmet_assumption.hpp"
 
 namespace zwidth {
 
@@ -30,8 +30,7 @@ struct RegionApproximation {
   double at_zero_damping = 0.0;                 ///< K at B = 0
   double slope = 0.0;                           ///< 1/s
   std::optional<double> largest_damping;        ///< it ends at this B; absent: without end
-  /// What the formula assumes and the device is not: "flexible links", "a delay". Empty where it holds.
-  std::vector<std::string> not_met = {};
+  std::vector<UnmetAssumption> not_met = {};  ///< what the formula leaves out and the device has; empty where it holds
 };
 
 /// What the literature says of a formula.

@@ -69,7 +69,19 @@ struct WallBounds {
 
 /// A wall and what stands behind it. Checked, see recommend_wall().
 struct RecommendedWall {
-  std::string what;                 ///< "recommended", "no velocity filter", "stiffest": how it differs from the others
+  /// How it differs from the others.
+  enum class Kind {
+    recommended,         ///< the one to run
+    no_virtual_damper,   ///< a spring alone
+    half_damping,        ///< half the damping of the one to run
+    more_damping,        ///< 1.5 times its damping
+    no_velocity_filter,  ///< the damper's velocity as it comes
+    no_notch,            ///< without the notch of the one to run
+    stiffest,            ///< the greatest stiffness
+    widest,              ///< the greatest product of stiffness and damping
+    critically_damped,   ///< the contact is critically damped
+  };
+  Kind kind = Kind::recommended;
   Wall wall;                        ///< with the filters that the device's wall has, and the notch behind them
   std::optional<WallFilter> notch;  ///< that of wall.filters which was added
   WallBounds bounded_by;            ///< what keeps each number from being larger
@@ -84,6 +96,8 @@ struct RecommendedWall {
   /// absolute_stability_limit
   std::optional<double> absolute_stability_damping_limit = {};
 };
+/// "recommended", "no velocity filter", "stiffest".
+[[nodiscard]] std::string_view words_of(RecommendedWall::Kind kind);
 
 /// The wall to run, and what else could be run.
 struct WallRecommendation {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ struct InputError : InputProblem {
       : InputProblem{{std::move(file), line, column, std::move(key), ""}, std::move(what_is_wrong), {}, std::nullopt} {
     allow(std::move(what_is_allowed));
   }
+  /// The same, as data.
+  InputError(InputPlace place, Problem problem, std::optional<std::string> suggestion = {})
+      : InputProblem(input_problem(std::move(place), std::move(problem), std::move(suggestion))) {}
   /// The same, as it is.
   explicit InputError(InputProblem problem) : InputProblem(std::move(problem)) {}
   /// All problems of one file, in the order in which it is read.

@@ -7,6 +7,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/device_key.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth {
 
@@ -15,6 +16,7 @@ struct UnitProblem {
   std::string what;                                      ///< "\"kg\" is no unit of stiffness"
   std::string allowed;                                   ///< "must be in N/m, such as \"5 kN/m\", or a number in N/m"
   std::optional<std::string> suggestion = std::nullopt;  ///< what was probably meant: "22 g cm2" of "22 gcm2"
+  std::optional<Problem> problem = {};                   ///< what these are the words of, where it is data
 };
 
 /// The number in SI units (angles in radians, Measure::frequency_hz in Hz) that a text such as "22 kg cm^2" states.

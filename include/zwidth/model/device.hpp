@@ -21,7 +21,7 @@ struct Body {
   double mass = 0.0;       ///< kg or kg m²; > 0
   double damping = 0.0;    ///< to ground, N s/m or N m s/rad; >= 0
   double stiffness = 0.0;  ///< to ground, N/m or N m/rad; >= 0
-  double coulomb = 0.0;    ///< Coulomb friction force, N or N m; >= 0; simulation only
+  double coulomb = 0.0;    ///< Coulomb friction force, N or N m; >= 0; no limit depends on it
 };
 
 /// A compliant connection of two bodies: force = stiffness (x_1 - x_2) + damping (x_1' - x_2').
@@ -53,12 +53,12 @@ struct Loop {
 /// What is between the commanded force and the real one.
 struct Actuator {
   double time_constant = 0.0;         ///< s, first-order lag 1/(tau s + 1); >= 0
-  std::optional<double> force_limit;  ///< N or N m; > 0; simulation only
+  std::optional<double> force_limit;  ///< N or N m; > 0; no limit depends on it
 };
 
 /// What is between the position and what is read of it.
 struct Sensor {
-  double resolution = 0.0;  ///< m or rad, encoder step; >= 0; simulation only
+  double resolution = 0.0;  ///< m or rad, encoder step; >= 0; no limit depends on it
 };
 
 /// The virtual wall C(z) = F(z) (K + B v(z)), where v is the backward difference (1 - z^-1)/T, optionally followed by
@@ -116,7 +116,7 @@ inline constexpr double max_delay_samples = 10000;            ///< whole device:
 /// Checks: all numbers finite and in the ranges given with each member, and 0 or within 1e-30..1e30 in magnitude
 /// (coefficients of a transfer function: 1e-100..1e100), so that no product of a few of them overflows; body names
 /// unique and not empty; link ends distinct and existing; every body connected to every other through links; either
-/// bodies or a transfer function; no operator, link or second body with a transfer function; uncertain parameters
+/// bodies or a transfer function; no user, link or second body with a transfer function; uncertain parameters
 /// known, present and each once, their covariance square, symmetric and positive semidefinite.
 [[nodiscard]] std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters);
 

@@ -63,7 +63,7 @@ struct Path {
 /// Whether the actuator's lag is part of a model.
 enum class ActuatorLag { included, left_out };
 
-/// Modal form of the device from actuated to sensed body (operator and actuator lag included).
+/// Modal form of the device from actuated to sensed body (user and actuator lag included).
 ///
 /// Throws Error (did_not_converge) when the poles cannot be found to the documented accuracy.
 /// Source: theory, section 1 ("Which mechanism limits"); eqs. 5-9 of Díaz & Gil are the two-body case.

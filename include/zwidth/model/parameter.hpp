@@ -18,7 +18,7 @@ namespace zwidth {
 /// Every key of the device that parameter() takes, in the order of the device file. Links always with their index.
 [[nodiscard]] std::vector<std::string> parameter_keys(const DeviceParameters& parameters);
 
-/// "body.NAME.mass" for "body.NAME.inertia", and so of the operator: they are one here. Others as given.
+/// "body.NAME.mass" for "body.NAME.inertia", and so of the user: they are one here. Others as given.
 [[nodiscard]] std::string without_alias(std::string_view key);
 
 /// without_alias(), and with the index of its link: "link.stiffness" is "link.0.stiffness" where there is one link; others

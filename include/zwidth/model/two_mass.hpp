@@ -29,7 +29,7 @@ struct TwoMassFactors {
 };
 [[nodiscard]] TwoMassFactors two_mass_factors(const TwoMass& device);  ///< eqs. 11-16
 
-/// The two-mass view of a device: two bodies, one link, no ground springs (the operator's mass and damping are
+/// The two-mass view of a device: two bodies, one link, no ground springs (the user's mass and damping are
 /// added to the held body). Nothing where the device is of another shape.
 [[nodiscard]] std::optional<TwoMass> as_two_mass(const Device& device);
 

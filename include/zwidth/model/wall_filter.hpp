@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth {
 
@@ -43,14 +44,8 @@ struct WallFilter {
 
 inline constexpr std::size_t max_wall_filters = 20;  ///< of a wall
 
-/// What makes a filter impossible at that sampling period.
-struct WallFilterProblem {
-  const char* member = "";  ///< key in [[wall.filter]]
-  std::string what;         ///< "is 900"
-  std::string allowed;      ///< "must be ..."
-};
-
-/// The first impossible value, or nothing.
-[[nodiscard]] std::optional<WallFilterProblem> find_problem(const WallFilter& filter, double sampling_period);
+/// What makes a filter impossible at that sampling period: the first impossible value, or nothing. The member is its key
+/// in [[wall.filter]].
+[[nodiscard]] std::optional<OptionProblem> find_problem(const WallFilter& filter, double sampling_period);
 
 }  // namespace zwidth

@@ -58,7 +58,7 @@ struct HybridLoopOptions {
 /// force, let it arrive t_d later (any real delay), move the device. The motion is the exact solution: matrix
 /// exponentials and, at stick-slip instants of Coulomb friction, located events; nothing is integrated step by step.
 ///
-/// Uses sampling_period, delay, actuator, sensor.resolution, body.coulomb and the operator of the device; the wall is
+/// Uses sampling_period, delay, actuator, sensor.resolution, body.coulomb and the user of the device; the wall is
 /// the controller's. Nothing allocates, locks or throws after construction.
 class HybridLoop {
  public:

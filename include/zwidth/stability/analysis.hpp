@@ -22,7 +22,7 @@
 
 namespace zwidth {
 
-/// The device with every link rigid: one mass, damper and spring (operator included).
+/// The device with every link rigid: one mass, damper and spring (user included).
 struct RigidApproximation {
   /// Its critical stiffness beside the device's own.
   enum class Error {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/stability/unmet_assumption.hpp"
 
 namespace zwidth {
 
@@ -17,11 +17,10 @@ namespace zwidth {
 /// oscillation; above it they may (it need not be unstable: the linear limits decide on growth).
 /// Valid for one rigid body, a spring alone, a hold without further delay. Source: Abbott & Okamura 2005.
 struct QuantisationPassivity {
-  double friction_stiffness = 0.0;  ///< 2 f_c / q
-  double damping_stiffness = 0.0;   ///< 2 b / T
-  double stiffness = 0.0;           ///< the lesser
-  /// What the formula assumes and the device is not: "flexible links", "a delay". Empty where it holds.
-  std::vector<std::string> not_met = {};
+  double friction_stiffness = 0.0;            ///< 2 f_c / q
+  double damping_stiffness = 0.0;             ///< 2 b / T
+  double stiffness = 0.0;                     ///< the lesser
+  std::vector<UnmetAssumption> not_met = {};  ///< what the formula leaves out and the device has; empty where it holds
 };
 
 /// That bound; absent without bodies, Coulomb friction or an encoder resolution.

@@ -28,7 +28,7 @@ struct UserRanges {
   std::optional<ValueRange> stiffness = {};  ///< N/m or N m/rad
 };
 
-/// The device's own operator where a range is not given.
+/// The device's own user where a range is not given.
 [[nodiscard]] UserFamily user_family(const UserRanges& ranges, const User& own);
 
 /// The user of a family that leaves the least stable wall, as far as the search sees.

@@ -80,7 +80,7 @@ void rank(std::vector<OscillationCandidate>& candidates, const ObservedLoop& loo
   });
 }
 
-/// With the operator the loop oscillates, and without it too, at nearly the same frequency: the operator does nothing.
+/// With the user the loop oscillates, and without too, at nearly the same frequency: the user does nothing.
 void compare_with_nobody(OscillationCandidate& held, const OscillationCandidate& nobody) {
   if (!held.fits || !nobody.fits) return;
   held.fits = false;

@@ -72,35 +72,39 @@ class Changes {
       double damping = 0.0;
       for (const Body& body : now.bodies) damping += body.damping;
       if (damping > 0.0) {
-        add("damping of every body + 20 %", "body.*.damping", damping, more * damping, [](DeviceParameters& then) {
+        add(Kind::more_body_damping, "body.*.damping", damping, more * damping, [](DeviceParameters& then) {
           for (Body& body : then.bodies) body.damping *= more;
         });
       }
     }
     if (now.loop.delay > 0.0) {
-      add("half the delay", "loop.delay", now.loop.delay, half * now.loop.delay,
+      add(Kind::half_delay, "loop.delay", now.loop.delay, half * now.loop.delay,
           [](DeviceParameters& then) { then.loop.delay *= half; });
     }
     if (now.wall.filters.empty()) {
-      add("twice the sampling rate", "loop.sampling_period", now.loop.sampling_period, half * now.loop.sampling_period,
+      add(Kind::twice_sampling_rate, "loop.sampling_period", now.loop.sampling_period, half * now.loop.sampling_period,
           [](DeviceParameters& then) { then.loop.sampling_period *= half; });
     }
     if (now.actuator.time_constant > 0.0) {
-      add("half the actuator's lag", "actuator.time_constant", now.actuator.time_constant,
+      add(Kind::half_actuator_lag, "actuator.time_constant", now.actuator.time_constant,
           half * now.actuator.time_constant, [](DeviceParameters& then) { then.actuator.time_constant *= half; });
     }
     if (now.wall.damping > 0.0 && now.wall.velocity_filter_hz > 0.0) {
-      add("no velocity filter", "wall.velocity_filter_hz", now.wall.velocity_filter_hz, 0.0,
+      add(Kind::no_velocity_filter, "wall.velocity_filter_hz", now.wall.velocity_filter_hz, 0.0,
           [](DeviceParameters& then) { then.wall.velocity_filter_hz = 0.0; });
     }
     damp();
     if (cause_.limited_by && cause_.limited_by->kind == Mechanism::Kind::vibration_mode) stop_mode();
     for (std::size_t i = 0; i < std::min(now.links.size(), most_links); ++i) {
-      add(fmt::format("link {} 20 % stiffer", i), fmt::format("link.{}.stiffness", i), now.links[i].stiffness,
-          more * now.links[i].stiffness, [i](DeviceParameters& then) { then.links[i].stiffness *= more; });
+      add({.kind = Kind::stiffer_link,
+           .link = i,
+           .key = fmt::format("link.{}.stiffness", i),
+           .value_now = now.links[i].stiffness,
+           .value_then = more * now.links[i].stiffness},
+          [i](DeviceParameters& then) { then.links[i].stiffness *= more; });
     }
     if (is_quantisation()) {
-      add("an encoder four times as fine", "sensor.resolution", now.sensor.resolution, finer * now.sensor.resolution,
+      add(Kind::finer_encoder, "sensor.resolution", now.sensor.resolution, finer * now.sensor.resolution,
           [](DeviceParameters& then) { then.sensor.resolution *= finer; });
     }
     std::ranges::stable_sort(changes_, [](const DiagnosisChange& a, const DiagnosisChange& b) {
@@ -112,6 +116,8 @@ class Changes {
   }
 
  private:
+  using Kind = DiagnosisChange::Kind;
+
   [[nodiscard]] bool is_quantisation() const { return cause_.cause == OscillationCause::quantisation; }
 
   static bool is_safe(const DiagnosisChange& change) { return change.safe.value_or(true); }
@@ -157,8 +163,13 @@ class Changes {
   }
 
   template <typename Change>
-  void add(std::string what, std::string key, double now, double then, const Change& change) {
-    auto made = recomputed({std::move(what), std::move(key), now, then, {}, {}, {}, {}, {}}, change, nullptr);
+  void add(Kind kind, std::string key, double now, double then, const Change& change) {
+    add({.kind = kind, .key = std::move(key), .value_now = now, .value_then = then}, change);
+  }
+
+  template <typename Change>
+  void add(DiagnosisChange what, const Change& change) {
+    auto made = recomputed(std::move(what), change, nullptr);
     if (!made) return;
     judge(*made, nullptr);
     changes_.push_back(std::move(made->change));
@@ -173,10 +184,10 @@ class Changes {
     const double softened = is_quantisation() ? softer * now : softer * off_ * limit;
     if (!(softened > 0.0 && softened < now)) return;
     if (is_damper) {
-      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below", "wall.damping", now, softened,
+      add(is_quantisation() ? Kind::half_damper : Kind::weaker_damper, "wall.damping", now, softened,
           [&](DeviceParameters& then) { then.wall.damping = softened; });
     } else {
-      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below", "wall.stiffness", now, softened,
+      add(is_quantisation() ? Kind::half_stiffness : Kind::softer_wall, "wall.stiffness", now, softened,
           [&](DeviceParameters& then) { then.wall.stiffness = softened; });
     }
   }
@@ -198,7 +209,7 @@ class Changes {
     std::vector<Recomputed> ladder;
     for (const double factor : dampers) {
       auto made = recomputed(
-          {"another virtual damper", "wall.damping", wall.damping, factor * unit, {}, {}, {}, {}, {}},
+          {.kind = Kind::other_damper, .key = "wall.damping", .value_now = wall.damping, .value_then = factor * unit},
           [&](DeviceParameters& then) { then.wall.damping = factor * unit; }, users);
       if (made) ladder.push_back(*std::move(made));
     }
@@ -222,7 +233,7 @@ class Changes {
     notch.frequency_hz = cause_.frequency / (2.0 * std::numbers::pi);
     notch.damping_ratio = 0.5;
     if (find_problem(notch, loop_.device.loop().sampling_period)) return;
-    add("a notch there", "wall.filter", 0.0, notch.frequency_hz,
+    add(Kind::notch, "wall.filter", 0.0, notch.frequency_hz,
         [&](DeviceParameters& then) { then.wall.filters.push_back(notch); });
   }
 

@@ -12,7 +12,7 @@
 #include "infinity.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "stability/users/disc_stiffness.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
@@ -145,7 +145,7 @@ void take_if_nearer(const ObservedLoop& loop, const NumberLimit::Crossing& cross
 }
 
 /// The frequency at which some user could make it oscillate with the least otherwise, and what that is.
-void look_for_nearest_user(const ObservedLoop& loop, const TerminationCircles& discs, OscillationCandidate& candidate) {
+void look_for_nearest_user(const ObservedLoop& loop, const TerminationDiscs& discs, OscillationCandidate& candidate) {
   const double period = loop.device.loop().sampling_period;
   const std::optional<double> gain = gain_of(loop);
   for (int i = -users_looked_at; i <= users_looked_at; ++i) {
@@ -287,7 +287,7 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
 }
 
 OscillationCandidate user_candidate(const ObservedLoop& loop) {
-  const TerminationCircles discs(loop.device, loop.progress);
+  const TerminationDiscs discs(loop.device, loop.progress);
   const double period = loop.device.loop().sampling_period;
   const std::optional<double> gain = gain_of(loop);
   OscillationCandidate candidate;

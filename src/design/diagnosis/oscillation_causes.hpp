@@ -26,7 +26,7 @@ struct ObservedLoop {
 // The device with the first harmonic of its Coulomb friction at that share: body.damping + share * body.coulomb.
 [[nodiscard]] Device with_friction_as_damping(const Device& device, double share);
 
-// Of the linear loop with or without the operator.
+// Of the linear loop with or without the user.
 [[nodiscard]] OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause cause,
                                                     const Device& device);
 [[nodiscard]] OscillationCandidate user_candidate(const ObservedLoop& loop);

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "infinity.hpp"
+#include "require_argument.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/error.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -125,14 +125,8 @@ std::vector<std::vector<AbsoluteStabilityPoint>> ranges_of(Sampler& sampler,
 
 AbsoluteStabilityRegion absolute_stability_region(const Device& device, const StableWalls& walls,
                                                   double largest_damping, AbsoluteStabilityRegionOptions options) {
-  if (!(largest_damping > 0.0) || !std::isfinite(largest_damping)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::largest_damping_not_positive, .evidence = {{"value", largest_damping}}});
-  }
-  if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::region_deviation_no_fraction, .evidence = {{"value", options.deviation}}});
-  }
+  require_positive({"largest damping", largest_damping});
+  require_fraction({"deviation", options.deviation});
   StagedProgress stages(options.progress);
   stages.next(scan_share);
   Sampler sampler(device, walls, options.deviation, stages.stage());

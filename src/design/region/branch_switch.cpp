@@ -146,8 +146,9 @@ std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffn
 
 std::vector<BranchSwitch> branch_switches(const Device& device, BranchSwitchOptions options) {
   if (!(options.factor > 1.0) || !std::isfinite(options.factor)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::branch_factor_too_small, .evidence = {{"value", options.factor}}});
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::not_finite_and_above,
+                                              .evidence = {{"value", options.factor}, {"bound", 1.0}},
+                                              .subjects = {{"name", "factor"}}});
   }
   const Wall& wall = device.parameters().wall;
   const CriticalStiffness own = critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "zwidth/error.hpp"
+#include "require_argument.hpp"
 
 namespace zwidth {
 namespace {
@@ -64,45 +64,27 @@ double limit_at(const AbsoluteStabilityRegion& region, double damping) {
   return 0.0;
 }
 
-std::vector<std::string> unmet_assumptions(Formula formula, const Device& device) {
+std::vector<UnmetAssumption> unmet_assumptions(Formula formula, const Device& device) {
   const DeviceParameters& parameters = device.parameters();
-  std::vector<std::string> unmet;
-  if (!parameters.links.empty()) unmet.emplace_back("flexible links");
+  std::vector<UnmetAssumption> unmet;
+  if (!parameters.links.empty()) unmet.push_back(UnmetAssumption::flexible_links);
   const bool tied = std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
                                 [](const Body& body) { return body.stiffness > 0.0; });
-  if (tied) unmet.emplace_back("springs to ground");
-  if (parameters.actuator.time_constant > 0.0) unmet.emplace_back("an actuator lag");
-  if (formula == Formula::colgate_schenkel && parameters.loop.delay > 0.0) unmet.emplace_back("a delay");
-  if (formula == Formula::gil_hulin && parameters.wall.velocity_filter_hz > 0.0) {
-    unmet.emplace_back("a velocity filter");
-  }
-  if (!parameters.wall.filters.empty()) unmet.emplace_back("filters in the wall");
-  if (formula == Formula::gil_hulin && parameters.user.stiffness > 0.0) unmet.emplace_back("a user with stiffness");
+  if (tied) unmet.push_back(UnmetAssumption::springs_to_ground);
+  if (parameters.actuator.time_constant > 0.0) unmet.push_back(UnmetAssumption::actuator_lag);
+  if (formula == Formula::colgate_schenkel && parameters.loop.delay > 0.0) unmet.push_back(UnmetAssumption::delay);
+  if (formula == Formula::gil_hulin && parameters.wall.velocity_filter_hz > 0.0)
+    unmet.push_back(UnmetAssumption::velocity_filter);
+  if (!parameters.wall.filters.empty()) unmet.push_back(UnmetAssumption::wall_filters);
+  if (formula == Formula::gil_hulin && parameters.user.stiffness > 0.0)
+    unmet.push_back(UnmetAssumption::user_stiffness);
   return unmet;
 }
 
 }  // namespace
 
-FormulaFacts facts_of(RegionApproximation::Formula formula) {
-  switch (formula) {
-    case Formula::colgate_schenkel:
-      return {"Colgate & Schenkel", "Colgate & Schenkel 1997", "b > K T/2 + B (1 - a)/(1 + a)",
-              "rigid device, no delay, any passive user; exact there"};
-    case Formula::gil_hulin:
-      return {"Gil, Hulin", "Gil et al. 2007, Hulin et al.", "K < (b + B)/(T/2 + t_d)",
-              "rigid device, no other user, small delay, fast sampling, low damping; approximate"};
-    case Formula::diolaiti:
-      break;
-  }
-  return {"Diolaiti", "Diolaiti et al. 2006", "K <= b/(T/2 + t_d), B = 0",
-          "rigid device, no virtual damper, any passive user; exact for a delay of whole samples"};
-}
-
 std::vector<RegionApproximation> region_approximations(const Device& device, double velocity_filter_hz) {
-  if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::velocity_filter_below_zero, .evidence = {{"value", velocity_filter_hz}}});
-  }
+  internal::require_not_negative({"velocity filter", velocity_filter_hz, "Hz"});
   if (!device.has_bodies()) return {};
   double damping = 0.0;
   for (const Body& body : device.bodies()) damping += body.damping;

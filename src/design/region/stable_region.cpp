@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "design/region/boundary_tracer.hpp"
+#include "require_argument.hpp"
 #include "stability/limit/mechanism_at.hpp"
 #include "zwidth/error.hpp"
 
@@ -99,10 +100,7 @@ void find_extremes(StableRegion& region, const BoundaryCurve& curve, double devi
 }  // namespace
 
 StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
-  if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::outline_deviation_no_fraction, .evidence = {{"value", options.deviation}}});
-  }
+  require_fraction({"deviation", options.deviation});
   const RegionStructure& structure = walls.structure();
   StableRegion region;
   for (const RegionSlab& slab : structure.slabs) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "design/region/region_structure.hpp"
+#include "require_argument.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -12,10 +13,7 @@ using namespace internal;
 namespace {
 
 FilteredPlant checked(FilteredPlant plant, double velocity_filter_hz) {
-  if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::velocity_filter_below_zero, .evidence = {{"value", velocity_filter_hz}}});
-  }
+  require_not_negative({"velocity filter", velocity_filter_hz, "Hz"});
   return plant;
 }
 
@@ -28,10 +26,7 @@ StableWalls::StableWalls(FilteredPlant plant, double velocity_filter_hz, const P
 double StableWalls::velocity_filter_hz() const { return structure_->curve.velocity_filter_hz(); }
 
 std::vector<StableInterval> StableWalls::stable_stiffnesses(double damping) const {
-  if (!(damping >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::virtual_damper_below_zero, .evidence = {{"value", damping}}});
-  }
+  require_argument(damping >= 0.0, ProblemCode::negative, {"virtual damper", damping});
   const auto& slabs = structure_->slabs;
   const auto slab = std::partition_point(slabs.begin(), slabs.end(),
                                          [damping](const RegionSlab& each) { return each.upper <= damping; });

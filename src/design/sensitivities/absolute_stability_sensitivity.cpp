@@ -31,7 +31,7 @@ std::vector<DesignParameter> parameters_of(const Device& free) {
 constexpr double same_limit = 1e-6;      // relative
 constexpr double rounding_unit = 2e-13;  // relative error of K at w T = 1; it grows as 1/(w T)²
 
-double stiffness_at(const Device& free, const TerminationCircles& discs, double angle) {
+double stiffness_at(const Device& free, const TerminationDiscs& discs, double angle) {
   return least_stiffness(discs.at(angle / free.loop().sampling_period), damper_sensitivity(free, angle, {}).value);
 }
 
@@ -41,7 +41,7 @@ constexpr double rest_steps[] = {3.0 * rest_angle, 2.0 * rest_angle, rest_angle,
 constexpr double fits_well = 1e-8;  // relative, of the values; slopes bend more
 
 /// From how far the limit at w -> 0 can be extrapolated; nothing where the limit is not reached there.
-std::optional<double> step_from_rest(const Device& free, const TerminationCircles& discs,
+std::optional<double> step_from_rest(const Device& free, const TerminationDiscs& discs,
                                      const AbsoluteStabilityLimit& limit) {
   const double angle = limit.frequency * free.loop().sampling_period;
   if (angle >= rest_angle) return std::nullopt;
@@ -65,14 +65,14 @@ std::optional<double> step_from_rest(const Device& free, const TerminationCircle
 /// f = 1 + 2 Re(C c) + |C|² (|c|² - r²), C = K + B v: 0 where a passive user brings the loop to its limit.
 class Condition {
  public:
-  Condition(const Device& free, const TerminationCircles& discs) : free_(free), discs_(discs) {}
+  Condition(const Device& free, const TerminationDiscs& discs) : free_(free), discs_(discs) {}
 
   struct Value {
     double f = 0.0;
     double by_stiffness = 0.0;
   };
   [[nodiscard]] Value at(double stiffness, double angle) const {
-    const TerminationCircles::Disc disc = discs_.at(angle / free_.loop().sampling_period);
+    const TerminationDiscs::Disc disc = discs_.at(angle / free_.loop().sampling_period);
     const Complex controller = stiffness + damper_sensitivity(free_, angle, {}).value;
     return {1.0 + 2.0 * (controller * disc.centre).real() + std::norm(controller) * disc.power,
             2.0 * disc.centre.real() + 2.0 * controller.real() * disc.power};
@@ -80,7 +80,7 @@ class Condition {
 
  private:
   const Device& free_;
-  const TerminationCircles& discs_;
+  const TerminationDiscs& discs_;
 };
 
 /// Where the limit is reached.
@@ -92,7 +92,7 @@ struct Touch {
 /// The least K near a touch: f = 0 and df/dangle = 0 by Newton's method. absolute_stability_limit() finds it by values of K,
 /// which are flat there; and K has a square root's edge where f has no zero beyond, while f stays smooth. Unchanged at
 /// the ends of the range, or where the iteration leaves the neighbourhood.
-Touch polished(const Device& free, const TerminationCircles& discs, const Touch& start) {
+Touch polished(const Device& free, const TerminationDiscs& discs, const Touch& start) {
   constexpr int rounds = 6;
   constexpr double widest_step = 1e-4;  // of the angle
   constexpr double narrowest_step = 1e-7;
@@ -127,13 +127,13 @@ Touch polished(const Device& free, const TerminationCircles& discs, const Touch&
 }
 
 /// dK/dp = -f_p/f_K at a fixed angle.
-std::vector<double> sensitivities_at(const Device& free, const TerminationCircles& discs, const Touch& touch,
+std::vector<double> sensitivities_at(const Device& free, const TerminationDiscs& discs, const Touch& touch,
                                      std::span<const DesignParameter> parameters) {
   const double angle = touch.angle;
   const DiscSensitivity sensitivities = disc_sensitivity(free, discs, angle, parameters);
   const DamperSensitivity damper = damper_sensitivity(free, angle, parameters);
   // The discs' own sums, which keep more digits.
-  const TerminationCircles::Disc disc = discs.at(angle / free.loop().sampling_period);
+  const TerminationDiscs::Disc disc = discs.at(angle / free.loop().sampling_period);
   const Complex c = disc.centre;
   const Complex controller = touch.stiffness + damper.value;
   const auto by_controller = [&](Complex slope) {
@@ -154,7 +154,7 @@ std::vector<double> sensitivities_at(const Device& free, const TerminationCircle
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Where the damped bodies hardly move discs are so large that their slopes cancel.
-bool is_in_dip(const TerminationCircles& discs, double frequency) {
+bool is_in_dip(const TerminationDiscs& discs, double frequency) {
   constexpr double far_larger = 1e4;  // a disc, than the free plant
   return !discs.sharp_images().empty() &&
          discs.at(frequency).radius > far_larger * std::abs(response(discs.free_plant(), frequency));
@@ -240,7 +240,7 @@ std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device, 
     std::erase_if(own, [](const Sensitivity& each) { return each.key.starts_with("operator."); });
     return own;
   }
-  const TerminationCircles discs(free);
+  const TerminationDiscs discs(free);
   const std::vector<DesignParameter> parameters = parameters_of(free);
   std::vector<double> sensitivities(parameters.size(), std::numeric_limits<double>::quiet_NaN());
   const std::optional<double> step = step_from_rest(free, discs, limit);

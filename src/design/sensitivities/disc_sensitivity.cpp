@@ -110,7 +110,7 @@ class Density {
 
 Complex rounded(const Number& value) { return {static_cast<double>(value.real()), static_cast<double>(value.imag())}; }
 
-/// The sums over aliases, without the hold and the filters: see TerminationCircles::summed().
+/// The sums over aliases, without the hold and the filters: see TerminationDiscs::summed().
 struct Sums {
   Complex shift;
   double radius = 0.0;
@@ -120,7 +120,7 @@ struct Sums {
   double far_density = 0.0;  // the limit of w² |g|
 };
 
-Sums sums_over_aliases(const Device& free, const TerminationCircles& discs, double angle,
+Sums sums_over_aliases(const Device& free, const TerminationDiscs& discs, double angle,
                        std::span<const DesignParameter> parameters) {
   const double period = free.loop().sampling_period;
   const double delay = free.loop().delay;
@@ -162,7 +162,7 @@ Sums sums_over_aliases(const Device& free, const TerminationCircles& discs, doub
 
 }  // namespace
 
-DiscSensitivity disc_sensitivity(const Device& free, const TerminationCircles& discs, double angle,
+DiscSensitivity disc_sensitivity(const Device& free, const TerminationDiscs& discs, double angle,
                                  std::span<const DesignParameter> parameters) {
   const double period = free.loop().sampling_period;
   const double spacing = 2.0 * pi / period;

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "design/sensitivities/design_parameter.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::internal {
 
 /// The disc of passive users at one angle, with the wall's filters, and its derivatives at a fixed angle.
 struct DiscSensitivity {
-  TerminationCircles::Disc disc;
+  TerminationDiscs::Disc disc;
   std::vector<std::complex<double>> centre_by_parameter;
   std::vector<double> radius_by_parameter;
 };
@@ -26,8 +26,8 @@ struct DiscSensitivity {
 ///
 ///     T c_T + t_d c_td + tau c_tau + sum (2 m c_m + b c_b) = 0.
 ///
-/// `free` is the device without its operator, `discs` are its discs; 0 < angle <= pi.
-[[nodiscard]] DiscSensitivity disc_sensitivity(const Device& free, const TerminationCircles& discs, double angle,
+/// `free` is the device without its user, `discs` are its discs; 0 < angle <= pi.
+[[nodiscard]] DiscSensitivity disc_sensitivity(const Device& free, const TerminationDiscs& discs, double angle,
                                                std::span<const DesignParameter> parameters);
 
 }  // namespace zwidth::internal

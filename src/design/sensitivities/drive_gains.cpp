@@ -178,7 +178,7 @@ std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& 
     return option_problem("wall.velocity_filter_hz", {.code = ProblemCode::filter_unknown_to_drive});
   }
   if (parameters.motion == Motion::linear && !drive.travel) {
-    return option_problem("driver.travel", {.code = ProblemCode::travel_missing});
+    return option_problem("driver.travel", {.code = ProblemCode::travel_per_turn_missing});
   }
   if (cascade && !(wall.damping > 0.0)) {
     return option_problem("wall.damping", {.code = ProblemCode::damping_needed_by_drive});

@@ -88,7 +88,7 @@ class DamperRecommendation {
       if (!result.reason) result.reason = why_no_damper();
       return result;
     }
-    RecommendedWall wall = described("recommended", *best, result.trust);
+    RecommendedWall wall = described(Kind::recommended, *best, result.trust);
     if (result.trust.refused()) {
       result.status = WallRecommendation::Status::refused;
       return result;
@@ -96,11 +96,13 @@ class DamperRecommendation {
     if (wall.wall.velocity_filter_hz > 0.0) wall.bounded_by.velocity_filter = best->bound;
     result.status = WallRecommendation::Status::found;
     result.wall = std::move(wall);
-    if (best->damper.velocity_filter_hz > 0.0) add("no velocity filter", *unfiltered, result);
+    if (best->damper.velocity_filter_hz > 0.0) add(Kind::no_velocity_filter, *unfiltered, result);
     return result;
   }
 
  private:
+  using Kind = RecommendedWall::Kind;
+
   /// What uncertainty and modal shifts leave of it.
   void lower(Damper& found, WallRecommendation& result) const {
     const auto take = [&](const std::vector<Device>& devices, double may_fail, WallBound by) {
@@ -119,10 +121,10 @@ class DamperRecommendation {
     }
   }
 
-  [[nodiscard]] RecommendedWall described(std::string what, const Damper& found, Trust& trust) const {
+  [[nodiscard]] RecommendedWall described(Kind kind, const Damper& found, Trust& trust) const {
     const Device walled = with_wall(device_, 0.0, found.damper);
     RecommendedWall wall;
-    wall.what = std::move(what);
+    wall.kind = kind;
     wall.wall = walled.parameters().wall;
     limits_.check(found.damper, trust);
     if (trust.refused()) return wall;
@@ -140,12 +142,12 @@ class DamperRecommendation {
     return wall;
   }
 
-  void add(std::string what, Damper found, WallRecommendation& result) const {
+  void add(Kind kind, Damper found, WallRecommendation& result) const {
     WallRecommendation ignored;
     lower(found, ignored);
     Trust trust;
     if (!(found.damper.damping > 0.0)) return;
-    RecommendedWall wall = described(std::move(what), found, trust);
+    RecommendedWall wall = described(kind, found, trust);
     if (!trust.refused()) result.alternatives.push_back(std::move(wall));
   }
 
@@ -157,7 +159,7 @@ class DamperRecommendation {
   void remark_on_bounds(WallRecommendation& result) const {
     if (options_.quantisation_force && !(device_.parameters().sensor.resolution > 0.0)) {
       result.remarks.push_back(warning({.code = FindingCode::force_per_count_unknown,
-                                        .subjects = {{"what", "the damper"}},
+                                        .subjects = {{"what", "damper"}},
                                         .key = "sensor.resolution"}));
     }
     if (!can_be_held(device_)) {

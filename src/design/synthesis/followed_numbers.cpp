@@ -11,7 +11,7 @@
 
 #include "design/sensitivities/number_limit.hpp"
 #include "stability/users/disc_stiffness.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -36,7 +36,7 @@ double influence_of(const Device& device, const DesignParameter& parameter, Wall
   if (parameter.value == 0.0 || find_problem(moved)) return 0.0;
   const auto reached_by = [number, frequency](const Device& each) {
     const double at = std::min(frequency, std::numbers::pi / each.loop().sampling_period);
-    return least_gain(TerminationCircles(each).at(at), response_of(each, number, at));
+    return least_gain(TerminationDiscs(each).at(at), response_of(each, number, at));
   };
   try {
     const double influence = std::abs(std::log(reached_by(Device(std::move(moved))) / reached_by(device)));

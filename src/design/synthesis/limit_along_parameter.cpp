@@ -60,7 +60,7 @@ double LimitAlongParameter::of_any_user(const Device& device, double enough, Lim
   const bool is_of_damper = parameter_.kind == DesignParameter::Kind::wall_damping ||
                             parameter_.kind == DesignParameter::Kind::velocity_filter_hz;
   if (!is_of_damper && enough > 0.0 && !angles_.empty()) {
-    const TerminationCircles discs(device);
+    const TerminationDiscs discs(device);
     for (std::size_t i = angles_.size(); i-- > 0;) {
       for (const double factor : beside) {
         const double frequency = std::min(angles_[i] * factor, std::numbers::pi) / period;

@@ -43,7 +43,7 @@ class LimitAlongParameter {
   WallNumber number_;
   std::vector<double> angles_;  // where users have set the limit, rad per sample, the latest last
   std::unique_ptr<AbsoluteStabilitySearch>
-      users_;  // of a number of the wall's damper, which the passive termination circles do not depend on
+      users_;  // of a number of the wall's damper, which the termination discs do not depend on
 };
 
 }  // namespace zwidth::internal

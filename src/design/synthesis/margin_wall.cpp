@@ -217,7 +217,7 @@ bool keeps_margins(const Device& device, double stiffness, const RequiredMargins
 LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progress)
     : period_(device.loop().sampling_period), angles_(grid_of(device)) {
   const FilteredPlant plant = filtered_plant(device);
-  std::optional<TerminationCircles> users;
+  std::optional<TerminationDiscs> users;
   if (with_users) users.emplace(device, progress);
   plant_.reserve(angles_.size());
   damper_.reserve(angles_.size());
@@ -232,7 +232,7 @@ LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progre
     damper_.push_back(damper_response(virtual_damper(device), period_, frequency));
     clear_.push_back(SeenCrossings::is_clear_of_rounding(plant, angle));
     if (!users) continue;
-    // The discs are those behind the wall's own filters (TerminationCircles closes them).
+    // The discs are those behind the wall's own filters (TerminationDiscs closes them).
     discs_.push_back(users->at(frequency));
   }
 }
@@ -315,8 +315,8 @@ double LoopGrid::any_user(const Response& factor, const Response& damper, double
   double least = infinity;
   for (std::size_t i = 0; i < discs_.size(); ++i) {
     const double size = std::abs(factor[i]);
-    const TerminationCircles::Disc seen{discs_[i].centre * factor[i], discs_[i].radius * size,
-                                        discs_[i].power * size * size};
+    const TerminationDiscs::Disc seen{discs_[i].centre * factor[i], discs_[i].radius * size,
+                                      discs_[i].power * size * size};
     least = std::min(least, least_stiffness(seen, scale * damper[i]));
   }
   return least;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "design/region/seen_crossings.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -95,11 +95,11 @@ class LoopGrid {
 
   double period_ = 0.0;
   std::vector<double> angles_;
-  Response deltas_;                              // z - 1
-  Response plant_;                               // seen through the wall's own filters
-  Response damper_;                              // B v
-  std::vector<bool> clear_;                      // of rounding, the plant
-  std::vector<TerminationCircles::Disc> discs_;  // behind the wall's own filters
+  Response deltas_;                            // z - 1
+  Response plant_;                             // seen through the wall's own filters
+  Response damper_;                            // B v
+  std::vector<bool> clear_;                    // of rounding, the plant
+  std::vector<TerminationDiscs::Disc> discs_;  // behind the wall's own filters
 };
 
 }  // namespace zwidth::internal

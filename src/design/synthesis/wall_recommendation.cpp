@@ -78,7 +78,7 @@ class Recommendation {
     }
     Trust trust;
     stages_.next(0.8);
-    RecommendedWall wall = described("recommended", *best, trust);
+    RecommendedWall wall = described(Kind::recommended, *best, trust);
     result.trust.inherit(trust);
     if (trust.refused()) {
       result.status = WallRecommendation::Status::refused;
@@ -99,6 +99,8 @@ class Recommendation {
   }
 
  private:
+  using Kind = RecommendedWall::Kind;
+
   [[nodiscard]] WallLimits& limits_of(const std::optional<WallFilter>& notch) {
     if (notch && !notched_) notched_ = std::make_unique<WallLimits>(with_filter(device_, *notch), options_);
     return notch ? *notched_ : limits_;
@@ -226,13 +228,13 @@ class Recommendation {
   }
 
   /// With everything that stands behind it; `trust` says what the check found.
-  [[nodiscard]] RecommendedWall described(std::string what, const Candidate& candidate, Trust& trust) {
+  [[nodiscard]] RecommendedWall described(Kind kind, const Candidate& candidate, Trust& trust) {
     WallLimits& limits = limits_of(candidate.notch);
     VirtualDamper damper = candidate.damper;
     if (damper.damping == 0.0) damper.velocity_filter_hz = 0.0;
     const Device walled = with_wall(limits.device(), candidate.stiffest.stiffness, damper);
     RecommendedWall wall;
-    wall.what = std::move(what);
+    wall.kind = kind;
     wall.wall = walled.parameters().wall;
     wall.notch = candidate.notch;
     tell(options_.progress, 0.0);
@@ -255,7 +257,7 @@ class Recommendation {
     return wall;
   }
 
-  void add(std::string what, std::optional<Candidate> candidate, WallRecommendation& result) {
+  void add(Kind kind, std::optional<Candidate> candidate, WallRecommendation& result) {
     if (!candidate || !(candidate->stiffest.stiffness > 0.0) || !std::isfinite(candidate->stiffest.stiffness)) return;
     WallRecommendation ignored;
     candidate = lowered(*candidate, ignored);
@@ -267,10 +269,10 @@ class Recommendation {
     };
     if (is_like(*result.wall) || std::ranges::any_of(result.alternatives, is_like)) return;
     Trust trust;
-    RecommendedWall wall = described(what, *candidate, trust);
+    RecommendedWall wall = described(kind, *candidate, trust);
     if (trust.refused()) {
-      result.trust.doubt(
-          {.code = FindingCode::alternative_left_out, .subjects = {{"what", what}, {"reason", trust.reasons.front()}}});
+      result.trust.doubt({.code = FindingCode::alternative_left_out,
+                          .subjects = {{"what", std::string(words_of(kind))}, {"reason", trust.reasons.front()}}});
       return;
     }
     result.trust.inherit(trust);
@@ -282,18 +284,18 @@ class Recommendation {
   }
 
   void add_alternatives(const Candidate& best, const std::optional<Candidate>& plain, WallRecommendation& result) {
-    add("no virtual damper", exact({0.0, 0.0}, {}, options_.goal), result);
+    add(Kind::no_virtual_damper, exact({0.0, 0.0}, {}, options_.goal), result);
     for (const double share : {0.5, 1.5}) {
       if (best.damper.damping == 0.0) break;
-      add(share < 1.0 ? "half the damping" : "half as much damping again", with_share(best, share), result);
+      add(share < 1.0 ? Kind::half_damping : Kind::more_damping, with_share(best, share), result);
     }
-    add("no velocity filter", unfiltered_, result);
-    if (best.notch) add("no notch", plain, result);
-    for (const auto& [goal, what] : {std::pair{WallGoal::stiffness, "stiffest"},
-                                     {WallGoal::width, "greatest K B"},
-                                     {WallGoal::critical_damping, "contact critically damped"}}) {
+    add(Kind::no_velocity_filter, unfiltered_, result);
+    if (best.notch) add(Kind::no_notch, plain, result);
+    for (const auto& [goal, kind] : {std::pair{WallGoal::stiffness, Kind::stiffest},
+                                     {WallGoal::width, Kind::widest},
+                                     {WallGoal::critical_damping, Kind::critically_damped}}) {
       if (goal == options_.goal || (goal == WallGoal::critical_damping && !device_.has_bodies())) continue;
-      add(what, other_goal(goal, best), result);
+      add(kind, other_goal(goal, best), result);
     }
   }
 
@@ -315,9 +317,8 @@ class Recommendation {
 
   void remark_on_bounds(WallRecommendation& result) const {
     if (!(device_.parameters().sensor.resolution > 0.0)) {
-      Finding finding{.code = FindingCode::force_per_count_unknown,
-                      .subjects = {{"what", "stiffness and damping"}},
-                      .key = "sensor.resolution"};
+      Finding finding{
+          .code = FindingCode::force_per_count_unknown, .subjects = {{"what", "wall"}}, .key = "sensor.resolution"};
       result.remarks.push_back(options_.quantisation_force ? warning(std::move(finding)) : note(std::move(finding)));
     }
     if (!limits_.has_users()) {

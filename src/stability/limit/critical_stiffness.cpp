@@ -1,15 +1,14 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 
+#include "require_argument.hpp"
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/mechanism_at.hpp"
-#include "zwidth/error.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -23,12 +22,8 @@ CriticalStiffness critical_stiffness(const Device& device) {
 }
 
 CriticalStiffness critical_stiffness(const FilteredPlant& plant, VirtualDamper damper) {
-  for (const double value : {damper.damping, damper.velocity_filter_hz}) {
-    if (!(value >= 0.0) || !std::isfinite(value)) {
-      throw Error(ErrorCode::invalid_argument,
-                  {.code = ProblemCode::virtual_damper_below_zero, .evidence = {{"value", value}, {"finite", 1.0}}});
-    }
-  }
+  require_not_negative({"virtual damper", damper.damping});
+  require_not_negative({"velocity filter", damper.velocity_filter_hz, "Hz"});
   return critical_stiffness_of(plant, stiffness_crossings(plant, damper));
 }
 

@@ -18,14 +18,14 @@ std::optional<QuantisationPassivity> quantisation_passivity(const Device& device
   bound.friction_stiffness = 2.0 * friction / resolution;
   bound.damping_stiffness = 2.0 * damping / parameters.loop.sampling_period;
   bound.stiffness = std::min(bound.friction_stiffness, bound.damping_stiffness);
-  if (!parameters.links.empty()) bound.not_met.emplace_back("flexible links");
+  if (!parameters.links.empty()) bound.not_met.push_back(UnmetAssumption::flexible_links);
   if (std::ranges::any_of(device.bodies(), [](const Body& body) { return body.stiffness > 0.0; })) {
-    bound.not_met.emplace_back("springs to ground");
+    bound.not_met.push_back(UnmetAssumption::springs_to_ground);
   }
-  if (parameters.loop.delay > 0.0) bound.not_met.emplace_back("a delay");
-  if (parameters.actuator.time_constant > 0.0) bound.not_met.emplace_back("an actuator lag");
-  if (parameters.wall.damping > 0.0) bound.not_met.emplace_back("a virtual damper");
-  if (!parameters.wall.filters.empty()) bound.not_met.emplace_back("filters in the wall");
+  if (parameters.loop.delay > 0.0) bound.not_met.push_back(UnmetAssumption::delay);
+  if (parameters.actuator.time_constant > 0.0) bound.not_met.push_back(UnmetAssumption::actuator_lag);
+  if (parameters.wall.damping > 0.0) bound.not_met.push_back(UnmetAssumption::virtual_damper);
+  if (!parameters.wall.filters.empty()) bound.not_met.push_back(UnmetAssumption::wall_filters);
   return bound;
 }
 

@@ -31,13 +31,13 @@ class PoleCount {
   // on the unit circle. Nothing where a pole is too near the circle to tell.
   [[nodiscard]] std::optional<int> in_double(double stiffness) const;
 
-  // With a hundred digits: the characteristic polynomial and Routh's count of its roots. Slow, and only for loops of up
-  // to most_states_for_digits states, delays included; nothing beyond.
+  // In ball arithmetic of 332 to 2048 bits, as many as make every sign sure: the characteristic polynomial and Routh's
+  // count of its roots. Slow, and only for loops of up to most_states_for_digits states, delays included; nothing beyond.
   [[nodiscard]] std::optional<int> in_digits(double stiffness) const;
 
-  // Poles that were found on the circle at 0 < angle < pi, again with a hundred digits: where the terms of the response
-  // keep fewer than K needs, which may turn out to be negative. Those that do not settle beside where they were stay, and
-  // all of larger loops.
+  // Poles that were found on the circle at 0 < angle < pi, again in ball arithmetic of 332 bits: where the terms of the
+  // response keep fewer digits than K needs, which may turn out to be negative. Those that do not settle beside where
+  // they were stay, and all of larger loops.
   void polish_in_digits(std::vector<PoleOnCircle>& poles) const;
 
   static constexpr std::size_t most_states_for_digits = 40;

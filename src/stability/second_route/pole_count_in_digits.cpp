@@ -13,17 +13,17 @@
 #include "model/device_matrices.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "stability/roots/ball.hpp"
+#include "stability/second_route/characteristic_polynomial.hpp"
 #include "stability/second_route/pole_count.hpp"
-#include "stability/second_route/routh.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 // Bits, by turns, until every sign is sure. Poles that coincide m times are known to the m-th root of what rounding leaves.
-constexpr std::array<slong, 3> digits_of_count{332, 768, 2048};
+constexpr std::array<slong, 3> bits_of_count{332, 768, 2048};
 // Beyond so many states the last would take seconds.
 constexpr std::size_t most_states_for_all = 24;
-constexpr slong digits_of_polish = 332;
+constexpr slong bits_of_polish = 332;
 
 int sure_sign(const Polynomial<Ball>& row) { return row[0].sure_sign(); }
 
@@ -271,17 +271,17 @@ std::optional<PoleOnCircle> settled(const Polynomial<Ball>& open, const Polynomi
 std::optional<int> unstable_poles_in_digits(const Device& device, double stiffness) {
   // Just outside the circle, so that a mode that nothing damps and nothing moves lies inside.
   constexpr double beside = 0x1p-80;
-  for (const slong bits : digits_of_count) {
+  for (const slong bits : bits_of_count) {
     const BallDigits digits(bits);
     const CirclePolynomials<Ball> loop = loop_in_digits(device, Ball(beside));
     if (const auto count = loop.outside(stiffness, device.parameters().wall.damping, sure_sign)) return count;
-    if (bits > digits_of_count.front() && loop.of_stiffness().size() > most_states_for_all) break;
+    if (bits > bits_of_count.front() && loop.of_stiffness().size() > most_states_for_all) break;
   }
   return std::nullopt;
 }
 
 void polish_poles_in_digits(const Device& device, std::vector<PoleOnCircle>& poles) {
-  const BallDigits digits(digits_of_polish);
+  const BallDigits digits(bits_of_polish);
   const CirclePolynomials<Ball> loop = loop_in_digits(device, Ball(0.0));
   const Polynomial<Ball> open = loop.without_spring(device.parameters().wall.damping);
   for (PoleOnCircle& pole : poles) pole = settled(open, loop.of_stiffness(), pole).value_or(pole);

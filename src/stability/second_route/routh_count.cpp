@@ -7,7 +7,7 @@
 
 #include "model/balance.hpp"
 #include "model/extended_precision.hpp"
-#include "stability/second_route/routh.hpp"
+#include "stability/second_route/characteristic_polynomial.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -51,7 +51,7 @@ constexpr double same_stiffness = 1e-9;  // relative: the limit towards w = 0 is
 
 /// Where the condition may be tightest whatever the damper: evenly, towards zero, and around every mode of the held
 /// device and its alias.
-std::vector<double> frequencies_to_scan(const TerminationCircles& discs, double period, double delay,
+std::vector<double> frequencies_to_scan(const TerminationDiscs& discs, double period, double delay,
                                         const std::vector<WallFilter>& filters) {
   const double nyquist = pi / period;
   std::vector<double> scan{nyquist};
@@ -106,11 +106,11 @@ WallResponse AbsoluteStabilitySearch::wall_at(VirtualDamper damper, double frequ
   return free_gain_ == FreeGain::damping ? WallResponse{velocity, 0.0} : WallResponse{1.0, velocity};
 }
 
-double AbsoluteStabilitySearch::limit_at(VirtualDamper damper, const TerminationCircles::Place& place) const {
+double AbsoluteStabilitySearch::limit_at(VirtualDamper damper, const TerminationDiscs::Place& place) const {
   return least_gain(discs_.scaled_at(place), wall_at(damper, place.frequency()));
 }
 
-double AbsoluteStabilitySearch::quick_limit_at(VirtualDamper damper, const TerminationCircles::Place& place) const {
+double AbsoluteStabilitySearch::quick_limit_at(VirtualDamper damper, const TerminationDiscs::Place& place) const {
   return least_gain(pieces_.at(place), wall_at(damper, place.frequency()));
 }
 
@@ -148,7 +148,7 @@ std::vector<AbsoluteStabilitySearch::Sample> AbsoluteStabilitySearch::scan(Virtu
 /// Refines the local minima among samples, all of one base and by rising offset, that may lead below the least.
 void AbsoluteStabilitySearch::take_least_of(VirtualDamper damper, const std::vector<Sample>& samples,
                                             Sample& least) const {
-  const auto take = [&](const TerminationCircles::Place& place) {
+  const auto take = [&](const TerminationDiscs::Place& place) {
     const double stiffness = limit_at(damper, place);
     if (stiffness < least.stiffness) least = {place, stiffness};
   };
@@ -184,7 +184,7 @@ void AbsoluteStabilitySearch::take_least_of(VirtualDamper damper, const std::vec
 /// The least K of a piece, looking closer around `at`.
 AbsoluteStabilitySearch::Sample AbsoluteStabilitySearch::least_within(VirtualDamper damper,
                                                                       const DiscPieces::Piece& piece,
-                                                                      const TerminationCircles::Place& at) const {
+                                                                      const TerminationDiscs::Place& at) const {
   std::vector<double> offsets{at.offset};
   for (int i = 0; i <= looks_within_piece; ++i) {
     const double offset = piece.place_at(-1.0 + 2.0 * i / looks_within_piece).offset;
@@ -199,7 +199,7 @@ AbsoluteStabilitySearch::Sample AbsoluteStabilitySearch::least_within(VirtualDam
   std::sort(offsets.begin(), offsets.end());
   std::vector<Sample> samples;
   for (const double offset : offsets) {
-    const TerminationCircles::Place place{piece.base, offset};
+    const TerminationDiscs::Place place{piece.base, offset};
     samples.push_back({place, quick_limit_at(damper, place)});
   }
   Sample least{at, infinity};
@@ -213,7 +213,7 @@ void AbsoluteStabilitySearch::look_at_zeros(VirtualDamper damper, Sample& least)
   constexpr double narrowest = 1e-14;
   constexpr double ratio = 0.2;
   constexpr double one_sided = 1e-100;
-  for (const TerminationCircles::SharpImage& each : discs_.sharp_images()) {
+  for (const TerminationDiscs::SharpImage& each : discs_.sharp_images()) {
     if (!(each.image > 0.0 && each.image <= pi / period_)) continue;
     const SharpZero& zero = discs_.zeros().sharp[each.zero];
     // Where discs grow as 1/e a half plane on one side of the zero is another than on the other.
@@ -224,7 +224,7 @@ void AbsoluteStabilitySearch::look_at_zeros(VirtualDamper damper, Sample& least)
     for (const double side : {-1.0, 1.0}) {
       std::vector<Sample> samples;
       for (const double distance : distances) {
-        const TerminationCircles::Place place{each.image, side * distance};
+        const TerminationDiscs::Place place{each.image, side * distance};
         if (place.frequency() <= 0.0 || place.frequency() > pi / period_) continue;
         samples.push_back({place, quick_limit_at(damper, place)});
       }

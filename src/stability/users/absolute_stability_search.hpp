@@ -5,7 +5,7 @@
 
 #include "stability/loop/damper_response.hpp"
 #include "stability/users/disc_pieces.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
@@ -30,7 +30,7 @@ class AbsoluteStabilitySearch {
  private:
   /// The stiffness that the condition allows at one frequency, rad/s.
   struct Sample {
-    TerminationCircles::Place place;
+    TerminationDiscs::Place place;
     double stiffness = 0.0;
   };
   /// Which gain is free; VirtualDamper::damping is 1 N s/m where it is the damper's.
@@ -38,23 +38,23 @@ class AbsoluteStabilitySearch {
   [[nodiscard]] AbsoluteStabilityLimit limit_of(VirtualDamper damper, const CriticalStiffness& free,
                                                 const Progress& progress);
   [[nodiscard]] WallResponse wall_at(VirtualDamper damper, double frequency) const;
-  [[nodiscard]] double limit_at(VirtualDamper damper, const TerminationCircles::Place& place) const;
-  [[nodiscard]] double quick_limit_at(VirtualDamper damper, const TerminationCircles::Place& place) const;
+  [[nodiscard]] double limit_at(VirtualDamper damper, const TerminationDiscs::Place& place) const;
+  [[nodiscard]] double quick_limit_at(VirtualDamper damper, const TerminationDiscs::Place& place) const;
   [[nodiscard]] std::vector<Sample> scan(VirtualDamper damper, const CriticalStiffness& free) const;
   void take_least_of(VirtualDamper damper, const std::vector<Sample>& samples, Sample& least) const;
   [[nodiscard]] Sample least_within(VirtualDamper damper, const DiscPieces::Piece& piece,
-                                    const TerminationCircles::Place& at) const;
+                                    const TerminationDiscs::Place& at) const;
   void look_at_zeros(VirtualDamper damper, Sample& least) const;
   [[nodiscard]] std::optional<double> beaten_by_tuned_user(VirtualDamper damper, double stiffness) const;
   [[nodiscard]] double prove(VirtualDamper damper, const Progress& progress, Sample& least);
 
   Device free_;
-  TerminationCircles discs_;
+  TerminationDiscs discs_;
   FreeGain free_gain_ = FreeGain::stiffness;
   double period_ = 0.0;
   DiscPieces pieces_;
-  std::vector<double> frequencies_;                 // where the condition may be tightest with any damper, rising
-  std::vector<TerminationCircles::Disc> discs_at_;  // at those
+  std::vector<double> frequencies_;               // where the condition may be tightest with any damper, rising
+  std::vector<TerminationDiscs::Disc> discs_at_;  // at those
 };
 
 }  // namespace zwidth::internal

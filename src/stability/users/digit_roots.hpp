@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "stability/second_route/motion_polynomials.hpp"
+#include "stability/users/motion_polynomials.hpp"
 
 namespace zwidth::internal {
 

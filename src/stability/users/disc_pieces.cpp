@@ -48,7 +48,7 @@ std::vector<Singularity> images_of(const ModalForm& form, double period) {
 }
 
 /// The same of the zeros of Re Y, the poles of discs; those of the frequency itself are taken off by a factor.
-void add_zeros(const TerminationCircles& discs, double period, std::vector<Singularity>& images) {
+void add_zeros(const TerminationDiscs& discs, double period, std::vector<Singularity>& images) {
   const double nyquist = pi / period;
   const auto add = [&](double frequency, double depth) {
     if (depth > nyquist) return;
@@ -90,7 +90,7 @@ std::vector<Singularity> poles_of(const std::vector<FilterSection>& filters, dou
 
 }  // namespace
 
-AliasSums::AliasSums(const TerminationCircles& discs, double period, const std::vector<Singularity>& images)
+AliasSums::AliasSums(const TerminationDiscs& discs, double period, const std::vector<Singularity>& images)
     : near_(interpolated_sums([&](double w) { return discs.near_aliases(w); }, pi / period, images)),
       far_(interpolated_sums([&](double w) { return discs.far_aliases(w); }, pi / period, {})) {}
 
@@ -159,13 +159,13 @@ AliasSums::Value AliasSums::at(double frequency) const {
   return value;
 }
 
-TerminationCircles::Place DiscPieces::Piece::place_at(double x) const {
+TerminationDiscs::Place DiscPieces::Piece::place_at(double x) const {
   if (begins_at_rest()) return {0.0, end * std::sqrt(0.5 * (1.0 + x))};
   const double offset = 0.5 * (begin + end) + 0.5 * (end - begin) * x;
   return {base, side * offset};
 }
 
-DiscPieces::DiscPieces(const TerminationCircles& discs, const Device& device)
+DiscPieces::DiscPieces(const TerminationDiscs& discs, const Device& device)
     : discs_(&discs), period_(device.loop().sampling_period) {
   // Centre and radius of a disc have no pole at a mode: the user may hold it still, or make it any other.
   if (!discs.zeros().are_complete) singularities_ = images_of(discs.held_form(), period_);
@@ -189,7 +189,7 @@ DiscPieces::DiscPieces(const TerminationCircles& discs, const Device& device)
   }
   most_width_ = most_turning / (device.loop().delay + period_);
   std::vector<double> images;
-  for (const TerminationCircles::SharpImage& each : discs.sharp_images()) {
+  for (const TerminationDiscs::SharpImage& each : discs.sharp_images()) {
     if (each.image > 0.0 && each.image <= nyquist) images.push_back(each.image);
   }
   std::sort(images.begin(), images.end());
@@ -267,10 +267,10 @@ const DiscPieces::Piece& DiscPieces::sampled(std::size_t index) {
   Piece& piece = pieces_[index];
   if (piece.is_sampled) return piece;
   for (std::size_t i = 0; i < interpolation_points; ++i) {
-    const TerminationCircles::Place place = piece.place_at(interpolation_nodes()[i]);
+    const TerminationDiscs::Place place = piece.place_at(interpolation_nodes()[i]);
     const double frequency = place.frequency();
     const AliasSums::Value others = sums_.at(frequency);
-    const TerminationCircles::SplitDisc split = discs_->with_others(place, others.sums, piece.highest());
+    const TerminationDiscs::SplitDisc split = discs_->with_others(place, others.sums, piece.highest());
     const double mirrored = piece.begins_at_rest() ? discs_->mirrored_measures(frequency) : 1.0;
     piece.nodes[i] = {frequency, split.disc, split.factor * mirrored, split.shared * others.error};
   }
@@ -278,7 +278,7 @@ const DiscPieces::Piece& DiscPieces::sampled(std::size_t index) {
   return piece;
 }
 
-TerminationCircles::Disc DiscPieces::at(const TerminationCircles::Place& place) const {
+TerminationDiscs::Disc DiscPieces::at(const TerminationDiscs::Place& place) const {
   return discs_->with_others(place, sums_.at(place.frequency()).sums, place.frequency()).disc;
 }
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "stability/roots/interval_polynomial.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 
 namespace zwidth::internal {
 
-/// TerminationCircles::other_aliases() on (0, pi/T], interpolated.
+/// TerminationDiscs::other_aliases() on (0, pi/T], interpolated.
 class AliasSums {
  public:
   struct Singularity {
@@ -22,10 +22,10 @@ class AliasSums {
   };
 
   AliasSums() = default;
-  AliasSums(const TerminationCircles& discs, double period, const std::vector<Singularity>& images);
+  AliasSums(const TerminationDiscs& discs, double period, const std::vector<Singularity>& images);
 
   struct Value {
-    TerminationCircles::OtherAliases sums;
+    TerminationDiscs::OtherAliases sums;
     double error = 0.0;  // of either sum
   };
   [[nodiscard]] Value at(double frequency) const;
@@ -46,21 +46,21 @@ class AliasSums {
   static const Piece& piece_at(const Pieces& pieces, double frequency);
   static void add(const Piece& piece, double frequency, Value& value);
 
-  Pieces near_;  // TerminationCircles::near_aliases()
-  Pieces far_;   // TerminationCircles::far_aliases()
+  Pieces near_;  // TerminationDiscs::near_aliases()
+  Pieces far_;   // TerminationDiscs::far_aliases()
 };
 
 /// The discs on pieces of (0, pi/T], made when they are first asked for and kept: they do not depend on the damper.
 class DiscPieces {
  public:
   DiscPieces() = default;
-  DiscPieces(const TerminationCircles& discs, const Device& device);
+  DiscPieces(const TerminationDiscs& discs, const Device& device);
 
   struct Node {
     double frequency = 0.0;
-    TerminationCircles::Disc disc;  // scaled
-    double factor = 0.0;            // see TerminationCircles::SplitDisc
-    double error = 0.0;             // of centre and radius each, over the disc's `one`
+    TerminationDiscs::Disc disc;  // scaled
+    double factor = 0.0;          // see TerminationDiscs::SplitDisc
+    double error = 0.0;           // of centre and radius each, over the disc's `one`
   };
   struct Piece {
     double base = 0.0;  // rad/s; 0, or the image of a sharp zero, from which what vanishes there keeps its digits
@@ -77,7 +77,7 @@ class DiscPieces {
     [[nodiscard]] bool begins_at_rest() const { return base == 0.0 && begin == 0.0; }
     [[nodiscard]] bool begins_at_zero_of_dissipation() const { return base != 0.0 && begin == 0.0; }
     /// A place of the piece, from -1 <= x <= 1 in which it is interpolated.
-    [[nodiscard]] TerminationCircles::Place place_at(double x) const;
+    [[nodiscard]] TerminationDiscs::Place place_at(double x) const;
     [[nodiscard]] double lowest() const { return side > 0.0 ? base + begin : base - end; }
     [[nodiscard]] double highest() const { return side > 0.0 ? base + end : base - begin; }
   };
@@ -94,14 +94,14 @@ class DiscPieces {
   [[nodiscard]] bool is_clear_of_poles(std::size_t index, double further) const;
 
   /// The disc from the interpolated sums, scaled.
-  [[nodiscard]] TerminationCircles::Disc at(const TerminationCircles::Place& place) const;
+  [[nodiscard]] TerminationDiscs::Disc at(const TerminationDiscs::Place& place) const;
 
  private:
   void add_first(double begin, double end, double base = 0.0, double side = 1.0);
   void add_between(double begin, double end);
   double most_width_ = 0.0;  // of a piece, for the delay
 
-  const TerminationCircles* discs_ = nullptr;
+  const TerminationDiscs* discs_ = nullptr;
   double period_ = 0.0;
   AliasSums sums_;
   std::vector<AliasSums::Singularity> singularities_;  // of the filters and of the images

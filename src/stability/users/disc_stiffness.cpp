@@ -18,7 +18,7 @@ double least_root(double constant, double half, double quadratic) {
 // With A = |c|² - r²:
 //
 //     1 + 2 Re[d c] + A |d|² + 2 g (Re[u c] + A Re[u conj d]) + g² A |u|² = 0
-double least_gain(const TerminationCircles::Disc& disc, const WallResponse& wall) {
+double least_gain(const TerminationDiscs::Disc& disc, const WallResponse& wall) {
   if (!std::isfinite(disc.radius)) return 0.0;
   const auto& [unit, closed] = wall;
   return least_root(disc.one + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),

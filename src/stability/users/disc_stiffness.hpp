@@ -3,7 +3,7 @@
 #include <complex>
 
 #include "stability/loop/damper_response.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 
 namespace zwidth::internal {
 
@@ -12,10 +12,10 @@ namespace zwidth::internal {
 [[nodiscard]] double least_root(double constant, double half, double quadratic);
 
 /// The least g > 0 with |1 + (g u + d) c| = |g u + d| r; infinity where there is none (1: disc.one).
-[[nodiscard]] double least_gain(const TerminationCircles::Disc& disc, const WallResponse& wall);
+[[nodiscard]] double least_gain(const TerminationDiscs::Disc& disc, const WallResponse& wall);
 
 /// The same of the stiffness, u = 1, where `damper` is B v.
-[[nodiscard]] inline double least_stiffness(const TerminationCircles::Disc& disc, std::complex<double> damper) {
+[[nodiscard]] inline double least_stiffness(const TerminationDiscs::Disc& disc, std::complex<double> damper) {
   return least_gain(disc, {1.0, damper});
 }
 

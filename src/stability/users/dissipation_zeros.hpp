@@ -1,6 +1,6 @@
 #pragma once
 
-// Where passive termination circles grow without bound, or nearly so: the zeros of Re Y = w² q^H Dmp q.
+// Where termination discs grow without bound, or nearly so: the zeros of Re Y = w² q^H Dmp q.
 
 #include <cstddef>
 #include <vector>
@@ -12,7 +12,7 @@ namespace zwidth::internal {
 
 struct DissipationZeros {
   explicit DissipationZeros() = default;
-  /// Of a device without operator that has bodies, motions_polynomials() allowing. `nyquist`: in rad/s.
+  /// Of a device without user that has bodies, motion_polynomials() allowing. `nyquist`: in rad/s.
   DissipationZeros(const Device& device, double nyquist);
 
   struct Zero {

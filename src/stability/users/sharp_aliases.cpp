@@ -1,4 +1,4 @@
-// The aliases of passive termination circles in which a zero of Re Y lies on the axis of frequencies or nearly so.
+// The aliases of termination discs in which a zero of Re Y lies on the axis of frequencies or nearly so.
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -16,7 +16,7 @@ constexpr double beside_range = 0.05;  // of Nyquist: images so near to 0..pi/T 
 }  // namespace
 
 /// A zero at w0 is seen by the alias in which it lies, and beside 0 and pi/T by its neighbours.
-void TerminationCircles::find_sharp_images() {
+void TerminationDiscs::find_sharp_images() {
   const double nyquist = std::numbers::pi / period_;
   for (std::size_t i = 0; i < zeros_.sharp.size(); ++i) {
     const double w0 = zeros_.sharp[i].frequency;
@@ -36,12 +36,12 @@ void TerminationCircles::find_sharp_images() {
   });
 }
 
-bool TerminationCircles::is_sharp(double number, double side) const {
+bool TerminationDiscs::is_sharp(double number, double side) const {
   return std::any_of(sharp_images_.begin(), sharp_images_.end(),
                      [&](const SharpImage& each) { return each.number == number && each.side == side; });
 }
 
-double TerminationCircles::mirrored_measures(double frequency) const {
+double TerminationDiscs::mirrored_measures(double frequency) const {
   double measures = 1.0;
   for (const SharpImage& each : sharp_images_) {
     const SharpZero& zero = zeros_.sharp[each.zero];
@@ -53,8 +53,7 @@ double TerminationCircles::mirrored_measures(double frequency) const {
   return measures;
 }
 
-TerminationCircles::ScaledDensity TerminationCircles::scaled_density(const Place& place, double number,
-                                                                     double side) const {
+TerminationDiscs::ScaledDensity TerminationDiscs::scaled_density(const Place& place, double number, double side) const {
   const double at_alias = number * (2.0 * std::numbers::pi / period_) + side * place.frequency();
   const SharpImage* nearest = nullptr;
   const auto distance = [&](const SharpImage& image) {
@@ -92,8 +91,8 @@ TerminationCircles::ScaledDensity TerminationCircles::scaled_density(const Place
   return scaled;
 }
 
-TerminationCircles::Disc TerminationCircles::joined(const Disc& own, double measure, std::complex<double> shared,
-                                                    const OtherAliases& others) const {
+TerminationDiscs::Disc TerminationDiscs::joined(const Disc& own, double measure, std::complex<double> shared,
+                                                const OtherAliases& others) const {
   const std::complex<double> centre = shared * others.centre;
   const double radius = std::abs(shared) * others.radius;
   return {own.centre + measure * centre, own.radius + measure * radius,
@@ -103,7 +102,7 @@ TerminationCircles::Disc TerminationCircles::joined(const Disc& own, double meas
 }
 
 /// Sums of discs, each over its own measure.
-void TerminationCircles::add_sharp_aliases(const Place& place, Disc& disc) const {
+void TerminationDiscs::add_sharp_aliases(const Place& place, Disc& disc) const {
   const double spacing = 2.0 * std::numbers::pi / period_;
   const std::complex<double> shared = shared_factor(place.frequency());
   for (std::size_t i = 0; i < sharp_images_.size(); ++i) {

@@ -57,7 +57,7 @@ class FamilySearch {
   [[nodiscard]] double stiffness_at(const Place& place) const {
     tell(progress_, 0.0);
     DeviceParameters parameters = device_.parameters();
-    parameters.uncertainty.reset();  // it may be of the operator that is replaced
+    parameters.uncertainty.reset();  // it may be of the user who is replaced
     parameters.user = user_at(place);
     return critical_stiffness(filtered_plant(Device(std::move(parameters))), damper_).stiffness;
   }

@@ -85,7 +85,7 @@ WallCondition::Answer judge(const Bernstein& b, const Errors& errors, double beg
 
 }  // namespace
 
-WallCondition::Terms WallCondition::terms(const TerminationCircles::Disc& disc, const WallResponse& wall) {
+WallCondition::Terms WallCondition::terms(const TerminationDiscs::Disc& disc, const WallResponse& wall) {
   const auto& [unit, closed] = wall;
   return {disc.one + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),
           (unit * disc.centre).real() + disc.power * (unit * std::conj(closed)).real(), disc.power * std::norm(unit)};
@@ -187,7 +187,7 @@ WallCondition::WallCondition(const DiscPieces::Piece& piece,
 
 /// f(K1) at a node, by the difference of which less is lost: near a root of 1 + C c, and where c grows without bound.
 double WallCondition::last_at(std::size_t node, double stiffness) const {
-  const TerminationCircles::Disc& disc = nodes_[node].disc;
+  const TerminationDiscs::Disc& disc = nodes_[node].disc;
   const std::complex<double> wall = stiffness * walls_[node].unit + walls_[node].closed;
   const double apart = std::abs(disc.one + wall * disc.centre);
   const double reach = std::abs(wall) * disc.radius;

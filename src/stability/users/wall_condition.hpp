@@ -27,7 +27,7 @@ class WallCondition {
     double half = 0.0;       // q
     double quadratic = 0.0;  // A |u|²
   };
-  [[nodiscard]] static Terms terms(const TerminationCircles::Disc& disc, const WallResponse& wall);
+  [[nodiscard]] static Terms terms(const TerminationDiscs::Disc& disc, const WallResponse& wall);
 
   /// On a piece; `walls`: at its nodes.
   WallCondition(const DiscPieces::Piece& piece, const std::array<WallResponse, interpolation_points>& walls);

@@ -10,7 +10,7 @@
 
 #include "stability/loop/damper_response.hpp"
 #include "stability/second_route/pole_count.hpp"
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/state_space.hpp"
@@ -21,7 +21,7 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-using Alias = TerminationCircles::Alias;
+using Alias = TerminationDiscs::Alias;
 constexpr double low_angle = 3e-3;     // rad per sample; absolute_stability_limit() extrapolates to w = 0 from here
 constexpr double lowest_angle = 1e-4;  // where a limit that falls towards w = 0 is followed to
 constexpr double near_enough = 5e-5;   // of the limit: no more absorbers than that takes
@@ -104,8 +104,8 @@ std::optional<UserNetwork> heaviest_network(const std::vector<Alias>& aliases) {
 
 class Search {
  public:
-  Search(const Device& device, const TerminationCircles& discs, const AbsoluteStabilityLimit& limit,
-         VirtualDamper damper, double frequency, const Progress& progress)
+  Search(const Device& device, const TerminationDiscs& discs, const AbsoluteStabilityLimit& limit, VirtualDamper damper,
+         double frequency, const Progress& progress)
       : device_(device),
         discs_(discs),
         virtual_damper_(damper),
@@ -182,7 +182,7 @@ class Search {
   }
 
   const Device& device_;
-  const TerminationCircles& discs_;
+  const TerminationDiscs& discs_;
   VirtualDamper virtual_damper_;
   std::complex<double> damper_;  // B v
   double frequency_;
@@ -194,11 +194,11 @@ class Search {
 
 /// Where to look for the worst user: where the limit was found, and where the disc reaches it or almost does. Aliases
 /// matter less at low frequencies, but users for very low ones are extreme.
-std::vector<double> frequencies_to_try(const Device& device, const TerminationCircles& discs,
+std::vector<double> frequencies_to_try(const Device& device, const TerminationDiscs& discs,
                                        const AbsoluteStabilityLimit& limit, VirtualDamper damper) {
   const double period = device.loop().sampling_period;
   const auto reaches = [&](double frequency, double off) {
-    const TerminationCircles::Disc disc = discs.at(frequency);
+    const TerminationDiscs::Disc disc = discs.at(frequency);
     const std::complex<double> controller = limit.stiffness * (1.0 + off) + damper_response(damper, period, frequency);
     return 1.0 + 2.0 * (controller * disc.centre).real() + std::norm(controller) * disc.power <= 0.0;
   };
@@ -219,7 +219,7 @@ std::vector<double> frequencies_to_try(const Device& device, const TerminationCi
 
 /// The mass or spring that resonates with the device at a zero of Re Y or beside it, where it is hardly damped, of the
 /// least critical stiffness above the limit; poles counted with a hundred digits must agree.
-std::optional<WorstUser> tuned_user(const Device& device, const TerminationCircles& discs,
+std::optional<WorstUser> tuned_user(const Device& device, const TerminationDiscs& discs,
                                     const AbsoluteStabilityLimit& limit, VirtualDamper damper) {
   constexpr double detunings[] = {0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3};  // relative
   std::optional<WorstUser> worst;
@@ -253,7 +253,7 @@ std::optional<WorstUser> tuned_user(const Device& device, const TerminationCircl
 Device held_by(const Device& device, const UserNetwork& user) {
   if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_for_user});
   DeviceParameters parameters = device.parameters();
-  parameters.uncertainty.reset();  // it may be of the operator that is replaced
+  parameters.uncertainty.reset();  // it may be of the user who is replaced
   parameters.user = {user.mass, 0.0, user.stiffness};
   const auto is_taken = [&](const std::string& name) {
     return std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
@@ -272,7 +272,7 @@ std::optional<WorstUser> worst_user(const Device& device, const AbsoluteStabilit
                                     const Progress& progress) {
   if (limit.stiffness == 0.0 || !std::isfinite(limit.stiffness)) return std::nullopt;
   if (limit.needs_no_user) return WorstUser{{}, limit.stiffness, limit.frequency};
-  const TerminationCircles discs(device, progress);
+  const TerminationDiscs discs(device, progress);
   std::vector<Search> searches;
   for (const double frequency : frequencies_to_try(device, discs, limit, damper)) {
     searches.emplace_back(device, discs, limit, damper, frequency, progress);

@@ -4,7 +4,7 @@
 
 namespace zwidth::internal {
 
-std::span<const Phrase> reason_phrases() {
+std::span<const Phrase> design_reason_phrases() {
   using enum FindingCode;
   using enum Finding::Severity;
   static constexpr std::array phrases{
@@ -66,15 +66,15 @@ std::span<const Phrase> reason_phrases() {
       Phrase{number_not_followed, "number_not_followed", note,
              "not followed: of so many bodies only the numbers are that move the limit most in a first step"},
       Phrase{no_crossover, "no_crossover", note, "no stiffness puts a pole on the unit circle"},
-      Phrase{crossover_at_frequency, "crossover_at_frequency", note,
-             "a phase crossover at {frequency_hz}: unstable from {gain:gain} on{?softest|, but walls from "
-             "{softest:gain} on already oscillate at {softest_hz}}{?without_operator|; it does so without the operator "
-             "too}"},
+      Phrase{
+          crossover_at_frequency, "crossover_at_frequency", note,
+          "a phase crossover at {frequency_hz}: unstable from {gain:gain} on{?softest|, but walls from "
+          "{softest:gain} on already oscillate at {softest_hz}}{?without_operator|; it does so without the user too}"},
       Phrase{loop_stable, "loop_stable", note, "the loop is stable with this wall"},
       Phrase{loop_unstable, "loop_unstable", note,
              "the loop is unstable with this wall: it grows at {frequency_hz}{?settles_elsewhere|, and where a force "
              "limit, a wall that only pushes or a hand lets it settle may be elsewhere}{?without_operator|; it does so "
-             "without the operator too}{?user_stabilises| once the file's user lets go, who keeps it stable}"},
+             "without the user too}{?user_stabilises| once the file's user lets go, who keeps it stable}"},
       Phrase{no_user_destabilises_wall, "no_user_destabilises_wall", note,
              "no passive user can make a wall of any stiffness oscillate there"},
       Phrase{no_user_destabilises_damper, "no_user_destabilises_damper", note,

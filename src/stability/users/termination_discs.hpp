@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "model/device_matrices.hpp"
-#include "stability/second_route/solved_motions.hpp"
 #include "stability/users/alias_sum_quadrature.hpp"
 #include "stability/users/dissipation_zeros.hpp"
 #include "stability/users/shared_poles.hpp"
+#include "stability/users/solved_motions.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -19,10 +19,10 @@ namespace zwidth::internal {
 inline constexpr double clear_angle = 0.1;
 
 /// The passive termination circles of the sampled plant: at each frequency the disc |p - centre| <= radius (see absolute_stability.hpp).
-class TerminationCircles {
+class TerminationDiscs {
  public:
-  /// The device must have bodies; its operator is left out.
-  explicit TerminationCircles(const Device& device, const Progress& progress = {});
+  /// The device must have bodies; its user is left out.
+  explicit TerminationDiscs(const Device& device, const Progress& progress = {});
 
   struct Disc {
     std::complex<double> centre;  // c_T

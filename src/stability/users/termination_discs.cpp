@@ -1,4 +1,4 @@
-#include "stability/users/termination_circles.hpp"
+#include "stability/users/termination_discs.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -56,7 +56,7 @@ ModalForm difference(ModalForm first, const ModalForm& second) {
 
 }  // namespace
 
-TerminationCircles::TerminationCircles(const Device& device, const Progress& progress)
+TerminationDiscs::TerminationDiscs(const Device& device, const Progress& progress)
     : sensed_(device.loop().sensed),
       actuated_(device.loop().actuated),
       held_(device.loop().held),
@@ -125,7 +125,7 @@ TerminationCircles::TerminationCircles(const Device& device, const Progress& pro
   if (truncation_ > exact_enough && highest_zero > highest_corner) set_rules(highest_mode, highest_zero);
 }
 
-void TerminationCircles::set_rules(double highest_mode, double highest_corner) {
+void TerminationDiscs::set_rules(double highest_mode, double highest_corner) {
   const double spacing = 2.0 * pi / period_;
   exact_aliases_ = least_exact_aliases + static_cast<std::size_t>(std::min(
                                              std::ceil(clear_of_modes * highest_mode / spacing), most_exact_aliases));
@@ -145,7 +145,7 @@ void TerminationCircles::set_rules(double highest_mode, double highest_corner) {
   }
 }
 
-TerminationCircles::Density TerminationCircles::density(double frequency) const {
+TerminationDiscs::Density TerminationDiscs::density(double frequency) const {
   std::array<std::complex<double>, 8> few;
   std::vector<std::complex<double>> many;
   std::complex<double>* values = few.data();
@@ -170,7 +170,7 @@ TerminationCircles::Density TerminationCircles::density(double frequency) const 
   return {lag_ > 0.0 ? value / std::complex<double>(1.0, lag_ * frequency) : value, dissipation * largest * largest};
 }
 
-TerminationCircles::Disc TerminationCircles::at(double frequency) const {
+TerminationDiscs::Disc TerminationDiscs::at(double frequency) const {
   if (undamped_) return {response(plant_, frequency), infinity, -infinity, 1.0};
   if (sharp_images_.empty()) return scaled_at({0.0, frequency});
   Disc disc = scaled_at({0.0, frequency});
@@ -178,7 +178,7 @@ TerminationCircles::Disc TerminationCircles::at(double frequency) const {
   return {disc.centre / disc.one, disc.radius / disc.one, disc.power / disc.one, 1.0};
 }
 
-TerminationCircles::Disc TerminationCircles::scaled_at(const Place& place) const {
+TerminationDiscs::Disc TerminationDiscs::scaled_at(const Place& place) const {
   const double frequency = place.frequency();
   if (!sharp_images_.empty()) return with_others(place, other_aliases(frequency), frequency).disc;
   return frequency * period_ < clear_angle
@@ -187,28 +187,28 @@ TerminationCircles::Disc TerminationCircles::scaled_at(const Place& place) const
 }
 
 /// F (1 - e^{-jwT}) e^{-jwt_d}/T. Its phase keeps its digits towards w = 0, where it is all that counts.
-std::complex<double> TerminationCircles::shared_factor(double frequency) const {
+std::complex<double> TerminationDiscs::shared_factor(double frequency) const {
   const double sine = std::sin(0.5 * frequency * period_);
   const double cosine = std::cos(0.5 * frequency * period_);
   return filter_response(plant_, frequency * period_) * (2.0 * sine / period_) * std::complex<double>(sine, cosine) *
          std::polar(1.0, -frequency * delay_);
 }
 
-TerminationCircles::OtherAliases TerminationCircles::other_aliases(double frequency) const {
+TerminationDiscs::OtherAliases TerminationDiscs::other_aliases(double frequency) const {
   return sum_of_aliases(frequency, 1, rule_.nodes.size());
 }
 
-TerminationCircles::OtherAliases TerminationCircles::near_aliases(double frequency) const {
+TerminationDiscs::OtherAliases TerminationDiscs::near_aliases(double frequency) const {
   return sum_of_aliases(frequency, 1, near_aliases_);
 }
 
-TerminationCircles::OtherAliases TerminationCircles::far_aliases(double frequency) const {
+TerminationDiscs::OtherAliases TerminationDiscs::far_aliases(double frequency) const {
   return sum_of_aliases(frequency, near_aliases_, rule_.nodes.size());
 }
 
 /// Of the rule's nodes from `first` on; the node 0 is w itself.
-TerminationCircles::OtherAliases TerminationCircles::sum_of_aliases(double frequency, std::size_t first,
-                                                                    std::size_t end) const {
+TerminationDiscs::OtherAliases TerminationDiscs::sum_of_aliases(double frequency, std::size_t first,
+                                                                std::size_t end) const {
   const double spacing = 2.0 * pi / period_;
   OtherAliases others;
   for (std::size_t i = first; i < end; ++i) {
@@ -231,7 +231,7 @@ TerminationCircles::OtherAliases TerminationCircles::sum_of_aliases(double frequ
 ///
 ///     [-w² M + jw C + K   -e_a] [x]   [e_h]
 ///     [      e_s^T          0 ] [f] = [ 0 ],    X = e_h^T x
-std::complex<double> TerminationCircles::kept_motion(double frequency) const {
+std::complex<double> TerminationDiscs::kept_motion(double frequency) const {
   using Real = long double;
   using Number = std::complex<Real>;
   if (held_ == sensed_ || held_ == actuated_) return 0.0;
@@ -272,8 +272,8 @@ std::complex<double> TerminationCircles::kept_motion(double frequency) const {
 ///     c_0 = G_sa - D = jw G_sa (X - conj G_hh)/(2R),   |c_0|² - r_0² = |G_sa|²/R Re[jw X],   R = Re Y
 ///
 /// In this form neither difference loses digits; real and imaginary part of each factor keep their own.
-TerminationCircles::Disc TerminationCircles::near_zero(double frequency, const ScaledDensity& own,
-                                                       const OtherAliases& others) const {
+TerminationDiscs::Disc TerminationDiscs::near_zero(double frequency, const ScaledDensity& own,
+                                                   const OtherAliases& others) const {
   const std::complex<double> factor = shared_factor(frequency);
   const std::complex<double> lag(1.0, lag_ * frequency);
   const std::complex<double> through = response(through_, frequency) / lag;
@@ -304,8 +304,8 @@ TerminationCircles::Disc TerminationCircles::near_zero(double frequency, const S
   return joined({own_centre, own_radius, own_power, own.measure}, own.measure, factor, others);
 }
 
-TerminationCircles::Disc TerminationCircles::clear_of_zero(double frequency, const ScaledDensity& own,
-                                                           const OtherAliases& others) const {
+TerminationDiscs::Disc TerminationDiscs::clear_of_zero(double frequency, const ScaledDensity& own,
+                                                       const OtherAliases& others) const {
   const std::complex<double> shared = shared_factor(frequency);
   const std::complex<double> s(0.0, frequency);
   const std::complex<double> free = response(through_, frequency) / (s * (1.0 + lag_ * s));
@@ -319,8 +319,8 @@ TerminationCircles::Disc TerminationCircles::clear_of_zero(double frequency, con
                 own.measure, shared, others);
 }
 
-TerminationCircles::SplitDisc TerminationCircles::with_others(const Place& place, const OtherAliases& others,
-                                                              double unit) const {
+TerminationDiscs::SplitDisc TerminationDiscs::with_others(const Place& place, const OtherAliases& others,
+                                                          double unit) const {
   const double frequency = place.frequency();
   const ScaledDensity own = scaled_density(place, 0.0, 1.0);
   SplitDisc split;
@@ -344,7 +344,7 @@ TerminationCircles::SplitDisc TerminationCircles::with_others(const Place& place
   return split;
 }
 
-TerminationCircles::Disc TerminationCircles::summed(const AliasSumQuadrature& rule, double frequency) const {
+TerminationDiscs::Disc TerminationDiscs::summed(const AliasSumQuadrature& rule, double frequency) const {
   const double spacing = 2.0 * pi / period_;
   const std::complex<double> late = std::polar(1.0, -frequency * delay_);
   std::complex<double> shift = 0.0;
@@ -370,11 +370,11 @@ TerminationCircles::Disc TerminationCircles::summed(const AliasSumQuadrature& ru
   return {centre, size, (std::abs(centre) - size) * (std::abs(centre) + size), 1.0};
 }
 
-AliasSumQuadrature TerminationCircles::rule_derivative() const {
+AliasSumQuadrature TerminationDiscs::rule_derivative() const {
   return alias_sum_quadrature_derivative(exact_aliases_, steady_alias_, 2.0 * pi / period_ * delay_);
 }
 
-TerminationCircles::Alias TerminationCircles::alias(double frequency, int k, double direction) const {
+TerminationDiscs::Alias TerminationDiscs::alias(double frequency, int k, double direction) const {
   const double at_alias = frequency + k * (2.0 * pi / period_);
   const double positive = std::abs(at_alias);
   const std::complex<double> density = disc_density(positive);

@@ -4,9 +4,11 @@
 
 namespace zwidth::internal {
 
-std::span<const ProblemPhrase> problem_phrases() {
+namespace {
+
+std::span<const ProblemPhrase> option_problem_phrases() {
   using enum ProblemCode;
-  static constexpr const char* is = "is {value:exact}{?unit| {unit}}";
+  static constexpr const char* is = "{?name|{name} }is {value:exact}{?unit| {unit}}";
   static constexpr std::array phrases{
       ProblemPhrase{not_above, "not_above", is, "{measure:of} above {bound:exact}"},
       ProblemPhrase{below_bound, "below_bound", is, "{measure:of}, {bound:exact} or more"},
@@ -25,10 +27,11 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "a relative variation, 0 up to, but not including, 1"},
       ProblemPhrase{not_positive, "not_positive", "{?entry|has}{!entry|is} {value:exact}", "must be > 0"},
       ProblemPhrase{negative, "negative", is, "must be >= 0{?or_damper|, 0 for a damper alone}"},
-      ProblemPhrase{not_finite_and_positive, "not_finite_and_positive", "is {value:exact}{?times| times}",
-                    "must be finite and > 0"},
+      ProblemPhrase{not_finite_and_positive, "not_finite_and_positive",
+                    "{?name|{name} }is {value:exact}{?unit| {unit}}{?times| times}", "must be finite and > 0"},
       ProblemPhrase{not_finite_and_above, "not_finite_and_above", is, "must be finite and above {bound:exact}"},
-      ProblemPhrase{not_finite, "not_finite", "{?value|{?entry|has}{!entry|is} {value:exact}}{!value|is not finite}",
+      ProblemPhrase{not_finite, "not_finite",
+                    "{?name|{name} }{?value|{?entry|has}{!entry|is} {value:exact}}{!value|is not finite}",
                     "must be finite"},
       ProblemPhrase{no_finite_sum, "no_finite_sum", "has no finite sum", "must be finite"},
       ProblemPhrase{not_a_number, "not_a_number", is, "must be a number"},
@@ -38,8 +41,8 @@ std::span<const ProblemPhrase> problem_phrases() {
       ProblemPhrase{no_growth_factor, "no_growth_factor", is, "a factor above 1, up to {most:exact}"},
       ProblemPhrase{no_ramp, "no_ramp", is, "a time in s, 0 to {most:exact}"},
       ProblemPhrase{no_whole_number, "no_whole_number", is, "a whole number from {least:n} to {most:n}"},
-      ProblemPhrase{none_asked, "none_asked", "is 0", "must be at least 1"},
-      ProblemPhrase{count_out_of_range, "count_out_of_range", "{?several|are}{!several|is} {value:n}",
+      ProblemPhrase{none_asked, "none_asked", "{?name|{name} }is 0", "must be at least 1"},
+      ProblemPhrase{count_out_of_range, "count_out_of_range", "{?name|{name} }{?several|are}{!several|is} {value:n}",
                     "must be {least:n} to {most:n}"},
       ProblemPhrase{count_out_of_range_or_zero, "count_out_of_range_or_zero", "is {value:n}",
                     "must be 0, or {least:n} to {most:n}{?samples|, and no more than the {samples:n} samples}"},
@@ -52,7 +55,8 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "at most {most:exact} s{?periods|, {periods:exact} sampling periods}"},
       ProblemPhrase{not_below_period, "not_below_period", "is {value:exact} s",
                     "below the sampling period, {period:exact} s"},
-      ProblemPhrase{not_between, "not_between", is, "must be from {least:exact} to {most:exact}"},
+      ProblemPhrase{not_between, "not_between", is,
+                    "must be {?whole|a whole number }{?or_zero|0 or }from {least:exact} to {most:exact}"},
       ProblemPhrase{not_above_lower_end, "not_above_lower_end", is, "must be above the lower end, {least:exact}"},
       ProblemPhrase{no_part_left, "no_part_left", is, "must leave a part of the distribution"},
       ProblemPhrase{range_not_possible, "range_not_possible", "is from {least:exact} to {greatest:exact}",
@@ -72,8 +76,6 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "needs the limit that it proves"},
       ProblemPhrase{no_body_to_hold, "no_body_to_hold", "is a transfer function", "it has no body to hold"},
       ProblemPhrase{asked_of_transfer_function, "asked_of_transfer_function", "is asked of a transfer function",
-                    "it has no body for a user to hold"},
-      ProblemPhrase{user_of_transfer_function, "user_of_transfer_function", "is of a transfer function",
                     "it has no body for a user to hold"},
       ProblemPhrase{any_user_goal_of_transfer_function, "any_user_goal_of_transfer_function",
                     "is the limit with any user", "a transfer function has no body for a user to hold"},
@@ -151,7 +153,6 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "the wall that the drive is to make needs one"},
       ProblemPhrase{filter_unknown_to_drive, "filter_unknown_to_drive", "is given",
                     "the firmware has no such filter: leave it out"},
-      ProblemPhrase{travel_missing, "travel_missing", "is missing", "a linear device needs its travel per turn"},
       ProblemPhrase{damping_needed_by_drive, "damping_needed_by_drive", "is 0",
                     "the firmware's stiffness is a gain of its damping: give one > 0"},
       ProblemPhrase{torque_per_volt_missing, "torque_per_volt_missing", "is missing",
@@ -170,7 +171,8 @@ std::span<const ProblemPhrase> problem_phrases() {
       ProblemPhrase{no_specification, "no_specification", "is given without a specification",
                     "failures need [specification]"},
       ProblemPhrase{no_number_of_device, "no_number_of_device", "{?quoted|\"{name}\" }is no number of the device",
-                    "{?quoted|must be one of {numbers}}{!quoted|the numbers of this device are {numbers}}"},
+                    "{?meant|did you mean \"{meant}\"?}"
+                    "{!meant|{?quoted|must be one of {numbers}}{!quoted|the numbers of this device are {numbers}}}"},
       ProblemPhrase{not_of_the_limit, "not_of_the_limit", "does not change the critical stiffness",
                     "sweep a number that does"},
       ProblemPhrase{range_not_finite, "range_not_finite", "runs from {first:exact} to {last:exact}",
@@ -189,7 +191,8 @@ std::span<const ProblemPhrase> problem_phrases() {
       ProblemPhrase{seconds_below_zero, "seconds_below_zero", "is {value:exact}", "seconds, 0 or more"},
       ProblemPhrase{no_parameters, "no_parameters", "none is given", "must be [[parameter]], one at least"},
       ProblemPhrase{too_many_parameters, "too_many_parameters", "{parameters:n} are given", "must be at most {most:n}"},
-      ProblemPhrase{parameter_given_twice, "parameter_given_twice", "\"{name}\" is given twice", "must be given once"},
+      ProblemPhrase{parameter_given_twice, "parameter_given_twice", "{?name|\"{name}\" }is given twice",
+                    "must be given once"},
       ProblemPhrase{
           reaches_no_device, "reaches_no_device", "{name}: reaches {value:.6g}, which is no device: {key} {what}",
           "{key} {allowed}; {?discrete|leave that value out}{!discrete|cut it off with `{end}`, or lessen its width}"},
@@ -209,14 +212,6 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "a transfer function has no body to hold or to start from", ""},
       ProblemPhrase{start_offset_without_bodies, "start_offset_without_bodies", "a start offset needs bodies",
                     "a transfer function starts at rest at 0"},
-      ProblemPhrase{largest_damping_not_positive, "largest_damping_not_positive",
-                    "the largest damping is {value:exact}", "must be finite and > 0"},
-      ProblemPhrase{region_deviation_no_fraction, "region_deviation_no_fraction",
-                    "the region's deviation is {value:exact}", "must be above 0 and below 1"},
-      ProblemPhrase{outline_deviation_no_fraction, "outline_deviation_no_fraction",
-                    "the outline's deviation is {value:exact}", "must be above 0 and below 1"},
-      ProblemPhrase{branch_factor_too_small, "branch_factor_too_small", "the factor is {value:exact}",
-                    "must be above 1"},
       ProblemPhrase{recording_without_channel, "recording_without_channel", "the recording has no channel", ""},
       ProblemPhrase{recording_without_two_channels, "recording_without_two_channels",
                     "the recording has {channels:n} channels", "must be two: force and position"},
@@ -227,15 +222,10 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "must be above -1, up to 10"},
       ProblemPhrase{drift_without_links, "drift_without_links", "a drift of the modes needs a [[link]]", ""},
       ProblemPhrase{raster_without_walls, "raster_without_walls", "a raster of 0 walls", "at least one"},
-      ProblemPhrase{velocity_filter_below_zero, "velocity_filter_below_zero",
-                    "the velocity filter has {value:exact} Hz", "must be finite and >= 0"},
-      ProblemPhrase{virtual_damper_below_zero, "virtual_damper_below_zero", "the virtual damper has {value:exact}",
-                    "must be {?finite|finite and }>= 0"},
       ProblemPhrase{grid_not_rising, "grid_not_rising", "the stiffnesses of the grid do not rise", ""},
       ProblemPhrase{other_devices_limit, "other_devices_limit",
                     "the critical stiffness handed in is not that of the device", ""},
       ProblemPhrase{no_uncertainty, "no_uncertainty", "the device has no uncertainty", ""},
-      ProblemPhrase{no_draws, "no_draws", "draws is 0", "must be at least 1"},
       ProblemPhrase{force_per_count_undefined, "force_per_count_undefined",
                     "a force per count needs a period > 0 and a resolution >= 0", ""},
       ProblemPhrase{users_range_not_possible, "users_range_not_possible",
@@ -243,18 +233,8 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "must be finite, >= 0 and not reversed"},
       ProblemPhrase{wall_not_possible, "wall_not_possible", "the wall has {value:exact}",
                     "stiffness, damping and filter must be finite and >= 0"},
-      ProblemPhrase{sampling_period_not_positive, "sampling_period_not_positive",
-                    "{?the|the }sampling period is {value:exact}{?unit| {unit}}", "must be {?finite|finite and }> 0"},
-      ProblemPhrase{delay_below_zero, "delay_below_zero", "delay is {value:exact} s", "must be finite and >= 0"},
-      ProblemPhrase{filter_below_zero, "filter_below_zero", "velocity filter is {value:exact} Hz", "must be >= 0"},
-      ProblemPhrase{floor_below_zero, "floor_below_zero", "floor is {value:exact}", "must be a distance, 0 or more"},
-      ProblemPhrase{relay_amplitude_not_positive, "relay_amplitude_not_positive", "relay amplitude is {value:exact}",
-                    "must be > 0"},
-      ProblemPhrase{relay_hysteresis_below_zero, "relay_hysteresis_below_zero", "relay hysteresis is {value:exact}",
-                    "must be >= 0"},
       ProblemPhrase{half_periods_not_ordered, "half_periods_not_ordered", "half-periods must be 0 < shortest < longest",
                     ""},
-      ProblemPhrase{delay_not_possible, "delay_not_possible", "delay must be >= 0", ""},
       ProblemPhrase{too_many_bodies_with_friction, "too_many_bodies_with_friction",
                     "simulation takes Coulomb friction on at most {most:n} bodies, not on {bodies:n}", ""},
       ProblemPhrase{motion_too_fast, "motion_too_fast",
@@ -263,9 +243,6 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "soften it or make it rigid"},
       ProblemPhrase{force_and_position_of_two_lengths, "force_and_position_of_two_lengths",
                     "{force:n} samples of force, {position:n} of position", "equally many"},
-      ProblemPhrase{force_not_finite, "force_not_finite", "the force is not finite", ""},
-      ProblemPhrase{position_not_finite, "position_not_finite", "the position is not finite", ""},
-      ProblemPhrase{no_sampling_period, "no_sampling_period", "sampling period of {value:exact} s", "above 0"},
       ProblemPhrase{period_or_samples_not_possible, "period_or_samples_not_possible",
                     "an oscillation needs a period > 0 and finite samples", ""},
       ProblemPhrase{ring_down_not_possible, "ring_down_not_possible",
@@ -275,26 +252,20 @@ std::span<const ProblemPhrase> problem_phrases() {
                     "a Fourier transform of another length than it was made for", ""},
       ProblemPhrase{power_density_not_possible, "power_density_not_possible",
                     "power density: at least two finite samples and a rate > 0", ""},
-      ProblemPhrase{signal_period_not_positive, "signal_period_not_positive", "sampling_period is {value:exact}",
-                    "it must be positive"},
       ProblemPhrase{samples_of_channel_not_finite, "samples_of_channel_not_finite",
                     "samples of {channel} are not finite", ""},
       ProblemPhrase{cutoff_not_possible, "cutoff_not_possible", "cutoff is {value:exact} of the rate",
                     "above 0 and below half the rate"},
-      ProblemPhrase{share_not_possible, "share_not_possible", "{name} is {value:exact}", "must be above 0 and below 1"},
       ProblemPhrase{count_no_share, "count_no_share", "{count:n} of {total:n} is no share", ""},
       ProblemPhrase{weights_not_possible, "weights_not_possible",
                     "weights of sum {sum:exact}, squares {squares:exact}, largest {largest:exact} are none", ""},
       ProblemPhrase{answers_not_one_a_point, "answers_not_one_a_point", "answers: not as many as points", ""},
-      ProblemPhrase{answer_not_finite, "answer_not_finite", "an answer is {value:exact}", ""},
       ProblemPhrase{indices_not_possible, "indices_not_possible", "{dimensions:n} dimensions and {samples:n} samples",
                     "must be 1 to {most:n}, and 2 or more"},
       ProblemPhrase{too_many_samples_in_memory, "too_many_samples_in_memory", "samples is {value:n}",
                     "at most {most:n} are kept in memory"},
       ProblemPhrase{specification_missing, "specification_missing", "specification: is missing",
                     "rare failures need one"},
-      ProblemPhrase{samples_out_of_range, "samples_out_of_range", "samples is {value:n}",
-                    "must be {least:n} to {most:n}"},
       ProblemPhrase{outline_not_closed, "outline_not_closed", "the outline of the stable walls does not close", ""},
       ProblemPhrase{boundary_not_followed, "boundary_not_followed",
                     "the boundary of the stable walls could not be followed: it turns too often", ""},
@@ -342,7 +313,6 @@ std::span<const ProblemPhrase> problem_phrases() {
       ProblemPhrase{no_covariance, "no_covariance",
                     "is no covariance: some combination of the parameters would have a negative variance",
                     "must be positive semidefinite"},
-      ProblemPhrase{key_given_twice, "key_given_twice", "is given twice", "once"},
       ProblemPhrase{values_of_two_lengths, "values_of_two_lengths", "has {values:n} values, {other} has {others:n}",
                     "equally many of every key"},
       ProblemPhrase{nothing_changed, "nothing_changed", "no number is changed", "one key at least, with its values"},
@@ -377,6 +347,16 @@ std::span<const ProblemPhrase> problem_phrases() {
       ProblemPhrase{poles_not_told_apart, "poles_not_told_apart",
                     "poles that nearly coincide could not be told from their neighbours", ""}};
   return phrases;
+}
+
+}  // namespace
+
+std::span<const std::span<const ProblemPhrase>> problem_phrases() {
+  static const std::array all{
+      option_problem_phrases(),  device_file_problem_phrases(), recording_problem_phrases(),
+      mat_uff_problem_phrases(), study_file_problem_phrases(),  model_problem_phrases(),
+  };
+  return all;
 }
 
 }  // namespace zwidth::internal

@@ -1,7 +1,7 @@
 #pragma once
 
-// How many poles of the closed loop lie outside a circle: its characteristic polynomial and Routh's count of the roots,
-// in any arithmetic with + - * / that is made from double.
+// The closed loop's characteristic polynomial, and Routh's count of its roots outside a circle: in any arithmetic with
+// + - * / that is made from double.
 
 #include <array>
 #include <cmath>

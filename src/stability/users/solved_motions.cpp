@@ -1,4 +1,4 @@
-#include "stability/second_route/solved_motions.hpp"
+#include "stability/users/solved_motions.hpp"
 
 #include <algorithm>
 #include <array>

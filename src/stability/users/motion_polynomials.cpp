@@ -1,4 +1,4 @@
-#include "stability/second_route/motion_polynomials.hpp"
+#include "stability/users/motion_polynomials.hpp"
 
 #include <algorithm>
 #include <cmath>

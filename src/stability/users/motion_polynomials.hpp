@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "stability/second_route/routh.hpp"
+#include "stability/second_route/characteristic_polynomial.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::internal {

@@ -1,0 +1,70 @@
+#include <array>
+
+#include "words/problem_phrase.hpp"
+
+namespace zwidth::internal {
+
+std::span<const ProblemPhrase> model_problem_phrases() {
+  using enum ProblemCode;
+  static constexpr const char* is = "is {value:exact}";
+  static constexpr std::array phrases{
+      ProblemPhrase{no_finite_number, "no_finite_number", is,
+                    "must be a finite number {?from_zero|>=}{!from_zero|>} 0"},
+      ProblemPhrase{not_one_of, "not_one_of", "is {?value|{value:exact}}{!value|\"{given}\"}",
+                    "{?meant|did you mean \"{meant}\"?}{!meant|must be {choices}}"},
+      ProblemPhrase{control_character, "control_character", "has a control character",
+                    "must be one line of plain text"},
+      ProblemPhrase{too_many_bytes, "too_many_bytes", "has {bytes:n} bytes", "must be at most {most:n} bytes long"},
+      ProblemPhrase{stands_too_often, "stands_too_often", "stands {count:n} times", "must be at most {most:n} {what}"},
+      ProblemPhrase{name_empty, "name_empty", "is empty", "must be a name"},
+      ProblemPhrase{names_two_bodies, "names_two_bodies", "\"{name}\" names two bodies",
+                    "must be different for every body"},
+      ProblemPhrase{no_body_number, "no_body_number", "{?of_two|has}{!of_two|is} body number {body:n} of {bodies:n}",
+                    "must be {?of_two|two bodies}{!of_two|a body} of the device, counted from 0"},
+      ProblemPhrase{tied_to_itself, "tied_to_itself", "ties \"{name}\" to itself", "must be two different bodies"},
+      ProblemPhrase{link_of_nothing, "link_of_nothing", "and damping are both 0",
+                    "one of the two must be > 0, or there is no link"},
+      ProblemPhrase{body_not_connected, "body_not_connected",
+                    "{?other|is not connected to body \"{other}\"}{!other|is tied to nothing}",
+                    "must be connected to every other body through [[link]]s"},
+      ProblemPhrase{number_of_coefficients, "number_of_coefficients",
+                    "{?count=0|is empty}{!count=0|has {count:n} coefficients}",
+                    "must {?denominator|have at least 1 and no more than the denominator}"
+                    "{?least|have {least:n} to {most:n}, by falling powers}"
+                    "{!denominator|{!least|be {?count=0|one or more}{!count=0|at most {most:n}} coefficients}}"},
+      ProblemPhrase{coefficient_out_of_range, "coefficient_out_of_range", "has the coefficient {value:exact}",
+                    "every coefficient must be 0 or from {least:exact} to {most:exact} in magnitude"},
+      ProblemPhrase{all_coefficients_zero, "all_coefficients_zero", "is 0", "must have a coefficient that is not 0"},
+      ProblemPhrase{begins_with_zero, "begins_with_zero", "begins with 0", "the leading coefficient must not be 0"},
+      ProblemPhrase{degree_not_lower, "degree_not_lower",
+                    "has degree {degree:n} under a denominator of degree {denominator:n}",
+                    "must be of lower degree than the denominator"},
+      ProblemPhrase{longer_than_denominator, "longer_than_denominator", "is longer than the denominator",
+                    "leave out its leading zeros"},
+      ProblemPhrase{beside_transfer_function, "beside_transfer_function",
+                    "{?part=loop|names a body}{!part=loop|stands} beside [transfer_function]",
+                    "{?part=bodies|must be either bodies and links or a transfer function}"
+                    "{?part=loop|a transfer function has no bodies: leave it out}"
+                    "{?part=operator|an operator needs bodies: leave it out}"},
+      ProblemPhrase{no_body_at_all, "no_body_at_all",
+                    "is missing: the device has no [[body]] and no [transfer_function]",
+                    "must be one or more bodies, or a transfer function"},
+      ProblemPhrase{no_such_body, "no_such_body", "the device has no body \"{name}\"", ""},
+      ProblemPhrase{delay_of_too_many_periods, "delay_of_too_many_periods",
+                    "is {delay:exact} s, {periods:.6g} sampling periods", "must be at most {most:n} sampling periods"},
+      ProblemPhrase{travel_per_turn_missing, "travel_per_turn_missing", "is missing",
+                    "must be given: how far the device moves in a turn, such as \"25 mm\""},
+      ProblemPhrase{no_letter, "no_letter", "is no letter", "must be one letter, such as \"M\""},
+      ProblemPhrase{filter_not_stable, "filter_not_stable", "has a pole that does not die out",
+                    "{?variable=z|all roots in z must lie inside the unit circle}"
+                    "{?variable=s|all coefficients must have one sign, none may be 0}"},
+      ProblemPhrase{static_gain_not_positive, "static_gain_not_positive", "gives the static gain {gain:exact}",
+                    "the static gain must be > 0, or the wall does not push back"},
+      ProblemPhrase{frequency_of_digital_filter, "frequency_of_digital_filter", is,
+                    "a digital filter runs as it stands: leave it out"},
+      ProblemPhrase{filter_frequency_out_of_range, "filter_frequency_out_of_range", is,
+                    "must be at least {least:exact} and below the Nyquist frequency, {nyquist:.6g} Hz"}};
+  return phrases;
+}
+
+}  // namespace zwidth::internal
