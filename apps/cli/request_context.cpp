@@ -14,7 +14,7 @@ namespace {
 thread_local RequestContext* of_this_thread = nullptr;
 
 InputError no_such_name(const std::string& name, const char* allowed) {
-  return {name, 0, 0, "", "is not what came with the request", allowed};
+  return InputError(InputProblem{{.file = name}, "is not what came with the request", allowed, {}});
 }
 
 const RecordedColumns* columns_in_memory(const std::string& name) {
@@ -116,7 +116,8 @@ tl::expected<FrequencyResponse, InputError> read_named_table(const std::string& 
                                                              const ResponseTableOptions& options,
                                                              const Progress& progress) {
   if (columns_in_memory(name) != nullptr) {
-    return tl::unexpected(InputError{name, 0, 0, "", "is in no file", "a table of a response must be a file"});
+    return tl::unexpected(
+        InputError(InputProblem{{.file = name}, "is in no file", "a table of a response must be a file", {}}));
   }
   const Progress told = of_reading(progress);
   return read_by_name(name, [&](const std::string& path) { return read_response_table(path, options, told); });

@@ -97,10 +97,10 @@ TEST(DeviceFile, AnyTomlSpellingDoes) {
   EXPECT_EQ(device.links[0].damping, 0.3);
 }
 
-TEST(InputError, IsOneLineWhateverTheFileSays) {
-  const InputError error{"a\nb.toml", 3, 7, "body.\x1b[31m.mass", "is -1\r", "must be > 0"};
+TEST(InputProblem, IsOneLineWhateverTheFileSays) {
+  const InputProblem error{{"a\nb.toml", 3, 7, "body.\x1b[31m.mass"}, "is -1\r", "must be > 0", {}};
   EXPECT_EQ(error.str(), "a\\x0Ab.toml:3:7: body.\\x1B[31m.mass: is -1\\x0D; must be > 0");
-  EXPECT_EQ((InputError{"an override", 0, 0, "", "is wrong", ""}).str(), "an override: is wrong");
+  EXPECT_EQ((InputProblem{{.file = "an override"}, "is wrong", "", {}}).str(), "an override: is wrong");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "zwidth/io/input_error.hpp"
+#include "zwidth/input_problem.hpp"
 
 namespace zwidth {
 namespace {
@@ -29,9 +29,8 @@ TEST(OptionText, OnlyALiteralNamesOptions) {
 
 TEST(OptionText, EachIsCalledByAFrontsName) {
   const std::string of_a_user = "`rate` has no unit: ";
-  InputError error{
-      "a.csv", 0,          0,
-      "",      "is short", OptionText(of_a_user) + "state `rate`, `skip_rows` or `header`" + std::string(" of `rate`")};
+  InputProblem error{{.file = "a.csv"}, "is short", "", {}};
+  error.allow(OptionText(of_a_user) + "state `rate`, `skip_rows` or `header`" + std::string(" of `rate`"));
   error.name_options(in_capitals);
   EXPECT_EQ(error.allowed, of_a_user + "state --sampling-rate, S or `header` of `rate`");
   // As a second front does it, on the names of the first.

@@ -16,12 +16,6 @@ inline constexpr const char* override_source = "an override";
 /// Why an input was refused: the first problem, and the others of the same device file.
 struct InputError : InputProblem {
   /// A file's only problem.
-  InputError(std::string file, std::size_t line, std::size_t column, std::string key, std::string what_is_wrong,
-             OptionText what_is_allowed)
-      : InputProblem{{std::move(file), line, column, std::move(key), ""}, std::move(what_is_wrong), {}, std::nullopt} {
-    allow(std::move(what_is_allowed));
-  }
-  /// The same, as data.
   InputError(InputPlace place, Problem problem, std::optional<std::string> suggestion = {})
       : InputProblem(input_problem(std::move(place), std::move(problem), std::move(suggestion))) {}
   /// The same, as it is.
