@@ -11,6 +11,7 @@
 #include "identification/motion_slope.hpp"
 #include "identification/response_features.hpp"
 #include "identification/response_slopes.hpp"
+#include "model/key_members.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -61,13 +62,11 @@ void check_response(const FrequencyResponse& response, std::size_t parameters) {
 }
 
 void check_free(const DeviceParameters& parameters, const std::string& key) {
-  static const std::set<std::string> not_in_response = {"loop.sampling_period", "actuator.force_limit",
-                                                        "sensor.resolution",    "wall.stiffness",
-                                                        "wall.damping",         "wall.velocity_filter_hz"};
-  if (!parameter(parameters, key) && not_in_response.count(key) == 0) {
+  const std::vector<std::string> keys = parameter_keys(parameters);
+  if (std::ranges::find(keys, key) == keys.end()) {
     throw Error(ErrorCode::invalid_argument, "no parameter of the structure is called " + key);
   }
-  if (not_in_response.count(key) > 0 || key.ends_with(".coulomb")) {
+  if (row_of(key)->reach != KeyReach::response) {
     throw Error(ErrorCode::invalid_argument, key + " does not show in a frequency response; it cannot be free");
   }
 }

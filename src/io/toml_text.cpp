@@ -139,7 +139,7 @@ std::optional<InputError> problem_of_line(std::string_view text, std::string_vie
   error.suggestion = with_decimal_point(value);
   if (has_comma && error.suggestion) error.allowed = fmt::format("the decimal mark is a point: {}", *error.suggestion);
   if (!has_comma) {
-    error.suggestion = meant_by(key, value);
+    error.suggestion = meant_by(error.place.key, value);
     error.what = fmt::format("the text {} has no quotes", shortened(value));
     error.allowed = fmt::format("write {}", in_quotes(*error.suggestion));
   }
