@@ -76,7 +76,7 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
   RelayRecordOptions options;
   options.device = std::move(device);
   options.motion = arguments.motion == "rotary" ? Motion::rotary : Motion::linear;
-  if (!options.device) check_option_units(options.motion);
+  if (!options.device) check_option_units(*arguments.devices.command, options.motion);
   options.hysteresis = arguments.experiment.relay.hysteresis;
   options.analysis = arguments.experiment.analysis;
   if (const auto problem = find_problem(options, motion.recording.sampling_period)) {
