@@ -91,6 +91,7 @@ void run_excite(const ExciteArguments& arguments) {
   } else {
     write_text(report::excitation_text(excitation));
   }
+  if (arguments.output.json) return;  // which has them
   write_warnings(excitation.remarks);
   if (excitation.check) write_warnings(excitation.check->remarks);
 }

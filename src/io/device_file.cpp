@@ -136,11 +136,12 @@ class DeviceReader {
     const std::optional<double> tau = wall.number("velocity_filter_tau", Measure::time);
     if (!tau) return;
     const double period = device_.loop.sampling_period;
+    constexpr double longest_time_constant = 1e29;  // its cutoff is a number that a device may have
     if (wall.has("velocity_filter_hz")) {
       wall.refuse("velocity_filter_tau", "is given beside velocity_filter_hz, which is the same filter",
                   "must be one of the two");
-    } else if (!not_negative_numbers.contains(*tau)) {
-      wall.refuse("velocity_filter_tau", fmt::format("is {}", *tau), "must be 0 or from 1e-30 to 1e30 (in s)");
+    } else if (!not_negative_numbers.contains(*tau) || *tau > longest_time_constant) {
+      wall.refuse("velocity_filter_tau", fmt::format("is {}", *tau), "must be 0 or from 1e-30 to 1e29 (in s)");
     } else if (*tau > 0.0 && period > 0.0) {
       device_.wall.velocity_filter_hz = std::log1p(period / *tau) / (2.0 * std::numbers::pi * period);
     }

@@ -221,8 +221,10 @@ tl::expected<FrequencyResponse, InputError> read_response_table(const std::strin
            (options.highest && point.frequency > *options.highest);
   });
   if (response->points.empty()) {
-    return Refusal(InputError{path == "-" ? "standard input" : path, 0, 0, "", "no line is left in the band",
-                              "widen it (`lowest`, `highest`)"});
+    InputError nothing{path == "-" ? "standard input" : path, 0, 0, "", "no line is left in the band",
+                       "widen it (`lowest`, `highest`)"};
+    if (options.lowest || options.highest) nothing.place.option = options.lowest ? "lowest" : "highest";
+    return Refusal(std::move(nothing));
   }
   return response;
 } catch (const std::bad_alloc&) {

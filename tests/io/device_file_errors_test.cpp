@@ -139,8 +139,10 @@ const BadText texts[] = {
      "10:23: wall.velocity_filter_tau: is given beside velocity_filter_hz, which is the same filter; must be one of "
      "the "
      "two"},
+    {"time_constant_of_no_cutoff", body("") + loop() + "[wall]\nvelocity_filter_tau = 1e30\n",
+     "9:23: wall.velocity_filter_tau: is 1e+30; must be 0 or from 1e-30 to 1e29 (in s)"},
     {"negative_time_constant", body("") + loop() + "[wall]\nvelocity_filter_tau = -1e-3\n",
-     "9:23: wall.velocity_filter_tau: is -0.001; must be 0 or from 1e-30 to 1e30 (in s)"},
+     "9:23: wall.velocity_filter_tau: is -0.001; must be 0 or from 1e-30 to 1e29 (in s)"},
     {"number_for_text", "name = 3\n", "1:8: name: is the number 3; must be text in quotes"},
     {"number_for_table", "loop = 1.5\n", "1:8: loop: is the number 1.5; must be a table, [loop]"},
     {"table_for_tables", "[body]\nname = \"a\"\n", "1:1: body: is a table; must be tables, [[body]]"},
