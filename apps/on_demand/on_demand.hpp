@@ -12,9 +12,19 @@
 
 namespace zwidth::on_demand {
 
+/// What the program, or the module, was built from: of another build, a function's types may be others.
+[[gnu::visibility("hidden")]] extern const char* const build;
+
+/// What a module exports, by the name that the struct of its functions has for it.
+struct Module {
+  const char* build;
+  const void* functions;
+};
+
 /// With Ceres and HDF5.
 struct Fits {
   static constexpr const char* file = "fits-" ZWIDTH_VERSION ".so";
+  static constexpr const char* name = "zwidth_fits";
   decltype(internal::least_squares)* least_squares;
   decltype(internal::shot_slopes)* shot_slopes;
   decltype(internal::fit_shots)* fit_shots;
@@ -26,10 +36,13 @@ struct Fits {
 /// With Highway.
 struct Kernel {
   static constexpr const char* file = "kernel-" ZWIDTH_VERSION ".so";
+  static constexpr const char* name = "zwidth_kernel";
   decltype(internal::solve_group)* solve_group;
 };
 
 }  // namespace zwidth::on_demand
 
-/// The functions of a module, the one name that it exports.
-extern "C" [[gnu::visibility("default")]] const void* zwidth_module_functions();
+extern "C" {
+[[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_fits();
+[[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_kernel();
+}
