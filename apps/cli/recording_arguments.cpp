@@ -94,7 +94,7 @@ RequestedMotion requested_motion(const RecordingArguments& arguments) {
   const RequestedMotion* found = nullptr;
   for (const RequestedMotion& candidate : candidates) {
     if (candidate.column.name.empty()) continue;
-    if (found) throw BadInput("", "--position, --velocity, --acceleration: more than one is given", "give one");
+    if (found) throw BadInput(candidate.option, "is given beside another column of the motion", "give one");
     found = &candidate;
   }
   if (!found) {
