@@ -23,18 +23,10 @@ namespace {
 // Of a central difference: the response is known to some 1e-13, its curvature is felt from 1e-3 of a light damping on.
 constexpr double difference_step = 1e-6;
 
-bool ends_with_mass(std::string_view key) { return key.ends_with(".mass"); }
-
-Coordinate::Kind kind_of(std::string_view key) {
-  const bool is_link_stiffness = key.starts_with("link.") && key.ends_with(".stiffness");
-  const bool is_mass = key.starts_with("body.") && ends_with_mass(key);
-  return is_mass || is_link_stiffness ? Coordinate::Kind::logarithmic : Coordinate::Kind::not_negative;
-}
-
 /// What the key's quantity typically is, from the sizes of force per position, per velocity and per acceleration.
-double unit_of(std::string_view key, const std::vector<ResponsePoint>& points) {
-  const int order = ends_with_mass(key) ? 2 : key.ends_with(".damping") ? 1 : 0;
-  if (key == "loop.delay" || key == "actuator.time_constant") return 1.0 / points.back().frequency;
+double unit_of(std::optional<Measure> measure, const std::vector<ResponsePoint>& points) {
+  if (measure == Measure::time) return 1.0 / points.back().frequency;
+  const int order = measure == Measure::mass ? 2 : measure == Measure::damping ? 1 : 0;
   std::vector<double> sizes;
   sizes.reserve(points.size());
   for (const ResponsePoint& point : points) {
@@ -73,6 +65,10 @@ void check_free(const DeviceParameters& parameters, const std::string& key) {
 
 }  // namespace
 
+Coordinate::Kind Coordinate::kind_of(std::string_view key) {
+  return may_vanish(*row_of(key)) ? Kind::not_negative : Kind::logarithmic;
+}
+
 double Coordinate::value(double x) const {
   constexpr double least = 1e-30;  // that a device may have
   return kind == Kind::logarithmic ? std::clamp(unit * std::exp(x), least, 1.0 / least) : unit * x;
@@ -98,7 +94,7 @@ FitModel::FitModel(const Device& structure, const FrequencyResponse& response, c
     const std::string key = full_parameter_key(structure.parameters(), given);
     check_free(structure.parameters(), key);
     if (!seen.insert(key).second) throw Error(ErrorCode::invalid_argument, key + " is given twice as free");
-    Coordinate coordinate{key, kind_of(key), unit_of(key, response.points)};
+    Coordinate coordinate{key, Coordinate::kind_of(key), unit_of(measure_of(key), response.points)};
     if (key == "loop.delay") {
       const double longest = max_delay_samples * sampling_period_.value_or(std::numeric_limits<double>::infinity());
       coordinate.bound = std::min(longest_resolved_delay(response.points), longest) / coordinate.unit;

@@ -47,6 +47,11 @@ struct KeyRow {
 /// The row of a device's key, "body.motor.mass" or "link.stiffness"; nothing for what is no key.
 [[nodiscard]] const KeyRow* row_of(std::string_view key);
 
+/// Whether the number may come down to 0: a mass may not, nor what is another structure there.
+[[nodiscard]] inline bool may_vanish(const KeyRow& row) {
+  return row.key.range && row.key.range->takes_zero && !row.zero_is_apart;
+}
+
 /// Whether a filter of the kind may have the key, as a notch its depth.
 [[nodiscard]] bool is_key_of(WallFilter::Kind kind, std::string_view key);
 

@@ -96,9 +96,7 @@ DeviceDraws::DeviceDraws(const Device& device, std::uint64_t seed)
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const double mean = *parameter(device.parameters(), keys[i]);
     const std::string key = full_parameter_key(device.parameters(), keys[i]);
-    const KeyRow& row = *row_of(key);
-    const bool may_be_zero = row.key.range->takes_zero && !row.zero_is_apart;
-    bounds_(static_cast<Eigen::Index>(i)) = may_be_zero ? -mean : (least_share - 1.0) * mean;
+    bounds_(static_cast<Eigen::Index>(i)) = may_vanish(*row_of(key)) ? -mean : (least_share - 1.0) * mean;
   }
 }
 
