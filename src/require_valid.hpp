@@ -1,12 +1,21 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "zwidth/error.hpp"
 #include "zwidth/option_problem.hpp"
 
 namespace zwidth::internal {
+
+/// Throws Error (invalid_argument) "what; allowed" of a member of the options, which the message does not name.
+[[noreturn]] inline void refuse_member(const std::string& member, std::string what, std::string allowed) {
+  const std::string message = what + "; " + allowed;
+  InputProblem told{{}, std::move(what), std::move(allowed), {}};
+  told.place.option = member;
+  throw Error(ErrorCode::invalid_argument, message, {std::move(told)});
+}
 
 /// Throws Error (invalid_argument) "member what; allowed" where find_problem(options) found one.
 inline void require_valid(const std::optional<OptionProblem>& problem) {

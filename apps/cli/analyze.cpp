@@ -53,12 +53,10 @@ ValueRange range_in(const std::string& key, const std::string& text, Measure mea
     const UnitProblem* problem = !least_given      ? &least_given.error()
                                  : !greatest_given ? &greatest_given.error()
                                                    : nullptr;
-    InputProblem refused = problem_of_value(
+    throw BadInput(
         "--users",
-        fmt::format("'{}' must be LEAST:GREATEST or one number{}", text, problem ? ": " + problem->what : ""),
+        fmt::format("{}: '{}' must be LEAST:GREATEST or one number{}", key, text, problem ? ": " + problem->what : ""),
         problem ? problem->allowed : "");
-    refused.place.key = key;
-    throw BadInput(std::move(refused));
   }
   return {*least_given, *greatest_given};
 }
@@ -106,7 +104,9 @@ AnalysisOptions options_for(const AnalyzeOptions& options, const std::string& fi
   if (const auto problem = find_problem(asked, device)) {
     constexpr std::string_view of_family = "family.";
     if (!problem->member.starts_with(of_family)) refuse(*problem, options_of_analysis, file);
-    refuse_input({file, 0, 0, problem->member.substr(of_family.size()), problem->what, problem->allowed}, "--users");
+    // A number of the users, which is no key of the device.
+    const std::string what = fmt::format("{}: {}", problem->member.substr(of_family.size()), problem->what);
+    refuse_input({file, 0, 0, "", what, problem->allowed}, "--users");
   }
   return asked;
 }

@@ -13,6 +13,7 @@
 namespace zwidth::cli {
 
 void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCount count) {
+  arguments.command = &command;
   command.add_option("FILE", arguments.files, "Device file (TOML); - reads standard input")
       ->type_name("")
       ->required(count != FileCount::one_or_none)
@@ -36,7 +37,7 @@ std::vector<Device> read_devices(const DeviceArguments& arguments) {
     }
   }
   if (!problems.empty()) throw BadInput(std::move(problems));
-  for (const Device& device : devices) check_option_units(device.parameters().motion);
+  for (const Device& device : devices) check_option_units(*arguments.command, device.parameters().motion);
   return devices;
 }
 

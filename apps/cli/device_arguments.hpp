@@ -13,6 +13,7 @@ namespace zwidth::cli {
 struct DeviceArguments {
   std::vector<std::string> files;      ///< "-": standard input
   std::vector<std::string> overrides;  ///< KEY=VALUE of every --set, applied to every file
+  const CLI::App* command = nullptr;   ///< whose options they are
 };
 
 enum class FileCount { one_or_none, one, several };

@@ -41,7 +41,11 @@ Recording read_position(const RecordingArguments& arguments) {
   if (const auto problem = find_problem(reading)) refuse(*problem, scale);
   ProgressLine line("reading " + arguments.file);
   auto recording = read_named_recording(arguments.file, reading, line.progress());
-  if (!recording) refuse_input(recording.error());
+  if (!recording) {
+    const std::string& key = recording.error().place.key;
+    const bool is_of_option = recording.error().place.line == 0 && key == arguments.position.name;
+    refuse_input(recording.error(), is_of_option ? "--position" : "");
+  }
   return *std::move(recording);
 }
 

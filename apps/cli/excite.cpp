@@ -26,6 +26,7 @@ struct ExciteArguments {
   std::string kind = "linear-chirp";
   std::string device;
   std::vector<std::string> overrides;
+  const CLI::App* command = nullptr;
   bool beyond_limits = false;
   std::string samples;  ///< the file
   OutputArguments output{.figure_option = "--figure"};
@@ -46,7 +47,7 @@ Excitation made_excitation(const ExciteArguments& arguments) {
     check_samples("--duration", options.duration * options.rate.value_or(default_excitation_rate));
     return excite(options);
   }
-  const Device device = std::move(read_devices({{arguments.device}, arguments.overrides}).front());
+  const Device device = std::move(read_devices({{arguments.device}, arguments.overrides, arguments.command}).front());
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_excitation);
   check_samples("--duration", options.duration * options.rate.value_or(1.0 / device.loop().sampling_period));
   return excite(options, device);
@@ -90,6 +91,7 @@ void run_excite(const ExciteArguments& arguments) {
   } else {
     write_text(report::excitation_text(excitation));
   }
+  if (arguments.output.json) return;  // which has them
   write_warnings(excitation.remarks);
   if (excitation.check) write_warnings(excitation.check->remarks);
 }
@@ -112,6 +114,7 @@ void add_excite(CLI::App& app) {
   auto arguments = std::make_shared<ExciteArguments>();
   ExcitationOptions& excitation = arguments->excitation;
   CLI::App* command = app.add_subcommand("excite", "A force signal that identifies a device, as CSV");
+  arguments->command = command;
   const auto add = [&](const char* name, auto& value, const char* what, const char* type) {
     return command->add_option(name, value, what)->type_name(type);
   };

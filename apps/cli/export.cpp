@@ -110,8 +110,8 @@ WallToRun released_wall(const ExportArguments& arguments) {
   const Device device = std::move(read_devices(arguments.devices).front());
   const WallToRunOptions options{arguments.stiffness, arguments.safety_factor, arguments.accept_doubt};
   if (const auto problem = find_problem(options, device)) {
-    if (!problem->member.empty()) refuse(*problem, options_of_wall);
-    refuse_input({file, 0, 0, "", problem->what,
+    if (!option_of(options_of_wall, problem->member).empty()) refuse(*problem, options_of_wall);
+    refuse_input({file, 0, 0, problem->member, problem->what,
                   OptionText(problem->allowed) + CommandText(", or give --stiffness or --safety-factor")});
   }
   WallToRun wall = worked(arguments.devices.files.front(), [&] { return wall_to_run(device, options); });

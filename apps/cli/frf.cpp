@@ -9,7 +9,6 @@
 #include "cli/device_arguments.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
-#include "cli/remark_lines.hpp"
 #include "cli/response_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
@@ -55,7 +54,6 @@ void run_frf(const FrfArguments& arguments) {
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_frf(frf, units, format); });
   outputs.commit();
   if (arguments.output.json) {
-    write_warnings(frf.remarks);
     const auto content = arguments.points ? results::FrfContent::with_lines : results::FrfContent::summary;
     write_standard_output(results::line(results::frf_json(frf, units, content)));
   } else {

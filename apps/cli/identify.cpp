@@ -113,21 +113,23 @@ IdentifyOptions identify_options(const IdentifyArguments& arguments, const Frequ
 
 /// The library's work, with progress.
 template <typename Work>
-auto fitted(const std::string& name, const Work& work) {
-  return worked(name, [&] {
+auto fitted(const std::string& name, const Work& work, OptionsByMember options) {
+  const auto with_progress = [&] {
     ProgressLine line("identifying");
     return work(line.progress());
-  });
+  };
+  return worked(name, with_progress, options);
 }
 
 Identification identified_device(const IdentifyArguments& arguments) {
   const ResponseSource source = response_source(arguments.response);
   const Structure fitted_structure = structure(arguments.structure, source.sampling_period(), source.recordings);
   const IdentifyOptions options = identify_options(arguments, source.options, fitted_structure.values);
-  return fitted(source.recordings.size() > 1 ? "" : source.name, [&](const Progress& progress) {
+  const auto identified = [&](const Progress& progress) {
     return !source.recordings.empty() ? identify(source.recordings, fitted_structure.device, options, progress)
                                       : identify(source.table, fitted_structure.device, options);
-  });
+  };
+  return fitted(source.recordings.size() > 1 ? "" : source.name, identified, options_of_response());
 }
 
 TimeDomainIdentification device_fitted_in_time(const IdentifyArguments& arguments) {
@@ -141,9 +143,10 @@ TimeDomainIdentification device_fitted_in_time(const IdentifyArguments& argument
   constexpr std::pair<std::string_view, std::string_view> own_options[] = {{"segment", "--segment-duration"},
                                                                            {"free", "--free"}};
   if (const auto problem = find_problem(options)) refuse(*problem, own_options);
-  return fitted(arguments.response.recording.file, [&](const Progress& progress) {
+  const auto identified = [&](const Progress& progress) {
     return identify_in_time(recordings, fitted_structure.device, options, progress);
-  });
+  };
+  return fitted(arguments.response.recording.file, identified, own_options);
 }
 
 RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
@@ -152,11 +155,15 @@ RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
   constexpr std::pair<std::string_view, std::string_view> own_options[] = {
       {"sampling_period", "--sampling-period"},
       {"inverse_dynamics.cutoff_hz", "--cutoff-hz"},
-      {"inverse_dynamics.decimation", "--decimation"}};
+      {"cutoff_hz", "--cutoff-hz"},
+      {"inverse_dynamics.decimation", "--decimation"},
+      {"decimation", "--decimation"}};
   if (const auto problem = find_problem(options)) refuse(*problem, own_options);
   const RecordedMotion motion = read_motion(arguments.response.recording);
-  return fitted(arguments.response.recording.file,
-                [&](const Progress& progress) { return identify_rigid_body(motion.recording, options, progress); });
+  const auto identified = [&](const Progress& progress) {
+    return identify_rigid_body(motion.recording, options, progress);
+  };
+  return fitted(arguments.response.recording.file, identified, own_options);
 }
 
 std::string device_hint(const IdentifyArguments& arguments) {

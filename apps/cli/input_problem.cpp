@@ -1,7 +1,5 @@
 #include "cli/input_problem.hpp"
 
-#include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,19 +10,17 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> options_of_members = {
-    {{"rate", "--rate"},
-     {"time_column", "--time"},
-     {"time_scale", "--time-scale"},
-     {"timer_bits", "--timer-bits"},
-     {"skip_rows", "--skip-rows"},
-     {"lowest", "--lowest-hz"},
-     {"highest", "--highest-hz"}}};
+constexpr std::pair<std::string_view, std::string_view> options_of_reading[] = {{"rate", "--rate"},
+                                                                                {"time_column", "--time"},
+                                                                                {"time_scale", "--time-scale"},
+                                                                                {"timer_bits", "--timer-bits"},
+                                                                                {"skip_rows", "--skip-rows"},
+                                                                                {"lowest", "--lowest-hz"},
+                                                                                {"highest", "--highest-hz"}};
 
-std::optional<std::string> option_of(std::string_view member) {
-  const auto found = std::ranges::find(options_of_members, member, [](const auto& each) { return each.first; });
-  if (found == options_of_members.end()) return std::nullopt;
-  return std::string(found->second);
+std::optional<std::string> name_of_option(std::string_view member) {
+  const std::string_view option = option_of(options_of_reading, member);
+  return option.empty() ? std::nullopt : std::optional(std::string(option));
 }
 
 }  // namespace
@@ -36,7 +32,8 @@ std::vector<InputProblem> problems_in(const InputError& error) {
       each.place.file.clear();
       each.place.option = "--set";
     }
-    each.name_options(option_of);
+    if (const auto option = name_of_option(each.place.option)) each.place.option = *option;
+    each.name_options(name_of_option);
   }
   return problems;
 }

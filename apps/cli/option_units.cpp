@@ -29,18 +29,6 @@ constexpr std::array<std::pair<std::string_view, Measure>, 9> measured_values{{{
                                                                                {"K", Measure::stiffness},
                                                                                {"B", Measure::damping}}};
 
-/// An option with a unit, given before the device and so its motion is known.
-struct GivenUnit {
-  std::string option;
-  std::string text;
-  Measure measure = Measure::time;
-};
-
-std::vector<GivenUnit>& given_units() {
-  static thread_local std::vector<GivenUnit> given;
-  return given;
-}
-
 constexpr std::string_view range_begin = ":INT in [";
 
 bool has_unit(std::string_view text) {
@@ -49,7 +37,7 @@ bool has_unit(std::string_view text) {
 }
 
 /// A number with a unit as the number in SI units, and one without as it is.
-std::string without_unit(const std::string& text, Measure measure, const std::string& option) {
+std::string without_unit(const std::string& text, Measure measure, const std::string& option, Program& program) {
   if (!has_unit(text)) {
     double value = 0.0;
     const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
@@ -59,12 +47,14 @@ std::string without_unit(const std::string& text, Measure measure, const std::st
     throw RefusedValue{problem_of_value(option, fmt::format("{} is no number", in_quotes(text)),
                                         allowed_numbers(measure, Motion::linear), with_decimal_point(text))};
   }
-  given_units().push_back({option, text, measure});
+  const auto problem_of = [](const auto& read) {
+    return read ? std::nullopt : std::optional<UnitProblem>(read.error());
+  };
   const auto linear = number_with_unit(text, measure, Motion::linear);
-  if (linear) return fmt::format("{}", *linear);
   const auto rotary = number_with_unit(text, measure, Motion::rotary);
-  if (rotary) return fmt::format("{}", *rotary);
-  throw RefusedValue{problem_of_value(option, linear.error())};
+  if (!linear && !rotary) throw RefusedValue{problem_of_value(option, linear.error())};
+  program.given_units.push_back({option, problem_of(linear), problem_of(rotary)});
+  return fmt::format("{}", linear ? *linear : *rotary);
 }
 
 struct WholeNumbers {
@@ -112,9 +102,8 @@ double measured_number(const std::string& option, std::string_view text, Measure
   return *value;
 }
 
-void accept_units(CLI::App& app) {
-  given_units().clear();
-  for (CLI::App* command : app.get_subcommands({})) {
+void accept_units(Program& program) {
+  for (CLI::App* command : program.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
       const std::string type = option->get_type_name();
       const std::string_view plain = std::string_view(type).substr(0, type.find(':'));
@@ -125,8 +114,8 @@ void accept_units(CLI::App& app) {
       }
       for (const auto& [name, measure] : measured_values) {
         if (plain != name) continue;
-        option->transform([unit = measure, called = option->get_name()](const std::string& text) {
-          return without_unit(text, unit, called);
+        option->transform([&program, unit = measure, called = option->get_name()](const std::string& text) {
+          return without_unit(text, unit, called, program);
         });
       }
       // The last to be added is the first to look. A file that is no option says itself that it has no name.
@@ -140,10 +129,12 @@ void accept_units(CLI::App& app) {
   }
 }
 
-void check_option_units(Motion motion) {
-  for (const GivenUnit& each : given_units()) {
-    const auto value = number_with_unit(each.text, each.measure, motion);
-    if (!value) throw BadInput(problem_of_value(each.option, value.error()));
+void check_option_units(const CLI::App& command, Motion motion) {
+  const auto* const program = dynamic_cast<const Program*>(command.get_parent());
+  if (program == nullptr) return;
+  for (const GivenUnit& each : program->given_units) {
+    const auto& problem = motion == Motion::linear ? each.linear : each.rotary;
+    if (problem) throw BadInput(problem_of_value(each.option, *problem));
   }
 }
 

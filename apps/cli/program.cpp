@@ -100,7 +100,7 @@ void add_commands(CLI::App& app, std::string_view asked) {
 }
 
 int run(int argument_count, char** arguments) {
-  CLI::App app("The stiffest virtual wall that a haptic device renders stably.", "zwidth");
+  Program app("The stiffest virtual wall that a haptic device renders stably.", "zwidth");
   app.set_version_flag("--version", fmt::format("zwidth {} ({})", ZWIDTH_VERSION, commit),
                        "Print the version and the commit, and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");

@@ -72,18 +72,29 @@ std::string columns_of(const RecordingArguments& arguments) {
 struct RequestedMotion {
   ColumnRequest column;
   OutputQuantity output = OutputQuantity::position;
+  std::string_view option;
   std::string_view scale_option;
 };
 
+/// The option that names the column which the file lacks; none where something stands in the file.
+std::string_view option_of_column(const InputError& error, const RecordingArguments& arguments,
+                                  const RequestedMotion& motion) {
+  const std::string& key = error.place.key;
+  if (key.empty() || error.place.line > 0) return {};
+  if (arguments.options.time_column == key) return "--time";
+  if (arguments.force.name == key) return "--force";
+  return motion.column.name == key ? motion.option : std::string_view();
+}
+
 RequestedMotion requested_motion(const RecordingArguments& arguments) {
   const std::array<RequestedMotion, 3> candidates{
-      RequestedMotion{arguments.position, OutputQuantity::position, "--position-scale"},
-      RequestedMotion{arguments.velocity, OutputQuantity::velocity, "--velocity-scale"},
-      RequestedMotion{arguments.acceleration, OutputQuantity::acceleration, "--acceleration-scale"}};
+      RequestedMotion{arguments.position, OutputQuantity::position, "--position", "--position-scale"},
+      RequestedMotion{arguments.velocity, OutputQuantity::velocity, "--velocity", "--velocity-scale"},
+      RequestedMotion{arguments.acceleration, OutputQuantity::acceleration, "--acceleration", "--acceleration-scale"}};
   const RequestedMotion* found = nullptr;
   for (const RequestedMotion& candidate : candidates) {
     if (candidate.column.name.empty()) continue;
-    if (found) throw BadInput("", "--position, --velocity, --acceleration: more than one is given", "give one");
+    if (found) throw BadInput(candidate.option, "is given beside another column of the motion", "give one");
     found = &candidate;
   }
   if (!found) {
@@ -95,14 +106,15 @@ RequestedMotion requested_motion(const RecordingArguments& arguments) {
 }
 
 /// A recording's names are compared: a request may be a number. Columns of one name are told apart by number alone.
-void check_that_columns_differ(const Recording& recording, const ColumnRequest& force, const ColumnRequest& motion) {
+void check_that_columns_differ(const Recording& recording, const ColumnRequest& force, const RequestedMotion& motion) {
   const std::string& name = recording.channels[0].name;
   const auto force_number = number_in(force.name);
-  const auto motion_number = number_in(motion.name);
+  const auto motion_number = number_in(motion.column.name);
   const bool numbers_differ = force_number && motion_number && *force_number != *motion_number;
   if (name != recording.channels[1].name || numbers_differ) return;
   refuse_input({recording.source, 0, 0, "", fmt::format("column '{}' is named as the force and as the motion", name),
-                "name two columns"});
+                "name two columns"},
+               motion.option);
 }
 
 }  // namespace
@@ -189,8 +201,8 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   if (const auto problem = find_problem(options)) refuse(*problem, scales);
   ProgressLine line("reading " + arguments.file);
   auto recording = read_named_recording(arguments.file, options, line.progress());
-  if (!recording) refuse_input(recording.error());
-  check_that_columns_differ(*recording, arguments.force, motion.column);
+  if (!recording) refuse_input(recording.error(), option_of_column(recording.error(), arguments, motion));
+  check_that_columns_differ(*recording, arguments.force, motion);
   recording->source = arguments.file;
   return {*std::move(recording), motion.output};
 }

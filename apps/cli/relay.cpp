@@ -71,17 +71,20 @@ RelayResult simulated(const RelayArguments& arguments, const Device& device) {
 RelayResult recorded(const RelayArguments& arguments, std::optional<Device> device) {
   RecordedMotion motion = read_motion(arguments.recording);
   if (motion.output != OutputQuantity::position) {
-    throw BadInput("", "--velocity, --acceleration: a relay acts on the position", "name its column with --position");
+    throw BadInput(motion.output == OutputQuantity::velocity ? "--velocity" : "--acceleration",
+                   "a relay acts on the position", "name its column with --position");
   }
   RelayRecordOptions options;
   options.device = std::move(device);
   options.motion = arguments.motion == "rotary" ? Motion::rotary : Motion::linear;
-  if (!options.device) check_option_units(options.motion);
+  if (!options.device) check_option_units(*arguments.devices.command, options.motion);
   options.hysteresis = arguments.experiment.relay.hysteresis;
   options.analysis = arguments.experiment.analysis;
   if (const auto problem = find_problem(options, motion.recording.sampling_period)) {
-    if (problem->member != "device") refuse(*problem, options_of_relay);
-    refuse_input({arguments.devices.files.front(), 0, 0, "", problem->what, problem->allowed});
+    constexpr std::string_view of_device = "device.";
+    if (!problem->member.starts_with(of_device)) refuse(*problem, options_of_relay);
+    const std::string key = problem->member.substr(of_device.size());
+    refuse_input({arguments.devices.files.front(), 0, 0, key, problem->what, problem->allowed});
   }
   ProgressLine line("predicting");
   return relay(std::move(motion.recording), options, line.progress());

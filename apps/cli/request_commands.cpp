@@ -152,7 +152,7 @@ RequestAnswer answer_in(RequestContext& own) {
 }
 
 RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offered, RequestContext& own) {
-  CLI::App app("", "zwidth");
+  Program app("", "zwidth");
   app.require_subcommand(1);
   offered.add(app);
   const CLI::App& command = *app.get_subcommand(std::string(offered.name));

@@ -25,16 +25,15 @@ constexpr const char* estimate_group = "Estimate";
 constexpr const char* table_group = "Table of a response";
 
 /// Options by the members of FrequencyResponseOptions and ResponseTableOptions that they set.
-constexpr std::pair<std::string_view, std::string_view> options_of_response[] = {
-    {"segment_length", "--segment"},
-    {"skip_periods", "--skip-periods"},
-    {"period", "--period"},
-    {"overlap", "--overlap"},
-    {"lines", "--lines"},
-    {"lowest", "--lowest-hz"},
-    {"highest", "--highest-hz"},
-    {"scale", "--value-scale"},
-    {"frequency_step", "--frequency-step"}};
+constexpr std::pair<std::string_view, std::string_view> response_options[] = {{"segment_length", "--segment"},
+                                                                              {"skip_periods", "--skip-periods"},
+                                                                              {"period", "--period"},
+                                                                              {"overlap", "--overlap"},
+                                                                              {"lines", "--lines"},
+                                                                              {"lowest", "--lowest-hz"},
+                                                                              {"highest", "--highest-hz"},
+                                                                              {"scale", "--value-scale"},
+                                                                              {"frequency_step", "--frequency-step"}};
 
 void add_estimate_options(CLI::App& command, ResponseArguments& arguments) {
   CLI::Option* period = command.add_option("--period", arguments.period, "Samples after which the force repeats");
@@ -157,7 +156,7 @@ FrequencyResponseOptions estimate_options(const ResponseArguments& arguments) {
   options.lowest = angular(arguments.lowest_hz);
   options.highest = angular(arguments.highest_hz);
   for (const std::string& each : arguments.lines) add_lines(each, options.lines);
-  if (const auto problem = find_problem(options)) refuse(*problem, options_of_response);
+  if (const auto problem = find_problem(options)) refuse(*problem, response_options);
   return options;
 }
 
@@ -184,7 +183,7 @@ ResponseSource from_table(const ResponseArguments& arguments) {
   options.frequency_step = angular(arguments.frequency_step_hz).value_or(0.0);
   options.lowest = angular(arguments.lowest_hz);
   options.highest = angular(arguments.highest_hz);
-  if (const auto problem = find_problem(options)) refuse(*problem, options_of_response);
+  if (const auto problem = find_problem(options)) refuse(*problem, response_options);
   ProgressLine line("reading " + arguments.recording.file);
   auto response = read_named_table(arguments.recording.file, options, line.progress());
   if (!response) refuse_input(response.error());
@@ -223,10 +222,13 @@ ResponseSource response_source(const ResponseArguments& arguments) {
 
 MeasuredResponse measured_response(const ResponseSource& source) {
   if (source.recordings.empty()) return source.table;
-  return worked(source.recordings.size() == 1 ? source.name : "", [&] {
+  const auto estimated = [&] {
     ProgressLine line("estimating the response");
     return frequency_response(source.recordings, source.options, line.progress());
-  });
+  };
+  return worked(source.recordings.size() == 1 ? source.name : "", estimated, response_options);
 }
+
+OptionsByMember options_of_response() { return response_options; }
 
 }  // namespace zwidth::cli

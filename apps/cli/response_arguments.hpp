@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/recording_arguments.hpp"
+#include "cli/subcommand.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/io/recording_file.hpp"
 
@@ -50,5 +51,8 @@ struct ResponseSource {
 
 /// The response, judged. Throws BadInput where the recording has none.
 [[nodiscard]] MeasuredResponse measured_response(const ResponseSource& source);
+
+/// Those that say how it is measured.
+[[nodiscard]] OptionsByMember options_of_response();
 
 }  // namespace zwidth::cli

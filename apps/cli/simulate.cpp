@@ -16,7 +16,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
-#include "cli/remark_lines.hpp"
 #include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
@@ -103,7 +102,6 @@ void run_simulate(const SimulateArguments& arguments) {
   outputs.commit();
   if (arguments.output.json) {
     const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
-    write_warnings(result.remarks);
     write_standard_output(results::line(results::simulation_json(device, result, points)));
   } else {
     write_text(report::simulation_text(device, result));

@@ -53,7 +53,11 @@ Device structure_from_file(const StructureArguments& arguments) {
     overrides.push_back(fmt::format("loop.sampling_period={}", *arguments.sampling_period));
   }
   auto device = read_named_device(arguments.structure, overrides);
-  if (!device) refuse_input(device.error());
+  if (!device) {
+    const InputPlace& place = device.error().place;
+    const bool is_no_device = place.line == 0 && place.key.empty();  // there is no file of the name
+    refuse_input(device.error(), is_no_device ? "--structure" : "");
+  }
   if (!device->has_bodies()) {
     throw BadInput("--structure", fmt::format("{}: is a transfer function", arguments.structure), "a device of bodies");
   }

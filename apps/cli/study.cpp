@@ -21,6 +21,7 @@
 #include "report/text/text_medium.hpp"
 #include "results/study_json.hpp"
 #include "study/study_engine.hpp"
+#include "study/study_result_file.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/study_file.hpp"
 #include "zwidth/quantity.hpp"
@@ -131,6 +132,7 @@ void run_study(const StudyArguments& arguments) {
   if (study_engine::team().size() > 1 && arguments.result.empty()) {
     throw BadInput("--output", "several processes meet at a result on a disk that all see", "add --output FILE.h5");
   }
+  if (!arguments.result.empty()) study_engine::require_writer();
   Device device = std::move(read_devices(arguments.devices).front());
   auto file = read_named_study(arguments.study, device);
   if (!file) refuse_input(file.error());

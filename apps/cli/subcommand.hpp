@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -84,27 +85,37 @@ struct WorkFailed : std::runtime_error {
   OptionText reason;  ///< without the name
 };
 
+/// Options of the command line by the member of an options struct that they set.
+using OptionsByMember = std::span<const std::pair<std::string_view, std::string_view>>;
+
+/// The option that sets the member; empty for none.
+[[nodiscard]] inline std::string_view option_of(OptionsByMember options, std::string_view member) {
+  const auto found = std::ranges::find(options, member, [](const auto& each) { return each.first; });
+  return found == options.end() ? std::string_view() : found->second;
+}
+
 /// What is wrong with the library's arguments, in the file `name` (empty: in none).
-[[nodiscard]] inline BadInput refused_by(const Error& error, const std::string& name) {
+[[nodiscard]] inline BadInput refused_by(const Error& error, const std::string& name, OptionsByMember options = {}) {
   std::vector<InputProblem> problems = error.problems();
   if (problems.empty()) problems.push_back({{}, error.what(), "", {}});
   for (InputProblem& each : problems) {
-    each.place.file = name;
-    if (!each.place.option.empty()) each.what = each.place.option + " " + each.what;  // no option of the command line
-    each.place.option.clear();
+    if (each.place.file.empty()) each.place.file = name;
+    const std::string_view option = option_of(options, each.place.option);
+    if (option.empty() && !each.place.option.empty()) each.what = each.place.option + " " + each.what;
+    each.place.option = option;
   }
   return BadInput(std::move(problems));
 }
 
 /// Runs the library's work on what is called `name` (a file; empty: nothing). What it could not compute is WorkFailed;
-/// what it refuses to compute lies in the input: BadInput.
+/// what it refuses to compute lies in the input: BadInput, of the option that sets what it refuses.
 template <typename Work>
-auto worked(const std::string& name, const Work& work) {
+auto worked(const std::string& name, const Work& work, OptionsByMember options = {}) {
   try {
     return work();
   } catch (const Error& error) {
     if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(name, error.what());
-    throw refused_by(error, name);
+    throw refused_by(error, name, options);
   }
 }
 

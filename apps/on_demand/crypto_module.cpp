@@ -2,7 +2,7 @@
 
 using namespace zwidth;
 
-const void* zwidth_module_functions() {
+on_demand::Module zwidth_crypto() {
   static constexpr on_demand::Crypto functions{server::sha256, server::equal_in_constant_time};
-  return &functions;
+  return {on_demand::build, &functions};
 }

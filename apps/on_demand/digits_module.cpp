@@ -2,8 +2,8 @@
 
 using namespace zwidth;
 
-const void* zwidth_module_functions() {
+on_demand::Module zwidth_digits() {
   static constexpr on_demand::Digits functions{internal::exact_modal_form, internal::sample_exactly,
                                                internal::unstable_poles_in_digits, internal::polish_poles_in_digits};
-  return &functions;
+  return {on_demand::build, &functions};
 }

@@ -2,9 +2,9 @@
 
 using namespace zwidth;
 
-const void* zwidth_module_functions() {
+on_demand::Module zwidth_fits() {
   static constexpr on_demand::Fits functions{internal::least_squares,   internal::shot_slopes,
                                              internal::fit_shots,       internal::shot_residuals,
                                              internal::open_mat73_file, study_engine::write_result};
-  return &functions;
+  return {on_demand::build, &functions};
 }

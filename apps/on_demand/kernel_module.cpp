@@ -1,6 +1,8 @@
 #include "on_demand/on_demand.hpp"
 
-const void* zwidth_module_functions() {
-  static constexpr zwidth::on_demand::Kernel functions{zwidth::internal::solve_group};
-  return &functions;
+using namespace zwidth;
+
+on_demand::Module zwidth_kernel() {
+  static constexpr on_demand::Kernel functions{internal::solve_group};
+  return {on_demand::build, &functions};
 }

@@ -16,9 +16,19 @@
 
 namespace zwidth::on_demand {
 
+/// What the program, or the module, was built from: of another build, a function's types may be others.
+[[gnu::visibility("hidden")]] extern const char* const build;
+
+/// What a module exports, by the name that the struct of its functions has for it.
+struct Module {
+  const char* build;
+  const void* functions;
+};
+
 /// With Ceres and HDF5.
 struct Fits {
   static constexpr const char* file = "fits-" ZWIDTH_VERSION ".so";
+  static constexpr const char* name = "zwidth_fits";
   decltype(internal::least_squares)* least_squares;
   decltype(internal::shot_slopes)* shot_slopes;
   decltype(internal::fit_shots)* fit_shots;
@@ -30,6 +40,7 @@ struct Fits {
 /// With FLINT and Arb.
 struct Digits {
   static constexpr const char* file = "digits-" ZWIDTH_VERSION ".so";
+  static constexpr const char* name = "zwidth_digits";
   decltype(internal::exact_modal_form)* exact_modal_form;
   decltype(internal::sample_exactly)* sample_exactly;
   decltype(internal::unstable_poles_in_digits)* unstable_poles_in_digits;
@@ -39,17 +50,23 @@ struct Digits {
 /// With Highway.
 struct Kernel {
   static constexpr const char* file = "kernel-" ZWIDTH_VERSION ".so";
+  static constexpr const char* name = "zwidth_kernel";
   decltype(internal::solve_group)* solve_group;
 };
 
 /// With OpenSSL.
 struct Crypto {
   static constexpr const char* file = "crypto-" ZWIDTH_VERSION ".so";
+  static constexpr const char* name = "zwidth_crypto";
   decltype(server::sha256)* sha256;
   decltype(server::equal_in_constant_time)* equal_in_constant_time;
 };
 
 }  // namespace zwidth::on_demand
 
-/// The functions of a module, the one name that it exports.
-extern "C" [[gnu::visibility("default")]] const void* zwidth_module_functions();
+extern "C" {
+[[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_fits();
+[[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_digits();
+[[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_kernel();
+[[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_crypto();
+}

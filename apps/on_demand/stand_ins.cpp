@@ -2,27 +2,35 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <string_view>
 
 #include "on_demand/on_demand.hpp"
 
 namespace zwidth {
 namespace {
 
+[[noreturn]] void refuse_module(std::string_view why) {
+  throw std::runtime_error(fmt::format(
+      "a part of zwidth cannot be loaded: {}; it is in the package zwidth, in the folder {} from that of the program",
+      why, ZWIDTH_MODULES));
+}
+
 /// Of the module's file, which stands in the program's run path; it stays loaded.
-const void* functions_in(const char* file) {
-  void* const module = dlopen(file, RTLD_NOW | RTLD_LOCAL);
-  void* const functions = module != nullptr ? dlsym(module, "zwidth_module_functions") : nullptr;
-  if (functions == nullptr) {
-    throw std::runtime_error(fmt::format(
-        "a part of zwidth cannot be loaded: {}\nIt is in the package zwidth, in the folder {} from that of the program",
-        dlerror(), ZWIDTH_MODULES));
+template <typename Functions>
+const void* functions_of_module() {
+  void* const module = dlopen(Functions::file, RTLD_NOW | RTLD_LOCAL);
+  if (module == nullptr) refuse_module(dlerror());
+  void* const exported = dlsym(module, Functions::name);
+  if (exported != nullptr) {
+    const on_demand::Module own = reinterpret_cast<decltype(&zwidth_fits)>(exported)();
+    if (std::string_view(own.build) == on_demand::build) return own.functions;
   }
-  return reinterpret_cast<decltype(&zwidth_module_functions)>(functions)();
+  refuse_module(fmt::format("{} is of another build than the program", Functions::file));
 }
 
 template <typename Functions>
 const Functions& loaded() {
-  static const void* const functions = functions_in(Functions::file);
+  static const void* const functions = functions_of_module<Functions>();
   return *static_cast<const Functions*>(functions);
 }
 
@@ -82,6 +90,8 @@ void solve_group(const KernelGroup& group, const KernelDevices& devices, std::si
 }  // namespace internal
 
 namespace study_engine {
+
+void require_writer() { static_cast<void>(loaded<on_demand::Fits>()); }
 
 void write_result(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
   loaded<on_demand::Fits>().write_result(path, run, chunks, study);

@@ -1,7 +1,6 @@
 #include "results/json.hpp"
 
-#include <algorithm>
-
+#include "zwidth/ranked_findings.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
@@ -13,22 +12,8 @@ Json numbers_json(const std::vector<Evidence>& numbers) {
   return json;
 }
 
-/// `finding` is null where the text has none.
-Json finding_json(const Finding* finding, const char* severity, const std::string& remedy, const std::string& text) {
-  const Finding stated;
-  const Finding& found = finding != nullptr ? *finding : stated;
-  return {{"code", zwidth::name_of(found.code)},
-          {"severity", severity},
-          {"key", found.key.empty() ? Json(nullptr) : Json(found.key)},
-          {"evidence", numbers_json(found.evidence)},
-          {"effect", found.effect.empty() ? Json(nullptr) : numbers_json(found.effect)},
-          {"remedy", remedy},
-          {"text", text}};
-}
-
-const char* severity_of(const Finding* finding, const Trust& trust) {
-  const bool refuses = finding != nullptr ? finding->severity == Finding::Severity::refusal : trust.refused();
-  return refuses ? "refusal" : "doubt";
+const char* severity_name(Finding::Severity severity) {
+  return severity == Finding::Severity::refusal ? "refusal" : severity == Finding::Severity::doubt ? "doubt" : "note";
 }
 
 }  // namespace
@@ -48,23 +33,14 @@ void to_json(Json& json, const Trust& trust) { json = {{"verdict", trust.verdict
 
 Json findings_json(const Trust& trust, const std::vector<Remark>& remarks) {
   Json list = Json::array();
-  std::vector<std::string> listed;
-  const auto is_new = [&listed](const std::string& text) {
-    if (std::ranges::find(listed, text) != listed.end()) return false;
-    listed.push_back(text);
-    return true;
-  };
-  for (const std::string& reason : trust.reasons) {
-    if (!is_new(reason)) continue;
-    const auto found = std::ranges::find(trust.findings, reason, [](const Finding& each) { return text(each); });
-    const Finding* const finding = found != trust.findings.end() ? &*found : nullptr;
-    const std::string remedy = finding != nullptr ? words_of(*finding).remedy : std::string();
-    list.push_back(finding_json(finding, severity_of(finding, trust), remedy, reason));
-  }
-  for (const Remark& remark : remarks) {
-    const std::string text = remark_line(remark);
-    if (!is_new(text)) continue;
-    list.push_back(finding_json(remark.finding ? &*remark.finding : nullptr, "note", remark.remedy, text));
+  for (const auto& [found, words] : most_important(trust, remarks)) {
+    list.push_back({{"code", zwidth::name_of(found.code)},
+                    {"severity", severity_name(found.severity)},
+                    {"key", found.key.empty() ? Json(nullptr) : Json(found.key)},
+                    {"evidence", numbers_json(found.evidence)},
+                    {"effect", found.effect.empty() ? Json(nullptr) : numbers_json(found.effect)},
+                    {"remedy", words.remedy},
+                    {"text", text(words)}});
   }
   return list;
 }

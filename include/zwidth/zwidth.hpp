@@ -67,6 +67,7 @@
 #include "zwidth/problem_code.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/ranked_findings.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/rig/force_guard.hpp"
 #include "zwidth/rig/limit_search.hpp"

@@ -37,8 +37,13 @@ std::optional<OptionProblem> find_problem(const ExcitationOptions& options, doub
   require(positive(options.duration), "duration", options.duration, "a time in s > 0");
   const double size = std::round(options.duration * rate);
   if (!found && !(size >= 2.0 && size <= max_excitation_samples)) {
-    found = OptionProblem{"duration", fmt::format("times the rate is {:.9g}", options.duration * rate),
-                          fmt::format("2 to {:g} samples", max_excitation_samples)};
+    // Of the two that make the samples, the one that does so by itself.
+    const bool is_the_rate = options.rate && options.duration * default_excitation_rate <= max_excitation_samples &&
+                             size > max_excitation_samples;
+    found =
+        OptionProblem{is_the_rate ? "rate" : "duration",
+                      fmt::format("times the {} is {:.9g}", is_the_rate ? "duration" : "rate", options.duration * rate),
+                      fmt::format("2 to {:g} samples", max_excitation_samples)};
   }
   const double nyquist = 0.5 * rate;
   require(positive(options.lowest_hz) && options.lowest_hz <= nyquist, "lowest_hz", options.lowest_hz,

@@ -11,6 +11,7 @@
 #include "identification/motion_slope.hpp"
 #include "identification/response_features.hpp"
 #include "identification/response_slopes.hpp"
+#include "model/key_members.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -22,18 +23,10 @@ namespace {
 // Of a central difference: the response is known to some 1e-13, its curvature is felt from 1e-3 of a light damping on.
 constexpr double difference_step = 1e-6;
 
-bool ends_with_mass(std::string_view key) { return key.ends_with(".mass"); }
-
-Coordinate::Kind kind_of(std::string_view key) {
-  const bool is_link_stiffness = key.starts_with("link.") && key.ends_with(".stiffness");
-  const bool is_mass = key.starts_with("body.") && ends_with_mass(key);
-  return is_mass || is_link_stiffness ? Coordinate::Kind::logarithmic : Coordinate::Kind::not_negative;
-}
-
 /// What the key's quantity typically is, from the sizes of force per position, per velocity and per acceleration.
-double unit_of(std::string_view key, const std::vector<ResponsePoint>& points) {
-  const int order = ends_with_mass(key) ? 2 : key.ends_with(".damping") ? 1 : 0;
-  if (key == "loop.delay" || key == "actuator.time_constant") return 1.0 / points.back().frequency;
+double unit_of(std::optional<Measure> measure, const std::vector<ResponsePoint>& points) {
+  if (measure == Measure::time) return 1.0 / points.back().frequency;
+  const int order = measure == Measure::mass ? 2 : measure == Measure::damping ? 1 : 0;
   std::vector<double> sizes;
   sizes.reserve(points.size());
   for (const ResponsePoint& point : points) {
@@ -61,18 +54,20 @@ void check_response(const FrequencyResponse& response, std::size_t parameters) {
 }
 
 void check_free(const DeviceParameters& parameters, const std::string& key) {
-  static const std::set<std::string> not_in_response = {"loop.sampling_period", "actuator.force_limit",
-                                                        "sensor.resolution",    "wall.stiffness",
-                                                        "wall.damping",         "wall.velocity_filter_hz"};
-  if (!parameter(parameters, key) && not_in_response.count(key) == 0) {
+  const std::vector<std::string> keys = parameter_keys(parameters);
+  if (std::ranges::find(keys, key) == keys.end()) {
     throw Error(ErrorCode::invalid_argument, "no parameter of the structure is called " + key);
   }
-  if (not_in_response.count(key) > 0 || key.ends_with(".coulomb")) {
+  if (row_of(key)->reach != KeyReach::response) {
     throw Error(ErrorCode::invalid_argument, key + " does not show in a frequency response; it cannot be free");
   }
 }
 
 }  // namespace
+
+Coordinate::Kind Coordinate::kind_of(std::string_view key) {
+  return may_vanish(*row_of(key)) ? Kind::not_negative : Kind::logarithmic;
+}
 
 double Coordinate::value(double x) const {
   constexpr double least = 1e-30;  // that a device may have
@@ -99,7 +94,7 @@ FitModel::FitModel(const Device& structure, const FrequencyResponse& response, c
     const std::string key = full_parameter_key(structure.parameters(), given);
     check_free(structure.parameters(), key);
     if (!seen.insert(key).second) throw Error(ErrorCode::invalid_argument, key + " is given twice as free");
-    Coordinate coordinate{key, kind_of(key), unit_of(key, response.points)};
+    Coordinate coordinate{key, Coordinate::kind_of(key), unit_of(measure_of(key), response.points)};
     if (key == "loop.delay") {
       const double longest = max_delay_samples * sampling_period_.value_or(std::numeric_limits<double>::infinity());
       coordinate.bound = std::min(longest_resolved_delay(response.points), longest) / coordinate.unit;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "zwidth/identification/parameter_fit.hpp"
@@ -23,6 +24,7 @@ struct Coordinate {
   /// x stays below: a delay is known only modulo what the spacing of the lines resolves.
   double bound = std::numeric_limits<double>::infinity();
 
+  [[nodiscard]] static Kind kind_of(std::string_view key);  ///< by its row of the table of keys
   [[nodiscard]] double value(double x) const;
   [[nodiscard]] double position(double value) const;  ///< x of a value
   [[nodiscard]] double slope(double x) const;         ///< d value / dx

@@ -14,6 +14,7 @@
 #include "identification/period_detection.hpp"
 #include "identification/periodic_response.hpp"
 #include "identification/welch.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -50,21 +51,23 @@ void check(std::span<const double> force, std::span<const double> output, double
   if (constant(force)) refuse("the force is constant: it excites nothing; a force that varies");
   if (constant(output)) refuse("the motion is constant: nothing to measure; another column, or a stronger force");
   if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
-    refuse(fmt::format("overlap of {}; 0 up to, but not including, 1", options.overlap));
+    refuse_member("overlap", fmt::format("overlap of {}", options.overlap), "0 up to, but not including, 1");
   }
   const double lowest = options.lowest.value_or(0.0);
   const double highest = options.highest.value_or(std::numeric_limits<double>::infinity());
   if (!(lowest >= 0.0 && highest > lowest)) {
-    refuse(fmt::format("band from {:.6g} to {:.6g} rad/s; rising, from 0 on", lowest, highest));
+    refuse_member("highest", fmt::format("band from {:.6g} to {:.6g} rad/s", lowest, highest), "rising, from 0 on");
   }
 }
 
 void check_period(std::size_t samples, std::size_t period, std::size_t skipped) {
   if (period < 2 || period > samples / 2) {
-    refuse(fmt::format("period of {} samples in a record of {}; 2 up to half the record", period, samples));
+    refuse_member("period", fmt::format("period of {} samples in a record of {}", period, samples),
+                  "2 up to half the record");
   }
   if (samples / period < skipped + 2) {
-    refuse(fmt::format("{} of {} whole periods skipped; at least two must remain", skipped, samples / period));
+    refuse_member("skip_periods", fmt::format("{} of {} whole periods skipped", skipped, samples / period),
+                  "at least two must remain");
   }
 }
 
@@ -72,18 +75,20 @@ void check_period(std::size_t samples, std::size_t period, std::size_t skipped) 
 std::vector<double> angles_of(const FrequencyResponseOptions& options, double sampling_period) {
   std::vector<double> angles;
   for (const double line : options.lines) {
-    if (!(std::isfinite(line) && line > 0.0)) refuse(fmt::format("line at {} rad/s; a frequency above 0", line));
+    if (!(std::isfinite(line) && line > 0.0))
+      refuse_member("lines", fmt::format("line at {} rad/s", line), "a frequency above 0");
     if (!(line * sampling_period < std::numbers::pi)) {
-      refuse(fmt::format("line at {:.6g} Hz; below half the sampling rate, {:.6g} Hz", line / (2.0 * std::numbers::pi),
-                         0.5 / sampling_period));
+      refuse_member("lines", fmt::format("line at {:.6g} Hz", line / (2.0 * std::numbers::pi)),
+                    fmt::format("below half the sampling rate, {:.6g} Hz", 0.5 / sampling_period));
     }
     angles.push_back(line * sampling_period);
   }
   std::ranges::sort(angles);
   const auto twice = std::ranges::adjacent_find(angles);
   if (twice != angles.end()) {
-    refuse(
-        fmt::format("line at {:.6g} Hz comes twice; each once", *twice / (2.0 * std::numbers::pi * sampling_period)));
+    refuse_member("lines",
+                  fmt::format("line at {:.6g} Hz comes twice", *twice / (2.0 * std::numbers::pi * sampling_period)),
+                  "each once");
   }
   return angles;
 }

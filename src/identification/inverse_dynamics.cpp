@@ -14,6 +14,7 @@
 #include "identification/rigid_band.hpp"
 #include "identification/student_t.hpp"
 #include "linear_systems.hpp"
+#include "require_valid.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
 
@@ -50,10 +51,10 @@ void check(std::span<const double> force, std::span<const double> position, doub
     fail(fmt::format("sampling period is {} s; a time > 0", sampling_period));
   }
   if (options.cutoff_hz && !(*options.cutoff_hz > 0.0 && *options.cutoff_hz * sampling_period < 0.5)) {
-    fail(fmt::format("cutoff is {} Hz; above 0 and below half the rate, {:g} Hz", *options.cutoff_hz,
-                     0.5 / sampling_period));
+    refuse_member("cutoff_hz", fmt::format("cutoff is {} Hz", *options.cutoff_hz),
+                  fmt::format("above 0 and below half the rate, {:g} Hz", 0.5 / sampling_period));
   }
-  if (options.decimation && *options.decimation < 1) fail("decimation is 0; at least 1");
+  if (options.decimation && *options.decimation < 1) refuse_member("decimation", "decimation is 0", "at least 1");
   const auto [lowest, highest] = std::minmax_element(position.begin(), position.end());
   if (*lowest == *highest) fail("the position is constant: a body that does not move shows none of its parameters");
 }

@@ -17,6 +17,7 @@
 #include "identification/response_choice.hpp"
 #include "identification/stated_units.hpp"
 #include "identification/welch.hpp"
+#include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "words/phrase.hpp"
 #include "zwidth/error.hpp"
@@ -86,9 +87,7 @@ void check(std::span<const Recording> recordings, const FrequencyResponseOptions
   const auto require = [](bool holds, const std::string& what) {
     if (!holds) throw Error(ErrorCode::invalid_argument, what);
   };
-  if (const auto problem = find_problem(options)) {
-    require(false, fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options));
   require(!recordings.empty(), "there is no recording; at least one");
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const Recording& each = recordings[r];
@@ -288,12 +287,12 @@ std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, 
     try {
       found.push_back(frequency_response(each.channels[0].samples, each.channels[1].samples, each.sampling_period,
                                          recordings.size() > 1 ? options_of(each) : options, part));
-      if (found.back().points.empty()) {
-        throw Error(ErrorCode::invalid_argument, nothing_left(each, options));
-      }
+      if (found.back().points.empty()) refuse_nothing_left(each, options);
     } catch (const Error& error) {
       if (recordings.size() == 1) throw;
-      throw Error(error.code(), fmt::format("{}: {}", each.source, error.what()));
+      std::vector<InputProblem> problems = error.problems();
+      for (InputProblem& problem : problems) problem.place.file = each.source;
+      throw Error(error.code(), fmt::format("{}: {}", each.source, error.what()), std::move(problems));
     }
   }
   return found;

@@ -5,6 +5,7 @@
 
 #include "require_valid.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/model/device_key.hpp"
 
 namespace zwidth {
 namespace {
@@ -25,8 +26,11 @@ std::optional<OptionProblem> find_problem(const NamedStructureOptions& options) 
     return OptionProblem{member, "missing", "the table has none, and the loop to judge needs one, in seconds"};
   }
   for (const std::optional<double>& each : {options.sampling_period, options.record_period}) {
-    if (each && !(std::isfinite(*each) && *each > 0.0)) {
-      return OptionProblem{member, fmt::format("is {}", *each), "a number of seconds above 0"};
+    if (each && !positive_numbers.contains(*each)) {
+      return option_problem(
+          member, {.code = ProblemCode::not_between,
+                   .evidence = {
+                       {"value", *each, "s"}, {"least", positive_numbers.least}, {"most", positive_numbers.greatest}}});
     }
   }
   return std::nullopt;

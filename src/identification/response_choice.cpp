@@ -9,6 +9,8 @@
 
 #include "identification/line_response.hpp"
 #include "identification/period_detection.hpp"
+#include "require_valid.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 
 namespace zwidth::internal {
@@ -54,19 +56,22 @@ MeasuredResponse response_with_enough_lines(std::span<const Recording> recording
   return measured;
 }
 
-std::string nothing_left(const Recording& recording, const FrequencyResponseOptions& options) {
+void refuse_nothing_left(const Recording& recording, const FrequencyResponseOptions& options) {
   const std::size_t samples = recording.channels[0].samples.size();
-  if (options.lowest || options.highest) return "no line is left in the band asked for; widen it";
+  if (options.lowest || options.highest) {
+    refuse_member(options.lowest ? "lowest" : "highest", "no line is left in the band asked for", "widen it");
+  }
   if (options.period) {
     const auto detected = detect_period(recording.channels[0].samples);
-    return fmt::format(
-        "the force excites no line of a period of {} samples; leave the period out, or give the force's own{}",
-        *options.period, detected ? fmt::format(": it repeats every {} samples", *detected) : "");
+    refuse_member("period", fmt::format("the force excites no line of a period of {} samples", *options.period),
+                  fmt::format("leave the period out, or give the force's own{}",
+                              detected ? fmt::format(": it repeats every {} samples", *detected) : ""));
   }
-  return fmt::format(
-      "the force excites no line that {} samples ({:.3g} s) tell apart: the record is too short, or the force hardly "
-      "changes; record for longer, several periods of the lowest frequency at least",
-      samples, static_cast<double>(samples) * recording.sampling_period);
+  throw Error(
+      ErrorCode::invalid_argument,
+      fmt::format("the force excites no line that {} samples ({:.3g} s) tell apart: the record is too short, or the "
+                  "force hardly changes; record for longer, several periods of the lowest frequency at least",
+                  samples, static_cast<double>(samples) * recording.sampling_period));
 }
 
 }  // namespace zwidth::internal

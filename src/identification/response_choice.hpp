@@ -19,6 +19,6 @@ namespace zwidth::internal {
                                                           const Progress& progress);
 
 /// Why a recording has no line under these options, with the remedy.
-[[nodiscard]] std::string nothing_left(const Recording& recording, const FrequencyResponseOptions& options);
+[[noreturn]] void refuse_nothing_left(const Recording& recording, const FrequencyResponseOptions& options);
 
 }  // namespace zwidth::internal

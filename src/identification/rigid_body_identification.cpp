@@ -20,6 +20,7 @@
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/model/device_key.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
 
@@ -199,9 +200,11 @@ std::optional<OptionProblem> find_problem(const RigidBodyOptions& options) {
   if (inverse.decimation && *inverse.decimation < 1) {
     return OptionProblem{"inverse_dynamics.decimation", "is 0", "must be at least 1"};
   }
-  if (not_positive(options.sampling_period)) {
-    return OptionProblem{"sampling_period", fmt::format("is {}", *options.sampling_period),
-                         "must be a number of seconds above 0"};
+  if (options.sampling_period && !positive_numbers.contains(*options.sampling_period)) {
+    return option_problem("sampling_period", {.code = ProblemCode::not_between,
+                                              .evidence = {{"value", *options.sampling_period, "s"},
+                                                           {"least", positive_numbers.least},
+                                                           {"most", positive_numbers.greatest}}});
   }
   return std::nullopt;
 }

@@ -191,10 +191,8 @@ std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start, st
   const Sizes sizes = sizes_of(recording);
   std::vector<Coordinate> coordinates;
   for (const std::string& key : start.free) {
-    Coordinate coordinate{key, Coordinate::Kind::not_negative, 1.0};
-    const bool is_mass = key.ends_with(".mass");
+    Coordinate coordinate{key, Coordinate::kind_of(key), 1.0};
     const bool is_link = key.starts_with("link.");
-    if (is_mass || (is_link && key.ends_with(".stiffness"))) coordinate.kind = Coordinate::Kind::logarithmic;
     const double value = parameter(start.device.parameters(), key).value_or(0.0);
     if (coordinate.kind == Coordinate::Kind::logarithmic) {
       coordinate.unit = value;

@@ -12,6 +12,7 @@
 
 #include "counted.hpp"
 #include "identification/encoder_rounding.hpp"
+#include "require_valid.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
 #include "zwidth/error.hpp"
@@ -249,9 +250,9 @@ FrequencyResponse welch_response(std::span<const double> force, std::span<const 
   Cut cut{force, output, {}, form_of(options)};
   const std::size_t samples = samples_left(force.size(), cut.form);
   if (options.segment_length && (*options.segment_length < shortest_segment || *options.segment_length > samples)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("segments of {} samples; {} to {}, the record's length{}", *options.segment_length,
-                            shortest_segment, samples, samples < force.size() ? " less what differences take" : ""));
+    refuse_member("segment_length", fmt::format("segments of {} samples", *options.segment_length),
+                  fmt::format("{} to {}, the record's length{}", shortest_segment, samples,
+                              samples < force.size() ? " less what differences take" : ""));
   }
   cut.segments = options.segment_length ? segments_of(samples, *options.segment_length, options.window, options.overlap)
                                         : chosen_segments(samples, options);

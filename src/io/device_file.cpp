@@ -140,10 +140,11 @@ class DeviceReader {
     const std::optional<double> tau = wall.number("velocity_filter_tau", Measure::time);
     if (!tau) return;
     const double period = device_.loop.sampling_period;
+    constexpr double longest_time_constant = 1e29;  // its cutoff is a number that a device may have
     if (wall.has("velocity_filter_hz")) {
       wall.refuse("velocity_filter_tau",
                   {.code = ProblemCode::given_beside, .subjects = {{"other", "velocity_filter_hz"}}});
-    } else if (!not_negative_numbers.contains(*tau)) {
+    } else if (!not_negative_numbers.contains(*tau) || *tau > longest_time_constant) {
       wall.refuse("velocity_filter_tau", {.code = ProblemCode::number_beyond_range,
                                           .evidence = {{"value", *tau}},
                                           .subjects = {{"in", std::string(si_unit(Measure::time, device_.motion))}}});

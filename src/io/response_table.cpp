@@ -220,7 +220,9 @@ tl::expected<FrequencyResponse, InputError> read_response_table(const std::strin
            (options.highest && point.frequency > *options.highest);
   });
   if (response->points.empty()) {
-    return Refusal(InputError{{.file = path == "-" ? "standard input" : path}, {.code = ProblemCode::no_line_in_band}});
+    InputPlace place{.file = path == "-" ? "standard input" : path};
+    if (options.lowest || options.highest) place.option = options.lowest ? "lowest" : "highest";
+    return Refusal(InputError{std::move(place), {.code = ProblemCode::no_line_in_band}});
   }
   return response;
 } catch (const std::bad_alloc&) {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/device_keys.hpp"
 #include "io/prose.hpp"
+#include "model/key_members.hpp"
 #include "zwidth/io/message_words.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
 
@@ -27,15 +30,11 @@ const std::vector<std::string>& type_names() {
   return names;
 }
 
-const std::vector<std::string>& keys_of_type(WallFilter::Kind kind) {
-  static const std::array<std::vector<std::string>, all_kinds.size()> keys{{
-      {"type", "frequency_hz", "order", "damping_ratio"},
-      {"type", "frequency_hz", "damping_ratio", "depth"},
-      {"type", "frequency_hz", "ratio"},
-      {"type", "numerator", "denominator", "frequency_hz"},
-      {"type", "numerator", "denominator"},
-  }};
-  return keys[static_cast<std::size_t>(kind)];
+std::vector<std::string> keys_of_type(WallFilter::Kind kind) {
+  std::vector<std::string> keys;
+  std::ranges::copy_if(keys_of(DeviceTable::filter), std::back_inserter(keys),
+                       [kind](const std::string& key) { return is_key_of(kind, key); });
+  return keys;
 }
 
 std::optional<WallFilter::Kind> read_kind(TableReader& reader) {
@@ -51,11 +50,10 @@ std::optional<WallFilter::Kind> read_kind(TableReader& reader) {
 }
 
 void refuse_keys_of_other_types(TableReader& reader, WallFilter::Kind kind) {
-  const std::vector<std::string>& keys = keys_of_type(kind);
   for (const std::string& key : keys_of(DeviceTable::filter)) {
-    if (!reader.has(key) || std::ranges::count(keys, key) > 0) continue;
+    if (!reader.has(key) || is_key_of(kind, key)) continue;
     reader.refuse(key, {.code = ProblemCode::key_of_other_filters,
-                        .subjects = {{"type", std::string(wall_filter_type(kind))}, {"keys", listed(keys)}}});
+                        .subjects = {{"type", std::string(wall_filter_type(kind))}, {"keys", listed(keys_of_type(kind))}}});
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
 
 #include "model/key_members.hpp"
 
@@ -32,6 +34,7 @@ constexpr auto made_tables() {
 // member and its use; tests/rules/device_keys.py writes it into the document and for the page.
 constexpr auto made_rows() {
   using enum DeviceTable;
+  using enum KeyReach;
   using enum KeyType;
   using enum Measure;
   constexpr auto none = std::nullopt;
@@ -54,13 +57,16 @@ constexpr auto made_rows() {
       {{body, "stiffness", number, stiffness, from_0, "0", "", "Spring between the body and the ground."},
        &Body::stiffness},
       {{body, "coulomb", number, force, from_0, "0", "", "Coulomb friction of the body. No limit depends on it."},
-       &Body::coulomb},
+       &Body::coulomb,
+       nothing},
 
       {{link, "between", texts, none, none, needed_key, "two names of different bodies",
         "The bodies that it connects."}},
       {{link, "stiffness", number, stiffness, from_0, "0", "one of the two > 0",
         "Stiffness of the cable, belt, shaft or gear between two bodies."},
-       &Link::stiffness},
+       &Link::stiffness,
+       response,
+       true},
       {{link, "damping", number, damping, from_0, "0", "one of the two > 0",
         "Viscous damping between the two bodies; of a damping ratio z it is 2 z sqrt(stiffness m), m = m1 m2/(m1 + "
         "m2)."},
@@ -71,7 +77,8 @@ constexpr auto made_rows() {
       {{loop, "sensed", text, none, none, "the first body", "likewise", "The body whose position is sampled."}},
       {{loop, "held", text, none, none, "the last body", "likewise", "The body that the user holds."}},
       {{loop, "sampling_period", number, time, above_0, needed_key, "", "Time between two samples of the controller."},
-       &Loop::sampling_period},
+       &Loop::sampling_period,
+       limits},
       {{loop, "delay", number, time, from_0, "0", "at most 10 000 sampling periods",
         "From sample to force, in addition to the half period that holding the force costs."},
        &Loop::delay},
@@ -81,40 +88,53 @@ constexpr auto made_rows() {
        &Actuator::time_constant},
       {{actuator, "force_limit", number, force, above_0, "none", "",
         "Where the force saturates. No limit depends on it."},
-       &Actuator::force_limit},
+       &Actuator::force_limit,
+       nothing},
 
       {{sensor, "resolution", number, position, from_0, "0", "",
         "Position of one count of the encoder. No limit depends on it."},
-       &Sensor::resolution},
+       &Sensor::resolution,
+       nothing},
 
       {{wall, "stiffness", number, stiffness, from_0, "none", "", "Stiffness K of the virtual wall that is judged."},
-       &Wall::stiffness},
+       &Wall::stiffness,
+       nothing},
       {{wall, "damping", number, damping, from_0, "0", "",
         "Virtual damper B of the wall: B times the difference of two sampled positions, per period."},
-       &Wall::damping},
+       &Wall::damping,
+       limits},
       {{wall, "velocity_filter_hz", number, frequency_hz, from_0, "0", "",
         "Low-pass of the damper's velocity; 0 is none."},
-       &Wall::velocity_filter_hz},
+       &Wall::velocity_filter_hz,
+       limits,
+       true},
       {{wall, "velocity_filter_tau", number, time, from_0, "0", "not both",
-        "The same by backward Euler's time constant.", "velocity_filter_hz"}},
+        "The same by backward Euler's time constant.", "velocity_filter_hz"},
+       {},
+       limits},
 
       {{filter, "type", text, none, none, needed_key,
         "`\"low_pass\"`, `\"notch\"`, `\"lead_lag\"`, `\"biquad\"`, `\"digital\"`",
         "Which of the numbers below it has."}},
       {{filter, "frequency_hz", number, frequency_hz, above_0, "needed; `biquad`: none, not prewarped",
         "below Nyquist; not of `digital`", "Where the filter of the wall's force acts."},
-       &WallFilter::frequency_hz},
+       &WallFilter::frequency_hz,
+       limits},
       {{filter, "order", whole_number, none, NumberRange{1, 2}, "1", "of `low_pass`", "Order of the filter."},
-       &WallFilter::order},
+       &WallFilter::order,
+       limits},
       {{filter, "damping_ratio", number, ratio, NumberRange{1e-6, 1e3}, "1/sqrt 2",
         "of `low_pass` of order 2 and `notch`", "Damping ratio of the filter."},
-       &WallFilter::damping_ratio},
+       &WallFilter::damping_ratio,
+       limits},
       {{filter, "depth", number, ratio, NumberRange{1e-6, 1}, "0.1", "of `notch`",
         "Gain of the notch at its frequency."},
-       &WallFilter::depth},
+       &WallFilter::depth,
+       limits},
       {{filter, "ratio", number, ratio, NumberRange{1e-6, 1e6}, needed_key, "of `lead_lag`",
         "Ratio of the lead (above 1) or lag."},
-       &WallFilter::ratio},
+       &WallFilter::ratio,
+       limits},
       {{filter, "numerator", numbers, none, none, needed_key,
         "1 to as many as the denominator, static gain > 0; of `biquad` and `digital`", "Numerator by falling powers."}},
       {{filter, "denominator", numbers, none, none, needed_key,
@@ -198,14 +218,34 @@ const DeviceKey& key_of(DeviceTable table, std::string_view name) {
   return std::ranges::find(rows_of(table), name, [](const KeyRow& row) { return row.key.name; })->key;
 }
 
+const KeyRow* row_of(std::string_view key) {
+  const std::size_t dot = key.rfind('.');
+  const std::string_view table = key.substr(0, dot == key.npos ? 0 : dot);
+  const std::string_view name = key.substr(dot + 1);  // npos + 1 is 0
+  for (const KeyRow& row : all_rows) {
+    if (row.key.name != name) continue;
+    const std::string path = path_of(row.key.table);
+    if (table == path || (entry_of(row.key.table).is_many && table.starts_with(path + "."))) return &row;
+  }
+  return nullptr;
+}
+
+bool is_key_of(WallFilter::Kind kind, std::string_view key) {
+  using enum WallFilter::Kind;
+  if (key == "type") return true;
+  if (key == "frequency_hz") return kind != digital;
+  if (key == "order") return kind == low_pass;
+  if (key == "damping_ratio") return kind == low_pass || kind == notch;
+  if (key == "depth") return kind == notch;
+  if (key == "ratio") return kind == lead_lag;
+  return kind == biquad || kind == digital;
+}
+
 bool is_number_of(const WallFilter& filter, std::string_view key) {
   using enum WallFilter::Kind;
-  const bool is_low_pass = filter.kind == low_pass;
-  if (key == "frequency_hz") return filter.kind != digital && (filter.kind != biquad || filter.frequency_hz > 0.0);
-  if (key == "order") return is_low_pass;
-  if (key == "damping_ratio") return filter.kind == notch || (is_low_pass && filter.order == 2);
-  if (key == "depth") return filter.kind == notch;
-  return key == "ratio" && filter.kind == lead_lag;
+  if (filter.kind == biquad && !(filter.frequency_hz > 0.0)) return false;
+  if (filter.kind == low_pass && filter.order == 1 && key == "damping_ratio") return false;
+  return is_key_of(filter.kind, key);
 }
 
 }  // namespace internal
@@ -225,8 +265,11 @@ std::string header_of(DeviceTable table) {
 }
 
 std::optional<Measure> measure_of(std::string_view key) {
-  const std::string_view last = key.substr(key.rfind('.') + 1);  // npos + 1 is 0
-  const auto* const found = std::ranges::find(all_keys, last, &DeviceKey::name);
+  if (key.find('.') != key.npos) {
+    const KeyRow* const row = row_of(key);
+    return row == nullptr ? std::nullopt : row->key.measure;
+  }
+  const auto* const found = std::ranges::find(all_keys, key, &DeviceKey::name);
   return found == all_keys.end() ? std::nullopt : found->measure;
 }
 

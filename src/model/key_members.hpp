@@ -24,9 +24,18 @@ constexpr bool is_member_of(std::type_identity<std::variant<Members...>>) {
   return (std::is_same_v<Member, Members> || ...);
 }
 
+/// What depends on a number of a device, but for its motion in time.
+enum class KeyReach {
+  nothing,  ///< simulations and rigs alone use it
+  limits,   ///< limits, not the response of force to position that the device itself has
+  response  ///< both
+};
+
 struct KeyRow {
   DeviceKey key;
   KeyMember member = {};
+  KeyReach reach = KeyReach::response;
+  bool zero_is_apart = false;  ///< its 0 is another structure (no link, no filter), not what small values come to
 };
 
 /// The table's rows of the table of keys, in the order in which a file is written.
@@ -35,7 +44,18 @@ struct KeyRow {
 /// The row of a key that is there.
 [[nodiscard]] const DeviceKey& key_of(DeviceTable table, std::string_view name);
 
-/// Whether the filter has the number: a notch its depth, a low-pass of order 2 its damping ratio.
+/// The row of a device's key, "body.motor.mass" or "link.stiffness"; nothing for what is no key.
+[[nodiscard]] const KeyRow* row_of(std::string_view key);
+
+/// Whether the number may come down to 0: a mass may not, nor what is another structure there.
+[[nodiscard]] inline bool may_vanish(const KeyRow& row) {
+  return row.key.range && row.key.range->takes_zero && !row.zero_is_apart;
+}
+
+/// Whether a filter of the kind may have the key, as a notch its depth.
+[[nodiscard]] bool is_key_of(WallFilter::Kind kind, std::string_view key);
+
+/// Whether this filter has the number: of its kind, and a low-pass of order 2 alone its damping ratio.
 [[nodiscard]] bool is_number_of(const WallFilter& filter, std::string_view key);
 
 template <typename Value>

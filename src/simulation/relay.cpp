@@ -160,8 +160,9 @@ std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, dou
   if (!options.device) return std::nullopt;
   const double expected = options.device->loop().sampling_period;
   if (std::abs(sampling_period / expected - 1.0) <= same_period) return std::nullopt;
-  return option_problem("device", {.code = ProblemCode::sampling_periods_disagree,
-                                   .evidence = {{"expected", expected}, {"period", sampling_period}}});
+  return option_problem("device.loop.sampling_period",
+                        {.code = ProblemCode::sampling_periods_disagree,
+                         .evidence = {{"expected", expected}, {"period", sampling_period}}});
 }
 
 RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress) {

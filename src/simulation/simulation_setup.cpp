@@ -172,7 +172,8 @@ std::optional<OptionProblem> start_problem(const SimulationOptions& options, con
   if (!device.has_bodies()) {
     return option_problem("wall_position", {.code = ProblemCode::wall_where_nothing_moves});
   }
-  return option_problem("initial_position", {.code = ProblemCode::starts_where_nothing_moves});
+  const char* const start = options.initial_position.empty() ? "initial_velocity" : "initial_position";
+  return option_problem(start, {.code = ProblemCode::starts_where_nothing_moves});
 }
 
 /// The device with the controller's wall.

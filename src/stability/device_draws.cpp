@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "eigenvalues.hpp"
+#include "model/key_members.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -17,7 +18,7 @@ namespace {
 constexpr double smallest_value = 1e-30;
 constexpr double largest_value = 1e30;
 
-// Of a mass or of a link's stiffness, which cannot be 0: less of it hardly shows.
+// Of a mass, and of what is another structure at 0 (a link's stiffness): less of it hardly shows.
 constexpr double least_share = 0.01;
 // Of a variance: what is left of it is rounding.
 constexpr double rounding = 1e-9;
@@ -95,10 +96,7 @@ DeviceDraws::DeviceDraws(const Device& device, std::uint64_t seed)
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const double mean = *parameter(device.parameters(), keys[i]);
     const std::string key = full_parameter_key(device.parameters(), keys[i]);
-    const bool may_be_zero = key.ends_with("damping") || key.ends_with(".coulomb") || key.ends_with(".delay") ||
-                             key.ends_with(".time_constant") ||
-                             (key.ends_with("stiffness") && !key.starts_with("link"));
-    bounds_(static_cast<Eigen::Index>(i)) = may_be_zero ? -mean : (least_share - 1.0) * mean;
+    bounds_(static_cast<Eigen::Index>(i)) = may_vanish(*row_of(key)) ? -mean : (least_share - 1.0) * mean;
   }
 }
 

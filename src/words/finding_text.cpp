@@ -83,7 +83,6 @@ std::string value_text(const Evidence& evidence, std::string_view format) {
 
 // Whether the finding holds a name, or holds it with this very value.
 bool holds(const Finding& finding, std::string_view condition) {
-  if (condition == "doubt") return finding.severity >= Finding::Severity::doubt;
   const std::size_t equals = condition.find('=');
   const std::string_view name = condition.substr(0, equals);
   const auto evidence = std::ranges::find(finding.evidence, name, &Evidence::name);

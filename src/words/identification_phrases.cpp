@@ -7,6 +7,10 @@ namespace zwidth::internal {
 std::span<const Phrase> identification_phrases() {
   using enum FindingCode;
   using enum Finding::Severity;
+  // What a fit makes of a force that its structure lacks.
+  static constexpr const char* taken_for =
+      "{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit takes it for "
+      "mass, friction and offset}";
   static constexpr std::array phrases{
       Phrase{motion_against_force, "motion_against_force", refusal,
              "the position falls as the force rises: scale one of them by -1"},
@@ -66,9 +70,9 @@ std::span<const Phrase> identification_phrases() {
       Phrase{limit_above_measured, "limit_above_measured", doubt,
              "UNSAFE: the critical stiffness of the recorded device as fitted, {fitted:.4g} {unit}, lies above "
              "{proven:.4g}, where the same data show an oscillation without any model",
-             "{!doubt|the structure lacks something}",
-             "{!doubt|use the critical stiffness of the response itself; free delay and lag, or name bodies that were "
-             "locked}"},
+             "the structure lacks something",
+             "use the critical stiffness of the response itself; free delay and lag, or name bodies that were "
+             "locked"},
       Phrase{limit_may_be_wrong, "limit_may_be_wrong", warning, "{reason}", "the critical stiffness may be wrong"},
       Phrase{unseen_limit_within_interval, "unseen_limit_within_interval", doubt,
              "{key} is known to {relative_deviation:percent} only: within that a crossover near {frequency:.4g} Hz, "
@@ -144,12 +148,10 @@ std::span<const Phrase> identification_phrases() {
              "{body} has {?mass|a mass of {mass:.4g} kg}{?inertia|an inertia of {inertia:.4g} kg m^2}: few haptic "
              "devices are as heavy as that",
              "", "are force and motion in SI units?"},
-      Phrase{
-          mass_far_from_structure, "mass_far_from_structure", doubt,
-          "{key} comes out {ratio:.3g} times the structure's{?doubt|: force, motion or structure is not in SI units}",
-          "{!doubt|one of force, motion and structure is probably not in SI units}",
-          "{?doubt|check their units}{!doubt|{?prefix|is the motion or the force in {prefix} of its "
-          "unit?}{!prefix|check their units}}"},
+      Phrase{mass_far_from_structure, "mass_far_from_structure", doubt,
+             "{key} comes out {ratio:.3g} times the structure's",
+             "one of force, motion and structure is probably not in SI units",
+             "{?prefix|is the motion or the force in {prefix} of its unit?}{!prefix|check their units}"},
       Phrase{period_far_from_record, "period_far_from_record", warning,
              "the structure's sampling period, {period:.4g} s, is {ratio:.3g} times the record's",
              "the critical stiffness is that of the structure's period",
@@ -160,7 +162,7 @@ std::span<const Phrase> identification_phrases() {
              "", "log both at one instant, or correct loop.delay in the structure"},
       Phrase{delay_contradicts_structure, "delay_contradicts_structure", doubt,
              "the record shows a delay of {shown:.3g} s where the structure has {given:.3g} s",
-             "{!doubt|the critical stiffness depends on it}", "free loop.delay, or give it"},
+             "the critical stiffness depends on it", "free loop.delay, or give it"},
       Phrase{delay_hidden, "delay_hidden", doubt,
              "the response has {lines:n} lines, too few to tell a delay beside the {numbers:n} numbers that are "
              "fitted, and a delay makes the critical stiffness lower",
@@ -170,8 +172,7 @@ std::span<const Phrase> identification_phrases() {
              "{stiffness:.3g} {unit}",
              "", "free loop.delay, state it in a device file, or excite higher frequencies"},
       Phrase{delay_not_shown, "delay_not_shown", doubt, "the delay from force to motion does not show in this record",
-             "{!doubt|taken as half a period, that of a held force; move at several frequencies to tell}",
-             "{?doubt|move at several frequencies}"},
+             "taken as half a period, that of a held force", "move at several frequencies"},
       Phrase{force_acts_later, "force_acts_later", note,
              "the force acts {milliseconds:.4g} ms later than a held force does",
              "the device has it as its loop.delay"},
@@ -202,24 +203,20 @@ std::span<const Phrase> identification_phrases() {
              "does not have: a hand on it, a cable, or gravity",
              "", "record it with nobody on it, or give the body that stiffness"},
       Phrase{dry_friction_taken_for_damping, "dry_friction_taken_for_damping", doubt,
-             "the record shows dry friction of about {force:.3g} {unit} on {body}{?doubt|: the fit takes it for "
-             "damping, which makes the critical stiffness too high}",
-             "{!doubt|the fit takes it for damping, which makes the critical stiffness too high}",
+             "the record shows dry friction of about {force:.3g} {unit} on {body}",
+             "the fit takes it for damping, which makes the critical stiffness too high",
              "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"},
       Phrase{dry_friction_fitted, "dry_friction_fitted", note, "dry friction of {force:.3g} {unit} ({key})",
              "the critical stiffness is that of the device without it: small motion is damped by it"},
       Phrase{friction_shown_in_time, "friction_shown_in_time", doubt,
-             "the record shows dry friction{?force| of about {force:.3g} {force_unit}} on {body}{?doubt|: beside it "
-             "the critical stiffness is about {stiffness:.3g} {unit}}",
-             "{!doubt|beside it the critical stiffness is about {stiffness:.3g} {unit}{?within_from|, within the "
-             "interval}}",
-             "{!doubt|fit the friction too, in time; or excite more strongly: its share falls with the amplitude}"},
+             "the record shows dry friction{?force| of about {force:.3g} {force_unit}} on {body}",
+             "beside it the critical stiffness is about {stiffness:.3g} {unit}{?within_from|, within the interval}",
+             "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"},
       Phrase{friction_not_told_from_damping, "friction_not_told_from_damping", doubt,
              "the record does not tell damping from dry friction{?force| of about {force:.3g} {force_unit}} on "
-             "{body}{?doubt|: beside it the critical stiffness is about {stiffness:.3g} {unit}}",
-             "{!doubt|beside it the critical stiffness is about {stiffness:.3g} {unit}{?within_from|, within the "
-             "interval}}",
-             "{!doubt|fit the friction too, in time; or excite more strongly: its share falls with the amplitude}"},
+             "{body}",
+             "beside it the critical stiffness is about {stiffness:.3g} {unit}{?within_from|, within the interval}",
+             "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"},
       Phrase{friction_not_looked_for, "friction_not_looked_for", note, "dry friction was not looked for in time",
              "that takes {samples:n} samples, and a device that moves through each in {steps:n} steps or fewer; "
              "friction that the response does not show makes the critical stiffness too high",
@@ -242,63 +239,46 @@ std::span<const Phrase> identification_phrases() {
       Phrase{nonlinear_spring, "nonlinear_spring", doubt,
              "{source} shows a force that changes with the position, but not in proportion to it: a spring that "
              "stiffens, gravity on a lever, or a stop",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "record smaller motion, about the place that matters"},
+             taken_for, "record smaller motion, about the place that matters"},
       Phrase{nonlinear_actuator, "nonlinear_actuator", doubt,
              "{source} shows a force that is not in proportion to the recorded one: an amplifier that saturates, or a "
              "torque that falls at large currents",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "record the force that acts, or excite less strongly"},
+             taken_for, "record the force that acts, or excite less strongly"},
       Phrase{cogging, "cogging", doubt,
              "{source} shows a force that comes and goes with the position, about every {wavelength:.2g} {unit}: "
              "cogging, gear teeth, or a bearing",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "compensate it, or excite more strongly: its share falls with the amplitude"},
+             taken_for, "compensate it, or excite more strongly: its share falls with the amplitude"},
       Phrase{drag, "drag", doubt,
              "{source} {?below|hardly tells damping from}{!below|shows} a force that is not in proportion to the "
              "speed: drag of air or of a fluid, an eddy-current brake, or friction that changes with the "
              "speed{?below|: beside it the critical stiffness is about {beside}}{!below|{?beside| (beside it the "
              "critical stiffness is about {beside})}}",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
+             taken_for,
              "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower"},
       Phrase{friction_not_coulombs, "friction_not_coulombs", doubt,
              "{source} {?below|hardly tells damping from}{!below|shows} friction that is not Coulomb's as the motion "
              "turns: what rubs, or a cable, bends before it slips, or friction at rest is more{?below|: beside it the "
              "critical stiffness is about {beside}}{!below|{?beside| (beside it the critical stiffness is about "
              "{beside})}}",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "excite more strongly: its share falls with the amplitude"},
+             taken_for, "excite more strongly: its share falls with the amplitude"},
       Phrase{link_friction, "link_friction", doubt,
              "{source} {?below|hardly tells damping from}{!below|shows} friction in a link: a belt, cable or gear that "
              "rubs, or gives before it slips{?below|: beside it the critical stiffness is about "
              "{beside}}{!below|{?beside| (beside it the critical stiffness is about {beside})}}",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "excite more strongly: its share falls with the amplitude"},
+             taken_for, "excite more strongly: its share falls with the amplitude"},
       Phrase{unmodelled_mode, "unmodelled_mode", doubt,
              "{source} shows a mode near {frequency:.4g} Hz that the structure lacks, {?times|larger "
              "than}{?share|{share:percent} of} the response there{?beside|: with it the critical stiffness is about "
              "{beside}}",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "give the structure one more body (a frame that shakes is one), or hold the device firmly"},
+             taken_for, "give the structure one more body (a frame that shakes is one), or hold the device firmly"},
       Phrase{delay_changes, "delay_changes", doubt,
              "{source} shows a delay that changes by {change} from its beginning to its end: the clocks of force and "
              "position run apart, or under a sweep something delays some frequencies more than others",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "record both by one clock, under noise or a multisine"},
+             taken_for, "record both by one clock, under noise or a multisine"},
       Phrase{damping_changes, "damping_changes", doubt,
              "{source} shows that the damping of {body} changes by {change} while it is recorded, of which the fit is "
              "a mean: at the softest the critical stiffness is about {beside} or less",
-             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
-             "takes it for mass, friction and offset}}",
-             "record the device when it is warm, or as cold as it will be used"},
+             taken_for, "record the device when it is warm, or as cold as it will be used"},
       Phrase{taken_as_zero, "taken_as_zero", warning, "{key} = {value:.4g} is below 0", "taken as 0 in the device"},
       Phrase{friction_below_zero, "friction_below_zero", doubt,
              "{friction} friction comes out as {value:.3g}, below 0 by more than its interval: motion is too noisy, or "
@@ -306,12 +286,12 @@ std::span<const Phrase> identification_phrases() {
              "", "lower the cutoff, or fit in time"},
       Phrase{force_unexplained, "force_unexplained", refusal,
              "{unexplained:percent} of the force stays unexplained by one rigid body with dry friction",
-             "{!doubt|its parameters may be off by more than their intervals}",
+             "its parameters may be off by more than their intervals",
              "lower the cutoff below the first vibration mode, or fit a structure of several bodies"},
       Phrase{device_not_rigid, "device_not_rigid", doubt,
              "the device is not rigid: {?first_mode|its response turns back near {first_mode:.4g} Hz}{?mode_above|its "
              "inertia changes with frequency, as below a mode near {mode_above:.2g} Hz}",
-             "{!doubt|a mode may limit the wall before the rigid body does}",
+             "a mode may limit the wall before the rigid body does",
              "fit a structure of several bodies to judge walls"}};
   return phrases;
 }

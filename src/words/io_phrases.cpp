@@ -59,7 +59,7 @@ std::span<const Phrase> io_phrases() {
              "the times are up to {largest:%.2g} % of a period off equal steps (rms {rms:%.2g} %)",
              "whether the rows or their stamps alone are off does not show in the motion: the delay is known to "
              "{delay:.2g} periods",
-             "{?doubt|log the time at which a row is sampled, or state the rate}"},
+             "log the time at which a row is sampled, or state the rate"},
       Phrase{rate_of_times, "rate_of_times", note,
              "rate {rate:.7g} Hz: the mean of the times in column {column}, read in units of {?scale|{scale:.6g} "
              "s}{?scale_of_name|{scale_of_name:.6g} s as its name says}"},
@@ -80,7 +80,7 @@ std::span<const Phrase> io_phrases() {
       Phrase{stated_scale_unclear, "stated_scale_unclear", doubt,
              "the header states a scale factor of {factor:.6g} and an offset of {offset:.6g} for {column}",
              "the file does not say whether its values are scaled by it: they are used as they stand",
-             "{!doubt|give the column's scale: 1 where they are scaled, {factor:.6g} where they are raw}"},
+             "give the column's scale: 1 where they are scaled, {factor:.6g} where they are raw"},
       Phrase{more_rows_than_stated, "more_rows_than_stated", doubt,
              "the header states {stated:n} samples of {column} and {rows:n} rows follow, without times",
              "{?rate|the rate that is given counts}{!rate|they are read as if no time were lost between one write and "

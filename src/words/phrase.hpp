@@ -22,7 +22,6 @@ namespace zwidth::internal {
 //     {gain:gain}         as {gain}; of a damping without a prefix
 //     {?cells|of {cells:n}}  the text behind the bar where the finding holds `cells`; {!cells|...} where it does not
 //     {?gaps=1|one gap}      where it holds `gaps` and that is 1 (a subject: the same text); {!gaps=1|...} elsewhere
-//     {?doubt|...}           in a doubt or a refusal alone; {!doubt|...} in a remark alone
 struct Phrase {
   FindingCode code;
   const char* name;

@@ -26,14 +26,11 @@ std::span<const Phrase> response_phrases() {
              "the device's file is not to be relied on: {reason}", "the stroke may be another; begin with less force"},
       Phrase{stroke_without_friction, "stroke_without_friction", note,
              "the stroke is computed without Coulomb friction", "the device moves less than that, or not at all"},
-      Phrase{
-          channel_in_counts, "channel_in_counts", doubt,
-          "{channel} holds {?counts=whole|whole numbers}{?counts=half|numbers that are whole ones apart} only{?doubt|, "
-          "as {?role=force|a converter gives}{?role=motion|an encoder counts}: every number is then per count}",
-          "{?doubt|give the {?role=force|newtons (or newton metres)}{?role=motion|metres or radians} per "
-          "count}{!doubt|{?role=force|counts of a converter, or millinewtons? Every number below is then in that "
-          "unit}{?role=motion|encoder counts? Every number below is then per count, not per m or rad}}",
-          "{!doubt|scale it to SI units (metres or radians per count)}"},
+      Phrase{channel_in_counts, "channel_in_counts", doubt,
+             "{channel} holds {?counts=whole|whole numbers}{?counts=half|numbers that are whole ones apart} only, as "
+             "{?role=force|a converter gives}{?role=motion|an encoder counts}",
+             "every number is then per count",
+             "give the {?role=force|newtons (or newton metres)}{?role=motion|metres or radians} per count"},
       Phrase{force_of_two_values, "force_of_two_values", note,
              "{channel} takes two values only: an amplifier that gives less shows in nothing",
              "every number would come out as if it gave all, and the critical stiffness too high by as much",

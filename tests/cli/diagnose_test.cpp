@@ -84,6 +84,10 @@ TEST_F(Diagnose, TheNearestWhereNoneFits) {
 
 TEST_F(Diagnose, RefusesWhatItCannotMean) {
   expect_refusal("zwidth diagnose devices/lhifam.toml", "--oscillates-hz: missing; give the frequency");
+  for (const std::string option : {"--stiffness", "--damping", "--amplitude"}) {
+    expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 " + option + " 1e40",
+                   option + ": devices/lhifam.toml: is 1e+40; must be from 1e-30 to 1e+30");
+  }
   expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 600",
                  "--oscillates-hz: devices/lhifam.toml: is 600");
   expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --position 2",

@@ -109,12 +109,16 @@ TEST_F(Identify, SetsKeysOfTheStructure) {
 
 TEST_F(Identify, RefusesWhatItCannotUse) {
   expect_refusal(record, "--structure: missing");
-  expect_refusal(record + "--structure nowhere.toml", "nowhere.toml: cannot be read");
+  expect_refusal(record + "--structure nowhere.toml", "--structure: nowhere.toml: cannot be read");
   expect_refusal(record + "--structure two-body --locked hndle", "did you mean handle?");
   expect_refusal(record + "--structure two-body --locked motor", "the actuated body \"motor\" is locked");
   expect_refusal(record + "--structure two-body --free link.stifness", "did you mean link.0.stiffness?");
   expect_refusal(record + "--structure two-body --free wall.damping", "does not show in a frequency response");
   expect_refusal(record + "--structure devices/lhifam.toml --motion rotary", "--motion: is for a named structure");
+  for (const char* structure : {"two-body", "devices/lhifam.toml"}) {
+    const std::string named = record + "--structure " + structure;
+    expect_refusal(named + " --sampling-period 1e40", "--sampling-period: is 1e+40 s; must be from 1e-30 to 1e+30");
+  }
   expect_refusal(record + "--structure two-body --sampling-period 0", "--sampling-period: is 0");
   expect_refusal(record + "--structure devices/lhifam.toml --sampling-period 0", "--sampling-period: is 0");
   expect_refusal(locked + "--figure fit.bmp", "unknown extension");

@@ -78,7 +78,8 @@ TEST_F(IdentifyRigidBody, Refusals) {
   const std::string rigid = example;
   expect_refusal(rigid + "--window hann", "--window: is not for");
   expect_refusal(rigid + "--free link.stiffness", "--free: is not for");
-  expect_refusal(rigid + "--cutoff-hz 300", "cutoff is 300 Hz");
+  expect_refusal(rigid + "--cutoff-hz 300", "--cutoff-hz: recordings/free_motion.csv: cutoff is 300 Hz");
+  expect_refusal(rigid + "--sampling-period 1e40", "--sampling-period: is 1e+40 s; must be from 1e-30 to 1e+30");
   expect_refusal(rigid + "--decimation 0", "decimation");
   expect_refusal(rigid + "--force-scale -1", "opposite signs");
   expect_refusal(rigid + "--sampling-period 0", "--sampling-period: is 0");

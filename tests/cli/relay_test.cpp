@@ -153,8 +153,8 @@ TEST_F(Relay, RefusesRecordingsThatDoNotFit) {
   const std::string recording = "--recording run.csv ";
   expect_refused(recording + "--position x", "--force: missing");
   expect_refused(recording + "--force f", "--position: missing");
-  expect_refused(recording + "--force f --velocity v", "--velocity, --acceleration: a relay acts on the position");
-  expect_refused(recording + "--force f --position y", "run.csv:");
+  expect_refused(recording + "--force f --velocity v", "--velocity: a relay acts on the position");
+  expect_refused(recording + "--force f --position y", "--position: run.csv: y: no such column");
   expect_refused(recording + "--force f --position x --amplitude 5", "--amplitude: is about a simulation");
   expect_refused(recording + "--force f --position x --delay 1e-3", "--delay: is about a device");
   expect_refused("--recording nowhere.csv --force f --position x", "nowhere.csv");

@@ -47,6 +47,9 @@ TEST_F(ServedErrors, AnErrorNamesTheFieldThatCausedIt) {
   expect_place("simulate", {{"overrun", {1, 2, 3}}}, "options.overrun", device);
   expect_place("analyze", {{"users", "mass=2:1"}}, "options.users", device);
   expect_place("analyze", {{"set", "loop.delay"}}, "options.set", device);
+  expect_place("diagnose", {{"oscillates-hz", 6}, {"stiffness", 1e40}}, "options.stiffness", device);
+  expect_place("simulate", {{"start-velocity", 0}}, "options.start-velocity", device);
+  expect_place("export", {{"format", "c"}}, "device.wall.stiffness", device);
   expect_place("analyze", {{"set", "loop.delay=-1"}}, "device.loop.delay", device);
   expect_place("analyze", json::object(), "device", "");
   expect_place("frf", {{"force", 1}}, "recording", "");

@@ -269,8 +269,9 @@ TEST_F(Hostile, NoOptionReachesADisk) {
   // Nor does a message tell where this process holds the bytes.
   const json twice{{"recording", {{"id", id}, {"name", "run.csv"}}},
                    {"options", {{"force", "force"}, {"position", "force"}, {"rate", 1000}}}};
-  EXPECT_THAT(post("frf", twice.dump()).body,
-              HasSubstr(R"("where":"recording","what":"column 'force' is named as the force and as the motion")"));
+  EXPECT_THAT(
+      post("frf", twice.dump()).body,
+      HasSubstr(R"("where":"options.position","what":"column 'force' is named as the force and as the motion")"));
   // A name that is a command's or an option's word is a name all the same.
   for (const char* name : {"frf", "device", "FILE", "force=2"}) {
     const json request{{"recording", {{"id", id}, {"name", name}}},

@@ -186,7 +186,7 @@ TEST(HiddenFriction, BesideAShortLagIsAskedFor) {
   ASSERT_GT(found.analysis.interval->lower, 1.03 * truth) << "what is doubted";
   ASSERT_EQ(found.trust.reasons.size(), 1U);
   const std::string& reason = found.trust.reasons.front();
-  EXPECT_NE(reason.find("on body: beside it the critical stiffness"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("on body; beside it the critical stiffness"), std::string::npos) << reason;
 }
 
 TEST(HiddenFriction, OfARecordTooShortToAskItIsSaid) {

@@ -284,7 +284,7 @@ TEST(Identification, CountsInsteadOfMetresAreSaid) {
   Recording recording = recorded(late_rotor(), multisine(0.5, 60.0, 500.0), {0.01, 1e-5, 1});
   for (double& value : recording.channels[1].samples) value = std::round(value / 1e-5);
   const Identification found = identify(recording, chain(1, 2e-3), of_a_named_structure());
-  EXPECT_THAT(found.remarks, Contains(Field(&Remark::consequence, HasSubstr("encoder counts?"))));
+  EXPECT_THAT(found.remarks, Contains(Field(&Remark::what, HasSubstr("as an encoder counts"))));
 }
 
 TEST(Identification, APeriodInAnotherUnitIsSaid) {

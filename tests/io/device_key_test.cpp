@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/key_members.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/number_with_unit.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -61,6 +62,27 @@ TEST(DeviceKey, EveryNumberOfTheLoopIsAParameter) {
     EXPECT_EQ(parameter(parameters, full), 3.0);
     EXPECT_EQ(measure_of(full), key.measure) << full;
   }
+}
+
+TEST(DeviceKey, IsFoundByItsTableAndItsName) {
+  EXPECT_EQ(internal::row_of("body.a b.c.inertia")->key.same_as, "mass");
+  EXPECT_EQ(internal::row_of("link.damping"), internal::row_of("link.12.damping"));
+  EXPECT_EQ(internal::row_of("wall.filter.0.damping_ratio")->key.table, DeviceTable::filter);
+  EXPECT_EQ(internal::row_of("operator.stiffness")->key.table, DeviceTable::user);
+  for (const char* none : {"loop.mass", "wall.0.damping", "walls.damping", "wall.filter", "body.mass.", ""}) {
+    EXPECT_EQ(internal::row_of(none), nullptr) << none;
+    EXPECT_FALSE(measure_of(none)) << none;
+  }
+}
+
+TEST(DeviceKey, OfAFilterIsThatOfItsKind) {
+  using enum WallFilter::Kind;
+  EXPECT_TRUE(internal::is_key_of(biquad, "frequency_hz"));
+  EXPECT_FALSE(internal::is_number_of({.kind = biquad, .frequency_hz = 0.0}, "frequency_hz"));
+  EXPECT_TRUE(internal::is_key_of(low_pass, "damping_ratio"));
+  EXPECT_FALSE(internal::is_number_of({.kind = low_pass, .frequency_hz = 1.0, .order = 1}, "damping_ratio"));
+  EXPECT_FALSE(internal::is_key_of(digital, "frequency_hz"));
+  EXPECT_FALSE(internal::is_key_of(low_pass, "numerator"));
 }
 
 }  // namespace

@@ -80,19 +80,5 @@ TEST(FindingsText, PutsRefusalsFirstThenTheLowestLimit) {
   EXPECT_THAT(against, Not(HasSubstr(text(no_delay_margin))));
 }
 
-TEST(FindingsText, SaysADoubtThatIsARemarkTooOnce) {
-  Trust trust;
-  Finding finding = unsafe(500.0);
-  finding.evidence.push_back({"threshold", 1.1});
-  trust.doubt(finding);
-  const Remark repeated =
-      warning({.code = FindingCode::limit_may_be_wrong, .subjects = {{"reason", trust.reasons.front()}}});
-  const std::vector remarks{warning(unsafe(500.0)), warning(unsafe(400.0)), repeated};
-  const FindingsText found = findings_text(trust, remarks, ShownFindings::all);
-  EXPECT_THAT(found.remarks, HasSubstr("  ! "));
-  EXPECT_EQ(found.remarks.find("  ! "), found.remarks.rfind("  ! ")) << found.remarks;
-  EXPECT_THAT(found.remarks, HasSubstr("400"));
-}
-
 }  // namespace
 }  // namespace zwidth::report

@@ -66,15 +66,15 @@ TEST(Json, FindingsAreListedOnceWithTheirNumbers) {
   const Json findings = findings_json(trust, {coarse, {Remark::Severity::note, "a", "b", "c"}, coarse});
   ASSERT_EQ(findings.size(), 4U);
   EXPECT_EQ(
-      findings[0].dump(),
+      findings[1].dump(),
       R"({"code":"file_promises_more","severity":"doubt","key":"wall.stiffness",)"
       R"("evidence":{"at_most":800.0,"promised":null},"effect":{"critical_stiffness":800.0},"remedy":"",)"
       R"("text":"the device's file promises every stiffness, more than was measured: identify the device before any )"
       R"(of its limits is used"})");
-  EXPECT_EQ(findings[1]["code"], "stated");
-  EXPECT_EQ(findings[1]["severity"], "refusal");
-  EXPECT_EQ(findings[1]["text"], "no data");
-  EXPECT_TRUE(findings[1]["key"].is_null() && findings[1]["effect"].is_null());
+  EXPECT_EQ(findings[0]["code"], "stated");
+  EXPECT_EQ(findings[0]["severity"], "refusal");
+  EXPECT_EQ(findings[0]["text"], "no data");
+  EXPECT_TRUE(findings[0]["key"].is_null() && findings[0]["effect"].is_null());
   EXPECT_EQ(findings[2]["code"], "encoder_stands_still");
   EXPECT_EQ(findings[2]["severity"], "note");
   EXPECT_EQ(findings[2]["remedy"], coarse.remedy);

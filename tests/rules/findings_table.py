@@ -26,7 +26,8 @@ What zwidth may find, as it stands in `findings` of every document that has `tru
 | `remedy` | what to do about it; may be empty |
 | `text` | the sentence, as in `trust.reasons` or `remarks` |
 
-Each is listed once, what speaks against the numbers first. The severity below is the worst that is made of a code: a doubt may be a remark
+Each is listed once, those that matter most first: refusals, doubts by the lowest limit with one of them, warnings, notes, and last how a
+file was read. A remark of what is a doubt already is left out. The severity below is the worst that is made of a code: a doubt may be a remark
 where less hangs on it, and the refusal of a part a doubt about the whole; a warning is a `note` in documents. A sentence is its code's
 below; in braces stand its numbers, most of them in `evidence`, and names. `tests/rules/findings_table.py . --write` writes this file from
 the sources. A code that stands in a `reason`, `why` or `explanation` alone, in words, is a note.

@@ -218,7 +218,7 @@ TEST(Relay, ARecordingIsReadAsItWasSimulated) {
   EXPECT_EQ(compared.limit_reading, LimitReading::unsafe);
   EXPECT_EQ(compared.prediction->linear.stiffness, ran.prediction->linear.stiffness);
   record.sampling_period = 2e-3;
-  EXPECT_EQ(find_problem(options, record.sampling_period)->member, "device");
+  EXPECT_EQ(find_problem(options, record.sampling_period)->member, "device.loop.sampling_period");
   EXPECT_THROW((void)relay(record, options), Error);
 }
 

@@ -170,6 +170,26 @@ TEST(StiffnessInterval, IsThatOfEveryDrawAlone) {
   }
 }
 
+// A filter of 0 Hz is none, and a link of no stiffness no link: draws stay off what is another device.
+TEST(StiffnessInterval, DrawsReachZeroWhereSmallValuesComeToIt) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.wall.damping = 5.0;
+  device.wall.velocity_filter_hz = 100.0;
+  device.user = {.mass = 0.1, .damping = 1.0, .stiffness = 1.0};
+  for (const auto& [key, least_share] :
+       {std::pair{"wall.velocity_filter_hz", 0.01}, std::pair{"link.0.stiffness", 0.01},
+        std::pair{"body.motor.mass", 0.01}, std::pair{"operator.mass", 0.0}, std::pair{"wall.damping", 0.0},
+        std::pair{"loop.delay", 0.0}}) {
+    device.loop.delay = 1e-4;
+    const double mean = *parameter(device, key);
+    const Device uncertain(with_uncertainty(device, {key}, {{mean * mean}}));
+    internal::DeviceDraws drawn(uncertain, 1);
+    double least = mean;
+    for (int i = 0; i < 100; ++i) least = std::min(least, *parameter(drawn.next().parameters(), key));
+    EXPECT_NEAR(least, least_share * mean, 1e-12 * mean) << key;
+  }
+}
+
 // Of two bodies on a stiff link the response shows the sum of the dampings, not how they share it: where one would
 // become negative, the other keeps the sum.
 TEST(StiffnessInterval, WhatIsKnownOfASumStaysKnownAtABound) {

@@ -99,7 +99,7 @@ struct DeviceTableKey {
 /// How the table is written in a file: "[[body]]", "[loop]", "[[wall.filter]]", "the top level".
 [[nodiscard]] std::string header_of(DeviceTable table);
 
-/// What the number of a device's key measures: "loop.delay" a time; none of a key that is no number.
+/// What the number of a device's key measures: "loop.delay" a time, and so does "delay"; none of what is no key, or no number.
 [[nodiscard]] std::optional<Measure> measure_of(std::string_view key);
 
 }  // namespace zwidth

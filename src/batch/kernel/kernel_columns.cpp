@@ -1,8 +1,9 @@
 #include "batch/kernel/kernel_columns.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
-#include <utility>
 
 #include "sampling/sampling_instants.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -44,55 +45,43 @@ KernelColumns::KernelColumns(const DeviceParameters& base, std::span<const Param
   two_bodies_ = bodies == 2;
   collocated_ = base.loop.sensed == base.loop.actuated;
   holds_actuated_ = base.loop.held == base.loop.actuated;
-  const Body& actuated = base.bodies[base.loop.actuated];
-  base_[actuated_mass] = actuated.mass;
-  base_[actuated_damping] = actuated.damping;
-  base_[actuated_stiffness] = actuated.stiffness;
-  if (two_bodies_) {
-    const Body& other = base.bodies[1 - base.loop.actuated];
-    base_[other_mass] = other.mass;
-    base_[other_damping] = other.damping;
-    base_[other_stiffness] = other.stiffness;
-    base_[link_stiffness] = base.links[0].stiffness;
-    base_[link_damping] = base.links[0].damping;
-  }
-  base_[period] = base.loop.sampling_period;
-  base_[delay] = base.loop.delay;
-  base_[lag] = base.actuator.time_constant;
-  base_[damper] = base.wall.damping;
-  base_[velocity_filter] = base.wall.velocity_filter_hz;
-  base_[force_limit] = base.actuator.force_limit.value_or(1.0);
-  base_[user_mass] = base.user.mass;
-  base_[user_damping] = base.user.damping;
-  base_[user_stiffness] = base.user.stiffness;
-  for (const ParameterValues& each : changes) {
-    columns_.push_back({number_of(base, full_parameter_key(base, each.key)), each.values});
-  }
+  base_ = numbers_of(base);
+  for (const ParameterValues& each : changes) columns_.push_back({number_of(base, each.key), each.values});
 }
 
+KernelColumns::Numbers KernelColumns::numbers_of(const DeviceParameters& device) const {
+  Numbers values{};
+  const Body& actuated = device.bodies[device.loop.actuated];
+  values[actuated_mass] = actuated.mass;
+  values[actuated_damping] = actuated.damping;
+  values[actuated_stiffness] = actuated.stiffness;
+  if (two_bodies_) {
+    const Body& other = device.bodies[1 - device.loop.actuated];
+    values[other_mass] = other.mass;
+    values[other_damping] = other.damping;
+    values[other_stiffness] = other.stiffness;
+    values[link_stiffness] = device.links[0].stiffness;
+    values[link_damping] = device.links[0].damping;
+  }
+  values[period] = device.loop.sampling_period;
+  values[delay] = device.loop.delay;
+  values[lag] = device.actuator.time_constant;
+  values[damper] = device.wall.damping;
+  values[velocity_filter] = device.wall.velocity_filter_hz;
+  values[force_limit] = device.actuator.force_limit.value_or(1.0);
+  values[user_mass] = device.user.mass;
+  values[user_damping] = device.user.damping;
+  values[user_stiffness] = device.user.stiffness;
+  return values;
+}
+
+// The one that the key moves; `numbers` where it moves none.
 std::size_t KernelColumns::number_of(const DeviceParameters& base, const std::string& key) const {
-  constexpr std::pair<const char*, Number> names[] = {{"link.0.stiffness", link_stiffness},
-                                                      {"link.0.damping", link_damping},
-                                                      {"loop.sampling_period", period},
-                                                      {"loop.delay", delay},
-                                                      {"actuator.time_constant", lag},
-                                                      {"wall.damping", damper},
-                                                      {"wall.velocity_filter_hz", velocity_filter},
-                                                      {"actuator.force_limit", force_limit},
-                                                      {"operator.mass", user_mass},
-                                                      {"operator.damping", user_damping},
-                                                      {"operator.stiffness", user_stiffness}};
-  for (const auto& [name, number] : names) {
-    if (key == name) return number;
-  }
-  for (std::size_t i = 0; i < base.bodies.size(); ++i) {
-    const std::string body = "body." + base.bodies[i].name;
-    const bool is_actuated = i == base.loop.actuated;
-    if (key == body + ".mass") return is_actuated ? actuated_mass : other_mass;
-    if (key == body + ".damping") return is_actuated ? actuated_damping : other_damping;
-    if (key == body + ".stiffness") return is_actuated ? actuated_stiffness : other_stiffness;
-  }
-  return numbers;
+  DeviceParameters marked = base;
+  set_parameter(marked, key, std::numeric_limits<double>::quiet_NaN());
+  const Numbers values = numbers_of(marked);
+  const auto* const moved = std::ranges::find_if(values, [](double value) { return std::isnan(value); });
+  return static_cast<std::size_t>(moved - values.begin());
 }
 
 // False where the device is none, or of another kind.

@@ -56,6 +56,7 @@ class KernelColumns {
   };
   using Numbers = std::array<double, numbers>;
 
+  [[nodiscard]] Numbers numbers_of(const DeviceParameters& device) const;
   [[nodiscard]] std::size_t number_of(const DeviceParameters& base, const std::string& key) const;
   [[nodiscard]] bool take(std::size_t i, Numbers& values) const;
 

@@ -15,6 +15,7 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_key.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
@@ -131,6 +132,13 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
 }
 
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
+  const auto beyond = [](const char* member, const std::optional<double>& value) -> std::optional<OptionProblem> {
+    if (!value || not_negative_numbers.contains(*value)) return std::nullopt;
+    return option_problem(member, {.code = ProblemCode::not_between,
+                                   .evidence = {{"value", *value},
+                                                {"least", not_negative_numbers.least},
+                                                {"most", not_negative_numbers.greatest}}});
+  };
   const auto finite = [](double value) { return std::isfinite(value) && value >= 0.0; };
   if (options.amplitude && !(finite(*options.amplitude) && *options.amplitude > 0.0)) {
     return option_problem("amplitude",
@@ -143,7 +151,9 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
   if (options.damping && !finite(*options.damping)) {
     return option_problem("damping", {.code = ProblemCode::negative, .evidence = {{"value", *options.damping}}});
   }
-  return std::nullopt;
+  if (auto problem = beyond("amplitude", options.amplitude)) return problem;
+  if (auto problem = beyond("stiffness", options.stiffness)) return problem;
+  return beyond("damping", options.damping);
 }
 
 /// The oscillation of a recording that dominant_oscillation() reads; nothing where nothing oscillates: the strongest line

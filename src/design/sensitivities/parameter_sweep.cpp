@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "model/key_members.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/error.hpp"
@@ -22,12 +23,6 @@ namespace {
 
 constexpr std::size_t worth_threads = 64;  // points
 
-/// Numbers of the device that no limit depends on.
-bool is_for_simulation(const std::string& key) {
-  return key.ends_with(".coulomb") || key == "actuator.force_limit" || key == "sensor.resolution" ||
-         key == "wall.stiffness";
-}
-
 std::optional<DeviceProblem> find_axis_problem(const DeviceParameters& parameters, const SweepAxis& axis) {
   const std::string key = full_parameter_key(parameters, axis.key);
   const std::vector<std::string> keys = parameter_keys(parameters);
@@ -35,7 +30,7 @@ std::optional<DeviceProblem> find_axis_problem(const DeviceParameters& parameter
     return device_problem(axis.key, {.code = ProblemCode::no_number_of_device,
                                      .subjects = {{"numbers", fmt::format("{}", fmt::join(keys, ", "))}}});
   }
-  if (is_for_simulation(key)) {
+  if (row_of(key)->reach == KeyReach::nothing) {
     return device_problem(key, {.code = ProblemCode::not_of_the_limit});
   }
   if (!std::isfinite(axis.first) || !std::isfinite(axis.last)) {

@@ -38,7 +38,7 @@ std::optional<OptionProblem> find_problem(const WallToRunOptions& options, const
   }
   if (options.safety_factor) return find_problem(SafeWallOptions{.safety_factor = *options.safety_factor});
   if (!options.stiffness && !device.parameters().wall.stiffness) {
-    return option_problem("", {.code = ProblemCode::no_wall_to_write});
+    return option_problem("wall.stiffness", {.code = ProblemCode::no_wall_to_write});
   }
   return std::nullopt;
 }

@@ -9,17 +9,15 @@ export const limiter = (limited: LimitedBy | null | undefined): string =>
 export const trustWord: Record<Trust['verdict'], string> = { sound: 'sound', doubtful: 'doubtful', refused: 'refused' }
 export const trustSign: Record<Trust['verdict'], string> = { sound: '✓', doubtful: '!', refused: '✕' }
 
-/** Refusals first, then the doubt with which the limit is lowest. */
-export function worstFirst(reasons: string[], findings: Finding[]): string[] {
-  const of = new Map(findings.map((each) => [each.text, each]))
-  const limit = (reason: string): number => of.get(reason)?.effect?.['critical_stiffness'] ?? Infinity
-  const refuses = (reason: string): boolean => of.get(reason)?.severity === 'refusal'
-  const order = (a: string, b: string): number =>
-    Number(refuses(b)) - Number(refuses(a)) || (limit(a) === limit(b) ? 0 : limit(a) - limit(b))
-  return [...reasons].sort(order)
+/** Those that a document's findings list, each once and in their order: what matters most comes first. */
+export function asListed<T>(said: T[], findings: Finding[], text: (each: T) => string): T[] {
+  const of = new Map(said.map((each) => [text(each), each]))
+  return findings.flatMap((each) => of.get(each.text) ?? [])
 }
-export const warningsFirst = (remarks: Remark[]): Remark[] =>
-  [...remarks].sort((a, b) => Number(b.severity === 'warning') - Number(a.severity === 'warning'))
+
+/** A remark as a finding's text has it. */
+export const remarkLine = ({ what, consequence, remedy }: Remark): string =>
+  [what, consequence, remedy].filter((part) => part !== '').join('; ')
 
 /** In place of a limit that is no number. */
 export const limitWord = ({ status, stable_intervals }: Pick<Analysis, 'status' | 'stable_intervals'>): string =>

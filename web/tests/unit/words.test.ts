@@ -1,27 +1,24 @@
 import { describe, expect, it } from 'vitest'
 import { groupsOf, inWords } from '../../src/model/keys'
 import { scan } from '../../src/model/toml'
-import { limitWord, warningsFirst, worstFirst } from '../../src/model/words'
+import { asListed, limitWord, remarkLine } from '../../src/model/words'
 
-const finding = (text: string, severity: 'doubt' | 'refusal', limit: number | null = null) => ({
+const finding = (text: string) => ({
   code: 'stated',
-  severity,
+  severity: 'doubt' as const,
   key: null,
   evidence: {},
-  effect: limit === null ? null : { critical_stiffness: limit },
+  effect: null,
   remedy: '',
   text,
 })
 
 describe('findings', () => {
-  it('come with refusals first, then the lowest limit, then as they were found', () => {
-    const found = [finding('a', 'doubt'), finding('b', 'doubt', 800), finding('c', 'doubt', 500), finding('d', 'refusal')]
-    expect(worstFirst(['a', 'b', 'no finding', 'c', 'd'], found)).toEqual(['d', 'c', 'b', 'a', 'no finding'])
-  })
-
-  it('come with warnings before notes', () => {
-    const remarks = ['note', 'warning', 'note'].map((severity, i) => ({ severity, what: String(i), consequence: '', remedy: '' }))
-    expect(warningsFirst(remarks).map((each) => each.what)).toEqual(['1', '0', '2'])
+  it('stand in the order of the document, each once', () => {
+    const findings = ['b', 'c; d', 'a'].map(finding)
+    expect(asListed(['a', 'b', 'b'], findings, (each) => each)).toEqual(['b', 'a'])
+    const remarks = ['b', 'e', 'c'].map((what) => ({ severity: 'note', what, consequence: '', remedy: what === 'c' ? 'd' : '' }))
+    expect(asListed(remarks, findings, remarkLine).map((each) => each.what)).toEqual(['b', 'c'])
   })
 })
 
