@@ -15,6 +15,7 @@
 #include "io/text_lines.hpp"
 #include "io/text_recording.hpp"
 #include "io/uff_recording.hpp"
+#include "zwidth/model/device_key.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -58,6 +59,12 @@ std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
   };
   if (!is_positive(options.rate))
     return OptionProblem{"rate", fmt::format("is {} Hz", *options.rate), "must be above 0"};
+  if (options.rate && !positive_numbers.contains(*options.rate)) {
+    return option_problem("rate", {.code = ProblemCode::not_between,
+                                   .evidence = {{"value", *options.rate, "Hz"},
+                                                {"least", positive_numbers.least},
+                                                {"most", positive_numbers.greatest}}});
+  }
   if (!is_positive(options.time_scale)) {
     return OptionProblem{"time_scale", fmt::format("is {} s", *options.time_scale), "must be above 0"};
   }
