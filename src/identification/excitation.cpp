@@ -9,6 +9,7 @@
 #include "identification/excitation_check.hpp"
 #include "identification/excitation_spectrum.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_key.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -33,6 +34,12 @@ std::optional<OptionProblem> find_problem(const ExcitationOptions& options, doub
     if (!met && !found) found = OptionProblem{member, fmt::format("is {:.9g}", value), allowed};
   };
   require(positive(options.amplitude), "amplitude", options.amplitude, "a force > 0");
+  if (!found && !positive_numbers.contains(options.amplitude)) {
+    found = option_problem("amplitude", {.code = ProblemCode::not_between,
+                                         .evidence = {{"value", options.amplitude},
+                                                      {"least", positive_numbers.least},
+                                                      {"most", positive_numbers.greatest}}});
+  }
   require(positive(rate), "rate", rate, "a frequency in Hz > 0");
   require(positive(options.duration), "duration", options.duration, "a time in s > 0");
   const double size = std::round(options.duration * rate);

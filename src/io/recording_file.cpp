@@ -16,6 +16,7 @@
 #include "io/text_recording.hpp"
 #include "io/time_axis.hpp"
 #include "io/uff_recording.hpp"
+#include "zwidth/model/device_key.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -53,6 +54,12 @@ std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
     return !value || (std::isfinite(*value) && *value > 0.0);
   };
   if (!is_positive(options.rate)) return not_above_zero("rate", *options.rate, "Hz");
+  if (options.rate && !positive_numbers.contains(*options.rate)) {
+    return option_problem("rate", {.code = ProblemCode::not_between,
+                                   .evidence = {{"value", *options.rate, "Hz"},
+                                                {"least", positive_numbers.least},
+                                                {"most", positive_numbers.greatest}}});
+  }
   if (!is_positive(options.time_scale)) return not_above_zero("time_scale", *options.time_scale, "s");
   for (std::size_t i = 0; i < options.columns.size(); ++i) {
     const double scale = options.columns[i].scale.value_or(1.0);

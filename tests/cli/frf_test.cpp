@@ -281,6 +281,7 @@ TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {
   expect_refusal(example + "--lowest-hz 50 --highest-hz 40", "--highest-hz: is 40 Hz; must be above the lowest, 50 Hz");
   expect_refusal(example + "--lowest-hz 400", "--lowest-hz: recordings/locked_chirp.csv: no line is left in the band");
   expect_refusal(example + "--rate 0", "--rate");
+  expect_refusal(example + "--rate 1e40", "--rate: is 1e+40 Hz; must be from 1e-30 to 1e+30");
   expect_refusal(example + "--position-scale 0", "--position-scale: is 0; must be finite and not 0");
   expect_refusal(example + "--delimiter x", "comma, semicolon, tab or space");
   expect_refusal(example + "--table", "--force: is for a recording");
