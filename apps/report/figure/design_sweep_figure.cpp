@@ -33,10 +33,13 @@ constexpr std::string_view even_colours =
     "0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 "
     "'#b5de2b', "
     "9 '#fde725'";
-constexpr LineStyle any_user_style{"#15803d", 1.8, "(8,5)"};
-constexpr std::array<std::string_view, 6> colours = {"#0b4f9e", "#c2410c", "#7e22ce", "#0e7490", "#a16207", "#9d174d"};
+constexpr LineStyle any_user_limit_style{"#15803d", 1.8, "(8,5)"};
+constexpr std::array<std::string_view, 6> mode_colours = {"#0b4f9e", "#c2410c", "#7e22ce",
+                                                          "#0e7490", "#a16207", "#9d174d"};
 
-LineStyle branch_style(int mode) { return {colours.at(static_cast<std::size_t>(mode) % colours.size()), 1.3, "1"}; }
+LineStyle branch_style(int mode) {
+  return {mode_colours.at(static_cast<std::size_t>(mode) % mode_colours.size()), 1.3, "1"};
+}
 
 /// The unit of a parameter's axis: with a prefix where parameter_text() gives one.
 AxisUnit parameter_axis_unit(const SweepAxis& axis, Motion motion) {
@@ -94,7 +97,7 @@ class CurveFigure {
       add(canvas, what, fmt::format("limit{}", mode), limits(mode), {style.colour, limit_style.width, "1"});
     }
     add(canvas, what, "jumps", jumps(), jump_style);
-    add(canvas, what, "any", any_user(), any_user_style);
+    add(canvas, what, "any", any_user(), any_user_limit_style);
     const SweepAxis& axis = sweep_.axes[0];
     const double low = range().first / stiffness_.size;
     const double high = range().second / stiffness_.size;
@@ -134,7 +137,7 @@ class CurveFigure {
 
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries{{"bold: K_CR, the crossover that limits", limit_style}};
-    if (!any_user().empty()) entries.push_back({"with any passive user", any_user_style});
+    if (!any_user().empty()) entries.push_back({"with any passive user", any_user_limit_style});
     for (int mode = 0; mode <= modes_; ++mode) {
       if (branches(mode).empty()) continue;
       entries.push_back({mode == 0 ? std::string("crossovers of the rigid body")

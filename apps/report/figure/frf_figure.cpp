@@ -20,12 +20,12 @@ namespace {
 constexpr double measured_magnitude_height = 270.0;
 constexpr double measured_phase_height = 190.0;
 constexpr double coherence_height = 90.0;
-constexpr double gap = 18.0;
+constexpr double between_frames = 18.0;
 constexpr std::size_t most_crossovers = 12;
 /// Columns into which the axis is cut when there are more lines than a figure shows: each keeps its extremes.
-constexpr std::size_t most_lines = 1500;
+constexpr std::size_t most_response_lines = 1500;
 
-constexpr LineStyle measured_style{"#0b4f9e", 1.8, "1"};
+constexpr LineStyle response_style{"#0b4f9e", 1.8, "1"};
 constexpr LineStyle crossover_style{"#777777", 0.8, "(2,3)"};
 constexpr LineStyle measured_limit_style{"#b91c1c", 1.2, "1"};
 constexpr LineStyle reference_style{"#555555", 1.0, "(8,4)"};
@@ -40,9 +40,9 @@ struct Range {
 
 /// The points of which a figure can show the difference.
 std::vector<ResponseLine> thinned(std::vector<ResponseLine> points) {
-  if (points.size() <= 3 * most_lines) return points;
+  if (points.size() <= 3 * most_response_lines) return points;
   const double per_octave =
-      static_cast<double>(most_lines) / std::log(points.back().frequency / points.front().frequency);
+      static_cast<double>(most_response_lines) / std::log(points.back().frequency / points.front().frequency);
   const auto column_of = [&](const ResponseLine& point) {
     return static_cast<std::size_t>(per_octave * std::log(point.frequency / points.front().frequency));
   };
@@ -74,8 +74,10 @@ class FrfLayout {
         high_(hertz(frf.response.points.back().frequency) * 1.05) {
     const double top = heading_bottom + 8.0;
     magnitude = {frame_left, frame_right, top, top + measured_magnitude_height};
-    phase = {frame_left, frame_right, magnitude.bottom + gap, magnitude.bottom + gap + measured_phase_height};
-    coherence = {frame_left, frame_right, phase.bottom + gap, phase.bottom + gap + coherence_height};
+    phase = {frame_left, frame_right, magnitude.bottom + between_frames,
+             magnitude.bottom + between_frames + measured_phase_height};
+    coherence = {frame_left, frame_right, phase.bottom + between_frames,
+                 phase.bottom + between_frames + coherence_height};
     list_top = coherence.bottom + 66.0;
     height = list_top + row_height * static_cast<double>(list.size());
   }
@@ -220,7 +222,7 @@ void draw_doubts(Canvas& canvas, const MeasuredResponse& frf, const FrfLayout& l
 /// A band between two columns and the curve over it.
 std::string band_and_curve(int curve, int lower, int upper) {
   return fmt::format("$lines using 1:{}:{} with filledcurves lc rgb '{}', $lines using 1:{} with lines {}", lower,
-                     upper, interval_colour, curve, gnuplot_line(measured_style));
+                     upper, interval_colour, curve, gnuplot_line(response_style));
 }
 
 }  // namespace
@@ -263,7 +265,7 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
   draw_marks(canvas, frf, layout, layout.coherence);
   x_label(canvas, layout.coherence, "Frequency (Hz)");
   canvas.commands("set yrange [0:1.05]\nset ytics 0.5\nset ylabel 'Coherence'\nset format x '%g'");
-  canvas.plot(layout.coherence, fmt::format("$lines using 1:8 with lines {}", gnuplot_line(measured_style)));
+  canvas.plot(layout.coherence, fmt::format("$lines using 1:8 with lines {}", gnuplot_line(response_style)));
   return canvas.draw(format);
 }
 

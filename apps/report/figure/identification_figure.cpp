@@ -36,7 +36,7 @@ struct Row {
 /// The angle nearest to `near`, by whole turns.
 double unwrapped(double phase, double near) { return phase + 360.0 * std::round((near - phase) / 360.0); }
 
-std::vector<Row> rows(const Identification& identified, bool has_noise) {
+std::vector<Row> fit_rows(const Identification& identified, bool has_noise) {
   const ParameterFit& fit = identified.fit;
   std::vector<Row> result;
   double last = -180.0;
@@ -97,7 +97,7 @@ std::string draw_identification(const Identification& identified, const Identifi
                                 FigureFormat format) {
   const bool has_noise =
       std::ranges::all_of(identified.response.points, [](const ResponsePoint& point) { return point.variance > 0.0; });
-  const std::vector<Row> data = rows(identified, has_noise);
+  const std::vector<Row> data = fit_rows(identified, has_noise);
   const Heading heading(labels.title,
                         {{labels.points, {}, fitted_band_colour, dot_marker(point_colour)},
                          {"fitted device", fit_style},

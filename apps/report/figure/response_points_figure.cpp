@@ -10,7 +10,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr LineStyle curve_style{"#555555", 1.4, "1"};
+constexpr LineStyle response_curve_style{"#555555", 1.4, "1"};
 
 /// Told apart by shape as well as by colour.
 struct Marker {
@@ -25,7 +25,7 @@ constexpr std::array<Marker, 4> markers = {Marker{6, "#0b4f9e"}, Marker{7, "#c24
 std::string draw_response_points(const std::string& title, const std::string& curve_name,
                                  const std::vector<BodePoint>& curve, const std::vector<GainPoints>& series,
                                  FigureFormat format) {
-  std::vector<LegendEntry> legend{{curve_name, curve_style}};
+  std::vector<LegendEntry> legend{{curve_name, response_curve_style}};
   for (std::size_t i = 0; i < series.size(); ++i) {
     legend.push_back({series[i].name,
                       {},
@@ -41,7 +41,7 @@ std::string draw_response_points(const std::string& title, const std::string& cu
     canvas.commands(fmt::format("{:.9g} {:.6f}", point.frequency / (2.0 * std::numbers::pi), point.magnitude_db));
   }
   canvas.commands("EOD");
-  std::string what = fmt::format("$curve with lines {}", gnuplot_line(curve_style));
+  std::string what = fmt::format("$curve with lines {}", gnuplot_line(response_curve_style));
   for (std::size_t i = 0; i < series.size(); ++i) {
     canvas.commands(fmt::format("$series{} << EOD", i));
     for (const GainPoints::Point& point : series[i].points) {

@@ -10,7 +10,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr LineStyle measured_style{orange, 1.6, "1"};
+constexpr LineStyle measured_trial_style{orange, 1.6, "1"};
 constexpr LineStyle predicted_style{blue, 1.6, "(10,5)"};
 
 /// A line from the bottom to the top of the frame.
@@ -29,7 +29,7 @@ std::string draw_limit_trials(const Device& device, const RigLimit& limit, Figur
   std::vector<LegendEntry> legend{{"after a knock, with three deviations", {}, {}, ring}};
   if (measured.stiffness) {
     legend.push_back(
-        {fmt::format("K_CR measured, {}", quantity(*measured.stiffness, units.stiffness)), measured_style});
+        {fmt::format("K_CR measured, {}", quantity(*measured.stiffness, units.stiffness)), measured_trial_style});
   }
   if (predicted) {
     legend.push_back(
@@ -54,7 +54,7 @@ std::string draw_limit_trials(const Device& device, const RigLimit& limit, Figur
   data_block(canvas, "trials", rows);
   canvas.commands(fmt::format("{}\n{}\nset offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08", axes_look(),
                               y_label("Growth of the oscillation (1/s)")));
-  if (measured.stiffness) canvas.commands(upright(*measured.stiffness / unit.size, measured_style));
+  if (measured.stiffness) canvas.commands(upright(*measured.stiffness / unit.size, measured_trial_style));
   if (predicted) canvas.commands(upright(limit.predicted.stiffness / unit.size, predicted_style));
   x_label(canvas, frame, fmt::format("Stiffness of the wall ({}{})", unit.prefix, units.stiffness));
   canvas.commands(

@@ -24,7 +24,7 @@ constexpr double forces_height = 180.0;
 constexpr double head_room = 0.06;  // of the axis
 constexpr std::string_view wall_colour = "#e8e8e8";
 /// Points drawn per curve: lowest and highest of each of so many stretches of time.
-constexpr std::size_t stretches = 1200;
+constexpr std::size_t drawn_stretches = 1200;
 constexpr std::array<LineStyle, 2> motion_styles = {LineStyle{"#0b4f9e", 1.6, "1"},
                                                     LineStyle{"#c2410c", 1.4, "(10,5)"}};
 
@@ -52,7 +52,7 @@ CurveRange range_of(const std::vector<Curve>& curves) {
 /// Lowest and highest value of each stretch, in their order: no peak is lost.
 std::vector<std::size_t> drawn_points(const std::vector<double>& values) {
   std::vector<std::size_t> points;
-  const std::size_t length = std::max<std::size_t>(1, values.size() / stretches);
+  const std::size_t length = std::max<std::size_t>(1, values.size() / drawn_stretches);
   for (std::size_t from = 0; from < values.size(); from += length) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(from);
     const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(from + length, values.size()));

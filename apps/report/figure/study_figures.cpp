@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "report/figure/plot.hpp"
+#include "report/study_report.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/study_text.hpp"
 #include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
@@ -21,7 +21,7 @@ namespace {
 constexpr double study_panel_height = 300.0;
 constexpr double least_gain_shown = 0.001;  // of the yield: the axis where nothing is gained
 constexpr std::string_view bar_colour = "#9db8dc";
-constexpr std::string_view colours[] = {blue, orange, green, purple, red, grey};
+constexpr std::string_view group_colours[] = {blue, orange, green, purple, red, grey};
 
 /// The parameters by what they do to K_CR: by total index, or by how far off they are among the worst tenth.
 std::vector<std::size_t> by_weight(const Study& study) {
@@ -144,7 +144,7 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
   std::string what;
   std::size_t colour = 0;
   for (const auto& [kind, points] : rows) {
-    const std::string_view ink_of = colours[std::min(colour++, std::size(colours) - 1)];
+    const std::string_view ink_of = group_colours[std::min(colour++, std::size(group_colours) - 1)];
     const std::string style = fmt::format("pt 7 ps 0.3 lc rgb '{}'", ink_of);
     legend.push_back({mechanism_of(static_cast<StiffnessStatus>(kind.first), kind.second), {}, {}, style});
     what += fmt::format("$group{} with points {} notitle, ", colour, style);
