@@ -82,6 +82,16 @@ AxisUnit axis_unit(double largest, double least_shown) {
   return found != units.end() ? *found : units.back();
 }
 
+double tick_step(const AxisRange& range, double step, double most_ticks) {
+  while ((range.high - range.low) / step > most_ticks) step *= 2.0;
+  return step;
+}
+
+double place_on_log_axis(const Box& frame, const AxisRange& range, double value) {
+  const double share = std::log(value / range.low) / std::log(range.high / range.low);
+  return frame.left + (frame.right - frame.left) * std::clamp(share, 0.0, 1.0);
+}
+
 std::string_view axes_look() {
   return "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
          "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back";

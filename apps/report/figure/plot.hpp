@@ -66,6 +66,18 @@ struct AxisUnit {
 /// The largest prefix in which the largest value is at least `least_shown`; without one for 0.
 [[nodiscard]] AxisUnit axis_unit(double largest, double least_shown = 1.0);
 
+/// What an axis shows.
+struct AxisRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// The step, doubled until the range has at most `most_ticks`.
+[[nodiscard]] double tick_step(const AxisRange& range, double step, double most_ticks);
+
+/// px of a value on the frame's logarithmic axis; what lies beyond the axis at its end.
+[[nodiscard]] double place_on_log_axis(const Box& frame, const AxisRange& range, double value);
+
 /// gnuplot commands that every frame begins with: size of the tics, border, grid behind the curves.
 [[nodiscard]] std::string_view axes_look();
 
