@@ -24,7 +24,7 @@ void Document::paragraph(const std::optional<std::string>& text) {
 void Document::list(const std::vector<std::string>& items) {
   if (items.empty()) return;
   std::string lines;
-  for (const std::string& each : items) lines += is_page() ? element("li", each) : labelled("  - ", each, 4);
+  for (const std::string& each : items) lines += is_page() ? element("li", each) : bulleted(each);
   content_ += is_page() ? fmt::format("<ul>\n{}</ul>\n", lines) : lines;
 }
 

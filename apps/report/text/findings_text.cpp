@@ -20,9 +20,7 @@ namespace {
 constexpr std::size_t most_shown = 3;
 
 std::string remark_bullet(const Remark& remark) {
-  constexpr std::size_t bullet = 4;
-  return wrap(remark_line(remark), line_width, bullet)
-      .replace(0, bullet, remark.severity == Remark::Severity::warning ? "  ! " : "  - ");
+  return labelled(remark.severity == Remark::Severity::warning ? "  ! " : "  - ", remark_line(remark), 4);
 }
 
 /// What a reason is the sentence of; nothing where the library did not find it.
