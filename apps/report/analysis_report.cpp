@@ -11,7 +11,7 @@
 
 #include "report/document.hpp"
 #include "report/figure/device_bode_figure.hpp"
-#include "report/figure/stiffness_axis_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/analysis_tables.hpp"
 #include "report/text/explanation.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "report/figure/figure.hpp"
-#include "report/figure/relay_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/quantity.hpp"
 #include "reproduce/paper_devices.hpp"
 #include "reproduce/table_2.hpp"

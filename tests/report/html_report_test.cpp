@@ -8,7 +8,7 @@
 
 #include "report/analysis_report.hpp"
 #include "report/example_analyses.hpp"
-#include "report/figure/stiffness_axis_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/text_table.hpp"
 

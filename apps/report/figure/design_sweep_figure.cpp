@@ -1,5 +1,3 @@
-#include "report/figure/design_sweep_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,9 +9,11 @@
 #include <vector>
 
 #include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/design/parameter_sweep.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -1,5 +1,3 @@
-#include "report/figure/excitation_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +6,9 @@
 #include <vector>
 
 #include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/excitation_text.hpp"
+#include "zwidth/identification/excitation.hpp"
 #include "zwidth/signal/power_density.hpp"
 
 namespace zwidth::report {

@@ -1,5 +1,3 @@
-#include "report/figure/frf_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +7,11 @@
 #include <vector>
 
 #include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "results/frf_json.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::report {

@@ -1,5 +1,3 @@
-#include "report/figure/notch_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,10 @@
 #include <vector>
 
 #include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "zwidth/design/notch_design.hpp"
 
 namespace zwidth::report {
 namespace {

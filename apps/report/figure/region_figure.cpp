@@ -1,5 +1,3 @@
-#include "report/figure/region_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +6,12 @@
 #include <vector>
 
 #include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "zwidth/design/region.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -1,11 +1,11 @@
-#include "report/figure/rig_limit_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/quantity.hpp"
+#include "zwidth/rig/results.hpp"
 
 namespace zwidth::report {
 namespace {

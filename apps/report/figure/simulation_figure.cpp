@@ -1,5 +1,3 @@
-#include "report/figure/simulation_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +8,13 @@
 #include <vector>
 
 #include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/simulation_text.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -1,5 +1,3 @@
-#include "report/figure/stiffness_axis_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "report/analysed_device.hpp"
+#include "report/figure/figures.hpp"
 #include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
 
