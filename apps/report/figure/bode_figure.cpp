@@ -154,14 +154,14 @@ void draw_nyquist(Canvas& canvas, const BodeFigure& figure, const Box& box, doub
   canvas.line(x, from, x, box.bottom, nyquist_style);
 }
 
-/// The curves and the marks of one frame: `column` of the points, `value` of a mark.
-std::vector<Series> curves_and_marks(const BodeFigure& figure, double BodePoint::*column, auto&& value) {
+/// The curves and the marks of one frame: `column` of the points with so many digits, `value` of a mark.
+std::vector<Series> curves_and_marks(const BodeFigure& figure, double BodePoint::*column, int digits, auto&& value) {
   std::vector<Series> series;
   // The first curve is the one that matters: on top of the others.
   for (std::size_t curve = figure.curves.size(); curve-- > 0;) {
     std::string rows;
     for (const BodePoint& point : figure.curves[curve].points) {
-      rows += fmt::format("{:.9g} {:.6f}\n", point.frequency, point.*column);
+      rows += fmt::format("{:.9g} {:.{}f}\n", point.frequency, point.*column, digits);
     }
     series.push_back({rows, as_lines(curve_styles[curve])});
   }
@@ -192,7 +192,7 @@ std::string draw(const BodeFigure& figure, FigureFormat format) {
                           figure.range.from, figure.range.to, hertz(figure.range.from), hertz(figure.range.to),
                           magnitude.low, magnitude.high, tick_step(magnitude, 10.0, 10.0)),
       .y_label = fmt::format("Magnitude (dB re 1 {})", figure.motion == Motion::rotary ? "rad/(N m)" : "m/N"),
-      .series = curves_and_marks(figure, &BodePoint::magnitude_db,
+      .series = curves_and_marks(figure, &BodePoint::magnitude_db, 6,
                                  [](const BodeMark& mark) { return -decibels(mark.crossover.stiffness); }),
       .marks = [&](Canvas& canvas, const Box& frame) {
         draw_mark_lines(canvas, figure, frame, magnitude);
@@ -206,7 +206,7 @@ std::string draw(const BodeFigure& figure, FigureFormat format) {
                           phase.low, phase.high, tick_step(phase, 90.0, 6.0)),
       .x_label = "Frequency (rad/s)",
       .y_label = "Phase (degrees)",
-      .series = curves_and_marks(figure, &BodePoint::phase_deg,
+      .series = curves_and_marks(figure, &BodePoint::phase_deg, 4,
                                  [&](const BodeMark& mark) {
                                    return nearest_crossing_phase(
                                        phase_at(figure.curves[mark.curve], mark.crossover.frequency));

@@ -100,7 +100,7 @@ void add_signal_panels(std::vector<Panel>& panels, const Signal& signal) {
   const auto note = [](const std::string& text) {
     return [text](Canvas& canvas, const Box& frame) { canvas.text(frame_left, frame.top - 14.0, text); };
   };
-  panels.push_back({.above = panels.empty() ? 30.0 : 102.0,
+  panels.push_back({.above = panels.empty() ? 30.0 : 106.0,
                     .height = 180.0,
                     .axes = fmt::format("set xrange [{}:{}]\nset autoscale y\nset ytics autofreq\nset format x '%g'",
                                         signal.times[from], signal.times.back()),
@@ -123,7 +123,7 @@ std::string draw_signals(const std::string& title, const std::string& fitted, co
   Figure figure{.title = title,
                 .subtitle = subtitle,
                 .legend = {{"measured", measured_signal_style}, {fitted, fitted_style}},
-                .below = 82.0};
+                .below = 76.0};
   for (const Signal& signal : signals.first(std::min(signals.size(), most_signals))) {
     add_signal_panels(figure.panels, signal);
   }
