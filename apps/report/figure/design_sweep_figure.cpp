@@ -98,8 +98,8 @@ class CurveFigure {
                             is_logarithmic(axis) ? "set logscale x" : "unset logscale x", first, last, low, high),
         .x_label = axis_title(axis, motion_),
         .y_label = fmt::format("Stiffness K ({}{})", stiffness_.prefix, units_of(motion_).stiffness)};
-    if (high < few_decades * low) panel.axes += fine_tics("y", low, high);
-    if (is_logarithmic(axis) && last < few_decades * first) panel.axes += fine_tics("x", first, last);
+    if (high < few_decades * low) panel.axes += "\n" + decade_ticks("y", low, high);
+    if (is_logarithmic(axis) && last < few_decades * first) panel.axes += "\n" + decade_ticks("x", first, last);
     for (int mode = 0; mode <= modes_; ++mode) {
       const LineStyle style = branch_style(mode);
       panel.series.push_back({branches(mode), as_lines(style)});
@@ -111,18 +111,6 @@ class CurveFigure {
   }
 
  private:
-  static std::string fine_tics(std::string_view name, double low, double high) {
-    std::string tics = fmt::format("\nset {}tics (", name);
-    for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10.0) {
-      for (const double step : {1.0, 2.0, 5.0}) {
-        const double at = step * power;
-        if (at < low * (1.0 - 1e-9) || at > high * (1.0 + 1e-9)) continue;
-        tics += fmt::format("{}{:g}", tics.ends_with('(') ? "" : ", ", at);
-      }
-    }
-    return tics + ")";
-  }
-
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries{{"bold: K_CR, the crossover that limits", limit_style}};
     if (!any_user().empty()) entries.push_back({"with any passive user", any_user_limit_style});

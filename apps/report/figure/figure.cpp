@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "report/figure/gnuplot.hpp"
+
 namespace zwidth::report {
 namespace {
 
@@ -17,7 +19,7 @@ std::string plotted(Canvas& canvas, const std::vector<Series>& series) {
     if (each.rows) {
       name =
           each.rows->find_first_not_of('\n') == std::string::npos ? "" : fmt::format("data{}", &each - series.data());
-      if (!name.empty()) data_block(canvas, name, *each.rows);
+      if (!name.empty()) canvas.commands(fmt::format("${} << EOD\n{}EOD", name, *each.rows));
     }
     if (!name.empty()) what += fmt::format("${} using {} with {} notitle, ", name, each.columns, each.with);
   }
@@ -27,8 +29,12 @@ std::string plotted(Canvas& canvas, const std::vector<Series>& series) {
 void draw_panel(Canvas& canvas, const Panel& panel, const Box& frame) {
   const std::string what = plotted(canvas, panel.series);
   if (!panel.axes.empty()) canvas.commands(panel.axes);
-  if (!panel.y_label.empty()) canvas.commands(y_label(panel.y_label));
-  if (!panel.x_label.empty()) x_label(canvas, frame, panel.x_label);
+  if (!panel.y_label.empty()) {
+    canvas.commands(fmt::format("set ylabel {} font ',12' offset 0.5,0", gnuplot_text(panel.y_label)));
+  }
+  if (!panel.x_label.empty()) {
+    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, panel.x_label, {Anchor::centre, text_size});
+  }
   if (panel.marks) panel.marks(canvas, frame);
   canvas.plot(frame, what);
 }

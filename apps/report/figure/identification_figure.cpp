@@ -120,7 +120,7 @@ std::string draw_identification(const Identification& identified, const Identifi
       .series = band_points_and_fit("3:4", 2, 8)};
   Panel phase{.above = 22.0,
               .height = 190.0,
-              .axes = "set autoscale y\nset ytics 90\n" + frequency_ticks(data.front().hz, data.back().hz),
+              .axes = "set autoscale y\nset ytics 90\n" + decade_ticks("x", data.front().hz, data.back().hz),
               .y_label = "Phase (degrees)",
               .series = band_points_and_fit("6:7", 5, 9)};
   Panel residual{.above = 22.0,

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "report/figure/gnuplot.hpp"
-
 namespace zwidth::report {
 namespace {
 
@@ -97,27 +95,17 @@ std::string_view axes_look() {
          "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back";
 }
 
-std::string y_label(std::string_view text) {
-  return fmt::format("set ylabel {} font ',12' offset 0.5,0", gnuplot_text(text));
-}
-
-std::string frequency_ticks(double low, double high) {
+std::string decade_ticks(std::string_view axis, double low, double high) {
+  constexpr double rounding = 1e-9;
   std::string ticks;
   for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
     for (const double step : {1.0, 2.0, 5.0}) {
       const double at = step * decade;
-      if (at >= low && at <= high) ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", at);
+      if (at < low * (1.0 - rounding) || at > high * (1.0 + rounding)) continue;
+      ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", at);
     }
   }
-  return "set xtics (" + ticks + ")";
-}
-
-void x_label(Canvas& canvas, const Box& frame, std::string_view text) {
-  canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, text, {Anchor::centre, text_size});
-}
-
-void data_block(Canvas& canvas, std::string_view name, std::string_view rows) {
-  canvas.commands(fmt::format("${} << EOD\n{}EOD", name, rows));
+  return fmt::format("set {}tics ({})", axis, ticks);
 }
 
 }  // namespace zwidth::report
