@@ -13,7 +13,7 @@
 #include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/excitation_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/excitation_text.hpp"
 #include "results/excitation_json.hpp"
 #include "zwidth/remark.hpp"

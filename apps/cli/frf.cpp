@@ -12,7 +12,7 @@
 #include "cli/response_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/frf_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/frf_text.hpp"
 #include "results/frf_json.hpp"
 #include "zwidth/remark.hpp"

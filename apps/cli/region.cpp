@@ -13,7 +13,7 @@
 #include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/region_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/region_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/region_json.hpp"

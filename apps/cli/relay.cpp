@@ -20,7 +20,7 @@
 #include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/relay_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/relay_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/relay_json.hpp"

@@ -19,7 +19,7 @@
 #include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/simulation_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_json.hpp"
 #include "zwidth/remark.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "report/figure/bode_figure.hpp"
-#include "report/figure/delay_figure.hpp"
 #include "report/figure/device_bode_figure.hpp"
+#include "report/figure/figure.hpp"
 #include "report/figure/identification_figure.hpp"
 #include "report/text/quantity.hpp"
 #include "reproduce/paper_devices.hpp"
@@ -125,32 +125,48 @@ PaperFigure figure_10() {
       draw(figure, FigureFormat::svg)};
 }
 
-DelaySeries critical_stiffness_series(std::string name, const DeviceParameters& device) {
+std::string delay_row(double delay, double stiffness_db) {
+  return fmt::format("{:.9g} {:.6f}\n", 1e3 * delay, stiffness_db);
+}
+
+std::string critical_stiffness_rows(const DeviceParameters& device) {
   constexpr double longest = 8e-3;
   constexpr int steps = 320;
-  DelaySeries series{std::move(name), DelaySeries::Kind::curve, {}};
+  std::string rows;
   for (int i = 0; i <= steps; ++i) {
     const double delay = longest * i / steps;
     const CriticalStiffness critical = critical_stiffness(filtered_plant(Device(with_delay(device, delay))));
-    if (critical.limit) series.points.push_back({delay, decibels(critical.stiffness)});
+    if (critical.limit) rows += delay_row(delay, decibels(critical.stiffness));
   }
-  return series;
+  return rows;
 }
 
 PaperFigure figure_10_delays() {
-  DelaySeries trials{"Table II, measured by the relay experiment", DelaySeries::Kind::points, {}};
-  for (const PaperTrial& trial : paper_table_2()) trials.points.push_back({trial.delay, trial.margin_db});
   const std::string title = "Critical stiffness against delay";
+  Figure figure{.title = title, .below = 70.0};
+  // Offsets: markers must not lie on the frame.
+  Panel panel{.height = 320.0,
+              .axes = "set ytics 5\nset autoscale xfix\nset offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04",
+              .x_label = "Delay (ms), besides the zero-order hold",
+              .y_label = "Critical stiffness (dB re 1 N/m)"};
+  const auto add = [&](const std::string& name, const LineStyle& style, const DeviceParameters& device) {
+    figure.legend.push_back({name, style});
+    panel.series.push_back({critical_stiffness_rows(device), as_lines(style)});
+  };
+  add("Reduced pretension (inferred)", {"#0b4f9e", 2.0, "1"}, paper_lhifam_reduced_pretension());
+  add("Table I", {"#c2410c", 1.6, "(10,5)"}, paper_lhifam());
+  add("Rigid, eq. 2", {"#15803d", 1.8, "(14,4,3,4)"}, paper_lhifam_rigid());
+  std::string trials;
+  for (const PaperTrial& trial : paper_table_2()) trials += delay_row(trial.delay, trial.margin_db);
+  figure.legend.push_back({"Table II, measured by the relay experiment", {}, {}, ring_marker(ink)});
+  panel.series.push_back({trials, as_points(ring_marker(ink))});
+  figure.panels = {panel};
   return {
       "figure_10_delays.svg", title,
       "Not in the paper: what Figure 10 argues, computed. The kink is where the limit moves from the resonance to "
       "the rigid body. The measured points stand for comparison: the relay experiment is nonlinear, see Figure 12. " +
           std::string(inferred),
-      draw_delay_figure(title,
-                        {critical_stiffness_series("Reduced pretension (inferred)", paper_lhifam_reduced_pretension()),
-                         critical_stiffness_series("Table I", paper_lhifam()),
-                         critical_stiffness_series("Rigid, eq. 2", paper_lhifam_rigid()), std::move(trials)},
-                        FigureFormat::svg)};
+      draw(figure, FigureFormat::svg)};
 }
 
 PaperFigure figure_14() {

@@ -135,9 +135,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis, const std::
   json["other_mechanism_share"] = analysis.interval ? Json(analysis.interval->other_mechanism) : Json(nullptr);
   json["uncertainty_warning"] = uncertainty_warning(device);
   json["assumed"] = device.uncertainty ? device.uncertainty->assumed : std::vector<std::string>{};
-  json["trust"] = analysis.trust;
-  json["remarks"] = analysis.remarks;
-  json["findings"] = findings_json(analysis.trust, analysis.remarks);
+  add_findings(json, analysis);
   return json;
 }
 

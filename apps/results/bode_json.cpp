@@ -32,9 +32,7 @@ Json bode_json(const Device& device, const Bode& bode) {
   json["sampled"] = response_json(bode.sampled);
   json["continuous"] = response_json(bode.continuous);
   json["crossovers"] = bode.analysis.critical.crossovers;
-  json["trust"] = bode.analysis.trust;
-  json["remarks"] = bode.analysis.remarks;
-  json["findings"] = findings_json(bode.analysis.trust, bode.analysis.remarks);
+  add_findings(json, bode.analysis);
   return json;
 }
 

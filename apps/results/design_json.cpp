@@ -203,9 +203,7 @@ Json notch_json(const Device& device, const NotchOptions& options, const NotchDe
   json["over_drift"] = design.over_modal_shift;
   json["without"] = state_json(design.state_without);
   json["with"] = state_json(design.state_with);
-  json["trust"] = design.trust;
-  json["remarks"] = design.remarks;
-  json["findings"] = findings_json(design.trust, design.remarks);
+  add_findings(json, design);
   return json;
 }
 

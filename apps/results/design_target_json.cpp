@@ -17,9 +17,7 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
   json["stiffness_now"] = is_damper ? std::nullopt : targets.limit_now;
   json["damping_now"] = is_damper ? targets.limit_now : std::nullopt;
   json["any_user_now"] = targets.absolute_stability_limit_now;
-  json["trust"] = targets.trust;
-  json["remarks"] = targets.remarks;
-  json["findings"] = findings_json(targets.trust, targets.remarks);
+  add_findings(json, targets);
   json["targets"] = Json::array();
   for (const DesignTarget& each : targets.targets) {
     json["targets"].push_back(Json{{"parameter", each.key},

@@ -55,9 +55,7 @@ Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   json["any_user_now"] = diagnosis.absolute_stability_limit_now;
   json["candidates"] = diagnosis.candidates;
   json["changes"] = diagnosis.changes;
-  json["trust"] = diagnosis.trust;
-  json["remarks"] = diagnosis.remarks;
-  json["findings"] = findings_json(diagnosis.trust, diagnosis.remarks);
+  add_findings(json, diagnosis);
   return json;
 }
 

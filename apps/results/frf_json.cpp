@@ -122,9 +122,7 @@ Json frf_json(const MeasuredResponse& measured, const FrfUnits& units, FrfConten
   json["sampling_period_s"] = response.sampling_period;
   if (content == FrfContent::with_lines) add_lines(json, response);
   json["basis"] = StiffnessBasis{};
-  json["trust"] = measured.trust;
-  json["remarks"] = measured.remarks;
-  json["findings"] = findings_json(measured.trust, measured.remarks);
+  add_findings(json, measured);
   return json;
 }
 

@@ -60,9 +60,7 @@ static void put_limit(Json& json, const Identified& identified, const Json& anal
   }
   json["modes"] = analysis["modes"];
   json["basis"] = identified.basis;
-  json["trust"] = identified.trust;
-  json["remarks"] = identified.remarks;
-  json["findings"] = findings_json(identified.trust, identified.remarks);
+  add_findings(json, identified);
 }
 
 Json identification_json(const Identification& identified, PointsInJson points) {
@@ -131,9 +129,7 @@ Json identification_json(const RigidBodyIdentification& identified) {
   json["cutoff_hz"] = fit.cutoff_hz;
   json["decimation"] = fit.decimation;
   json["equations"] = fit.equations;
-  json["trust"] = identified.trust;
-  json["remarks"] = identified.remarks;
-  json["findings"] = findings_json(identified.trust, identified.remarks);
+  add_findings(json, identified);
   json["device_toml"] = write_device(identified.device.parameters(), identified.remarks);
   return json;
 }

@@ -82,4 +82,12 @@ void to_json(Json& json, const Trust& trust);
 /// "remedy", "text"}], each once, what speaks against the numbers first. What no code was given for is "stated".
 [[nodiscard]] Json findings_json(const Trust& trust, const std::vector<Remark>& remarks = {});
 
+/// The keys "trust", "remarks" and "findings" of a result.
+template <typename Result>
+void add_findings(Json& json, const Result& result) {
+  json["trust"] = result.trust;
+  json["remarks"] = result.remarks;
+  json["findings"] = findings_json(result.trust, result.remarks);
+}
+
 }  // namespace zwidth::results

@@ -118,9 +118,7 @@ Json region_json(const Device& device, const WallRegion& walls) {
   json["any_user"] = walls.any_user;
   json["approximations"] = walls.approximations;
   json["force_per_count"] = force_per_count_json(walls, parameters.wall);
-  json["trust"] = walls.trust;
-  json["remarks"] = walls.remarks;
-  json["findings"] = findings_json(walls.trust, walls.remarks);
+  add_findings(json, walls);
   return json;
 }
 

@@ -86,9 +86,7 @@ Json relay_json(const RelayResult& result) {
   json["explanation"] = Json::array();
   for (const Finding& each : result.explanation) json["explanation"].push_back(text(each));
   json["limit_reading"] = result.limit_reading;
-  json["trust"] = result.trust;
-  json["remarks"] = result.remarks;
-  json["findings"] = findings_json(result.trust, result.remarks);
+  add_findings(json, result);
   return json;
 }
 

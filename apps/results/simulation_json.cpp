@@ -138,9 +138,7 @@ Json simulation_json(const Device& device, const Simulation& result, PointsInJso
   json["stick_slip_instants"] = result.friction_events;
   json["nonlinear_parts"] = result.nonlinear_parts;
   json["linear"] = result.linear;
-  json["trust"] = result.trust;
-  json["remarks"] = result.remarks;
-  json["findings"] = findings_json(result.trust, result.remarks);
+  add_findings(json, result);
   if (points == PointsInJson::included) json["points"] = points_json(device, result.trajectory);
   return json;
 }

@@ -157,9 +157,7 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["regions"] = regions_json(study);
   json["worst"] = worst_json(study, study.worst);
   json["worst_any_user"] = worst_json(study, study.worst_any_user);
-  json["trust"] = study.trust;
-  json["remarks"] = study.remarks;
-  json["findings"] = findings_json(study.trust, study.remarks);
+  add_findings(json, study);
   return json;
 }
 

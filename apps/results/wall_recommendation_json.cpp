@@ -63,9 +63,7 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
     add_wall(alternative, each, period);
     json["alternatives"].push_back(std::move(alternative));
   }
-  json["trust"] = recommendation.trust;
-  json["remarks"] = recommendation.remarks;
-  json["findings"] = findings_json(recommendation.trust, recommendation.remarks);
+  add_findings(json, recommendation);
   return json;
 }
 

@@ -1,5 +1,3 @@
-#include "report/text/analysis_text.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/analysis_report.hpp"
 #include "report/example_analyses.hpp"
 #include "report/text/limit_rows.hpp"
 #include "report/text/wall_note.hpp"

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "lhifam.hpp"
-#include "report/figure/design_sweep_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/json_keys.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/text_table.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "report/figure/frf_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/frf_text.hpp"
 #include "results/frf_json.hpp"
 

@@ -1,5 +1,3 @@
-#include "report/page/html_report.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "report/analysis_report.hpp"
 #include "report/example_analyses.hpp"
-#include "report/figure/stiffness_axis_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/text_table.hpp"
 

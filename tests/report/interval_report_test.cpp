@@ -4,9 +4,8 @@
 #include <limits>
 
 #include "lhifam.hpp"
+#include "report/analysis_report.hpp"
 #include "report/example_analyses.hpp"
-#include "report/page/html_report.hpp"
-#include "report/text/analysis_text.hpp"
 #include "report/text/explanation.hpp"
 #include "results/analysis_json.hpp"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "lhifam.hpp"
-#include "report/figure/region_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/json_keys.hpp"
 #include "report/text/region_text.hpp"
 #include "results/region_json.hpp"

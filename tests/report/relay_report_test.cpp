@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "lhifam.hpp"
-#include "report/figure/relay_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/relay_text.hpp"
 #include "results/relay_json.hpp"
 #include "zwidth/simulation/relay.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "report/example_analyses.hpp"
-#include "report/figure/simulation_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_json.hpp"
 

@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "export/export_c.hpp"
+#include "report/analysis_report.hpp"
 #include "report/example_analyses.hpp"
 #include "report/figure/device_bode_figure.hpp"
-#include "report/page/html_report.hpp"
-#include "report/text/analysis_text.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/region_text.hpp"
 

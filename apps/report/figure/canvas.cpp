@@ -85,6 +85,11 @@ void Canvas::rectangle(const Box& box, std::string_view colour) {
                        position(box.left, box.bottom), position(box.right, box.top), colour));
 }
 
+void Canvas::colour_box(const Box& box) {
+  commands(fmt::format("set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f}", box.left / width_,
+                       1.0 - box.bottom / height_, (box.right - box.left) / width_, (box.bottom - box.top) / height_));
+}
+
 void Canvas::commands(std::string_view text) {
   script_ += text;
   script_ += '\n';

@@ -48,6 +48,9 @@ class Canvas {
   void marker(double x, double y, std::string_view style);
   void rectangle(const Box& box, std::string_view colour);
 
+  /// Where the next plot has the scale of its colours.
+  void colour_box(const Box& box);
+
   /// Appends gnuplot commands that prepare the next plot.
   void commands(std::string_view text);
 

@@ -1,5 +1,3 @@
-#include "report/figure/design_sweep_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +8,12 @@
 #include <numbers>
 #include <vector>
 
-#include "report/figure/plot.hpp"
+#include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/design/parameter_sweep.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -33,10 +33,13 @@ constexpr std::string_view even_colours =
     "0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 "
     "'#b5de2b', "
     "9 '#fde725'";
-constexpr LineStyle any_user_style{"#15803d", 1.8, "(8,5)"};
-constexpr std::array<std::string_view, 6> colours = {"#0b4f9e", "#c2410c", "#7e22ce", "#0e7490", "#a16207", "#9d174d"};
+constexpr LineStyle any_user_limit_style{"#15803d", 1.8, "(8,5)"};
+constexpr std::array<std::string_view, 6> mode_colours = {"#0b4f9e", "#c2410c", "#7e22ce",
+                                                          "#0e7490", "#a16207", "#9d174d"};
 
-LineStyle branch_style(int mode) { return {colours.at(static_cast<std::size_t>(mode) % colours.size()), 1.3, "1"}; }
+LineStyle branch_style(int mode) {
+  return {mode_colours.at(static_cast<std::size_t>(mode) % mode_colours.size()), 1.3, "1"};
+}
 
 /// The unit of a parameter's axis: with a prefix where parameter_text() gives one.
 AxisUnit parameter_axis_unit(const SweepAxis& axis, Motion motion) {
@@ -82,59 +85,35 @@ class CurveFigure {
   }
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
-    const Heading heading(title_, legend());
-    const double top = heading.bottom() + 28.0;
-    const Box frame{frame_left, frame_right, top, top + frame_height};
-    Canvas canvas(title_, canvas_width, frame.bottom + 62.0);
-    heading.draw(canvas);
-    std::string what;
-    for (int mode = 0; mode <= modes_; ++mode) {
-      const LineStyle style = branch_style(mode);
-      add(canvas, what, fmt::format("branch{}", mode), branches(mode), style);
-      add(canvas, what, fmt::format("limit{}", mode), limits(mode), {style.colour, limit_style.width, "1"});
-    }
-    add(canvas, what, "jumps", jumps(), jump_style);
-    add(canvas, what, "any", any_user(), any_user_style);
     const SweepAxis& axis = sweep_.axes[0];
     const double low = range().first / stiffness_.size;
     const double high = range().second / stiffness_.size;
     const double first = std::min(axis.first, axis.last) / parameter_.size;
     const double last = std::max(axis.first, axis.last) / parameter_.size;
-    canvas.commands(
-        fmt::format("{}\nset logscale y\n{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
-                    "set format y '%g'\nset format x '%.10g'\n{}",
-                    axes_look(), is_logarithmic(axis) ? "set logscale x" : "unset logscale x", first, last, low, high,
-                    y_label(fmt::format("Stiffness K ({}{})", stiffness_.prefix, units_of(motion_).stiffness))));
-    if (high < few_decades * low) canvas.commands(fine_tics("y", low, high));
-    if (is_logarithmic(axis) && last < few_decades * first) canvas.commands(fine_tics("x", first, last));
-    x_label(canvas, frame, axis_title(axis, motion_));
-    canvas.plot(frame, what + "NaN notitle");
-    return canvas.draw(format);
+    Panel panel{
+        .above = 28.0,
+        .height = frame_height,
+        .axes = fmt::format("set logscale y\n{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
+                            "set format y '%g'\nset format x '%.10g'",
+                            is_logarithmic(axis) ? "set logscale x" : "unset logscale x", first, last, low, high),
+        .x_label = axis_title(axis, motion_),
+        .y_label = fmt::format("Stiffness K ({}{})", stiffness_.prefix, units_of(motion_).stiffness)};
+    if (high < few_decades * low) panel.axes += "\n" + decade_ticks("y", low, high);
+    if (is_logarithmic(axis) && last < few_decades * first) panel.axes += "\n" + decade_ticks("x", first, last);
+    for (int mode = 0; mode <= modes_; ++mode) {
+      const LineStyle style = branch_style(mode);
+      panel.series.push_back({branches(mode), as_lines(style)});
+      panel.series.push_back({limits(mode), as_lines({style.colour, limit_style.width, "1"})});
+    }
+    panel.series.push_back({jumps(), as_lines(jump_style)});
+    panel.series.push_back({any_user(), as_lines(any_user_limit_style)});
+    return report::draw(Figure{.title = title_, .legend = legend(), .panels = {panel}}, format);
   }
 
  private:
-  static void add(Canvas& canvas, std::string& what, const std::string& name, const std::string& rows,
-                  const LineStyle& style) {
-    if (rows.empty()) return;
-    data_block(canvas, name, rows);
-    what += fmt::format("${} with lines {} notitle, ", name, gnuplot_line(style));
-  }
-
-  static std::string fine_tics(std::string_view name, double low, double high) {
-    std::string tics = fmt::format("set {}tics (", name);
-    for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10.0) {
-      for (const double step : {1.0, 2.0, 5.0}) {
-        const double at = step * power;
-        if (at < low * (1.0 - 1e-9) || at > high * (1.0 + 1e-9)) continue;
-        tics += fmt::format("{}{:g}", tics.ends_with('(') ? "" : ", ", at);
-      }
-    }
-    return tics + ")";
-  }
-
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries{{"bold: K_CR, the crossover that limits", limit_style}};
-    if (!any_user().empty()) entries.push_back({"with any passive user", any_user_style});
+    if (!any_user().empty()) entries.push_back({"with any passive user", any_user_limit_style});
     for (int mode = 0; mode <= modes_; ++mode) {
       if (branches(mode).empty()) continue;
       entries.push_back({mode == 0 ? std::string("crossovers of the rigid body")
@@ -250,51 +229,48 @@ class MapFigure {
     const std::vector<std::size_t> first = thinned(sweep_.values[0].size());
     const std::vector<std::size_t> second = thinned(sweep_.values[1].size());
     const std::string jumps = edges_between_branches(first, second);
-    std::vector<LegendEntry> legend;
-    if (!jumps.empty()) legend.push_back({"another crossover limits beyond this line: K_CR may jump", branch_edge});
-    const Heading heading(title_, legend);
-    const double top = heading.bottom() + 26.0;
-    const Box frame{frame_left, 760.0, top, top + frame_height};
-    Canvas canvas(title_, canvas_width, frame.bottom + 62.0);
-    heading.draw(canvas);
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
-    std::string rows;
     for (const std::size_t j : second) {
       for (const std::size_t i : first) {
         const SweepPoint& point = point_at(i, j);
-        const bool drawn = point.limit.has_value();
-        if (drawn) low = std::min(low, point.stiffness), high = std::max(high, point.stiffness);
-        fmt::format_to(std::back_inserter(rows), "{:.9g} {:.9g} {}\n", place(0, i), place(1, j),
-                       drawn ? fmt::format("{:.9g}", point.stiffness) : "NaN");
+        if (point.limit) low = std::min(low, point.stiffness), high = std::max(high, point.stiffness);
       }
-      rows += "\n";
     }
     if (high == 0.0) low = 1.0, high = 10.0;
     const AxisUnit stiffness = axis_unit(high);
     low /= stiffness.size;
     high /= stiffness.size;
-    data_block(canvas, "map", rows);
-    canvas.commands(fmt::format(
-        "{}\nunset grid\nunset logscale\n{}{}set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n{}\n"
-        "set palette defined ({}) maxcolors 0\n"
-        "set colorbox user origin screen {:.5f},{:.5f} size screen 0.02,{:.5f}\n{}set cbrange [{:.9g}:{:.9g}]\n"
-        "set format cb '%g'",
-        axes_look(), tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first, edges(1).second,
-        y_label(axis_title(sweep_.axes[1], motion_)), even_colours, 780.0 / canvas_width, 62.0 / (frame.bottom + 62.0),
-        frame_height / (frame.bottom + 62.0), high > 10.0 * low ? "set logscale cb\n" : "", low,
-        high > low ? high : 1.001 * low));
-    x_label(canvas, frame, axis_title(sweep_.axes[0], motion_));
-    canvas.text(772.0, frame.top - 10.0, fmt::format("K_CR ({}{})", stiffness.prefix, units_of(motion_).stiffness),
-                {Anchor::left, 12.0});
-    std::string what = fmt::format("$map using 1:2:($3/{:g}) with image notitle", stiffness.size);
-    if (!jumps.empty()) {
-      data_block(canvas, "jumps", jumps);
-      what += fmt::format(", $jumps with lines {} notitle, $jumps with lines {} notitle",
-                          gnuplot_line({"#ffffff", 3.0, "1"}), gnuplot_line(branch_edge));
+    std::string rows;
+    for (const std::size_t j : second) {
+      for (const std::size_t i : first) {
+        const SweepPoint& point = point_at(i, j);
+        fmt::format_to(std::back_inserter(rows), "{:.9g} {:.9g} {}\n", place(0, i), place(1, j),
+                       point.limit ? fmt::format("{:.9g}", point.stiffness / stiffness.size) : "NaN");
+      }
+      rows += "\n";
     }
-    canvas.plot(frame, what);
-    return canvas.draw(format);
+    Figure figure{.title = title_};
+    if (!jumps.empty()) {
+      figure.legend.push_back({"another crossover limits beyond this line: K_CR may jump", branch_edge});
+    }
+    figure.panels.push_back(
+        {.height = frame_height,
+         .right = 760.0,
+         .axes = fmt::format("unset grid\nunset logscale\n{}{}set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
+                             "set palette defined ({}) maxcolors 0\n{}set cbrange [{:.9g}:{:.9g}]\nset format cb '%g'",
+                             tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first,
+                             edges(1).second, even_colours, high > 10.0 * low ? "set logscale cb\n" : "", low,
+                             high > low ? high : 1.001 * low),
+         .x_label = axis_title(sweep_.axes[0], motion_),
+         .y_label = axis_title(sweep_.axes[1], motion_),
+         .series = {{rows, "image", "1:2:3"}, {jumps, as_lines({"#ffffff", 3.0, "1"})}, {jumps, as_lines(branch_edge)}},
+         .marks = [&](Canvas& canvas, const Box& frame) {
+           canvas.colour_box({780.0, 780.0 + 0.02 * canvas_width, frame.top, frame.bottom});
+           canvas.text(772.0, frame.top - 10.0,
+                       fmt::format("K_CR ({}{})", stiffness.prefix, units_of(motion_).stiffness), {Anchor::left, 12.0});
+         }});
+    return report::draw(figure, format);
   }
 
  private:

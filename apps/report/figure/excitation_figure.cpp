@@ -1,5 +1,3 @@
-#include "report/figure/excitation_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "report/figure/plot.hpp"
+#include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/excitation_text.hpp"
+#include "zwidth/identification/excitation.hpp"
 #include "zwidth/signal/power_density.hpp"
 
 namespace zwidth::report {
@@ -18,21 +18,20 @@ constexpr LineStyle signal_style{"#0b4f9e", 1.2, "1"};
 constexpr std::size_t most_columns = 1500;
 constexpr double shown_decibels = 80.0;  // below the highest density
 
-/// $signal: every sample, or columns of time, least and greatest force.
-std::string add_signal(Canvas& canvas, const std::vector<double>& samples, double rate) {
-  canvas.commands("$signal << EOD");
+/// Every sample, or columns of time, least and greatest force.
+Series signal_series(const std::vector<double>& samples, double rate) {
   const bool envelope = samples.size() > 2 * most_columns;
   const std::size_t columns = envelope ? most_columns : samples.size();
+  std::string rows;
   for (std::size_t i = 0; i < columns; ++i) {
     const std::size_t first = i * samples.size() / columns;
     const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(first);
     const auto end = samples.begin() + static_cast<std::ptrdiff_t>((i + 1) * samples.size() / columns);
     const auto [least, greatest] = std::minmax_element(begin, end);
-    canvas.commands(fmt::format("{:.9g} {:.6g} {:.6g}", static_cast<double>(first) / rate, *least, *greatest));
+    rows += fmt::format("{:.9g} {:.6g} {:.6g}\n", static_cast<double>(first) / rate, *least, *greatest);
   }
-  canvas.commands("EOD");
-  return envelope ? fmt::format("$signal using 1:2:3 with filledcurves lc rgb '{}'", signal_style.colour)
-                  : fmt::format("$signal using 1:2 with steps {}", gnuplot_line(signal_style));
+  if (!envelope) return {rows, "steps " + gnuplot_line(signal_style)};
+  return {rows, fmt::format("filledcurves lc rgb '{}'", signal_style.colour), "1:2:3"};
 }
 
 struct DensityPoint {
@@ -78,44 +77,40 @@ std::span<const double> one_period(const Excitation& excitation) {
 }  // namespace
 
 std::string draw_excitation(const Excitation& excitation, FigureFormat format) {
-  const std::string title = excitation_title(excitation.options);
   const double rate = excitation.rate;
-  const Heading heading(title, {});
-  const Box time_frame{frame_left, frame_right, heading.bottom() + 16.0, heading.bottom() + 186.0};
-  const Box density_frame{frame_left, frame_right, time_frame.bottom + 70.0, time_frame.bottom + 280.0};
   const bool is_rotary = excitation.motion == Motion::rotary;
-  Canvas canvas(title, canvas_width, density_frame.bottom + 60.0);
-  heading.draw(canvas);
-  const std::string signal = add_signal(canvas, excitation.samples, rate);
-  const double duration = static_cast<double>(excitation.samples.size()) / rate;
-  x_label(canvas, time_frame, "Time (s)");
-  canvas.commands(fmt::format("{}\nset xrange [0:{:.9g}]\nset offsets 0, 0, graph 0.05, graph 0.05\n{}", axes_look(),
-                              duration, y_label(is_rotary ? "Force (N m)" : "Force (N)")));
-  canvas.plot(time_frame, signal + ", NaN notitle");
-
   const std::span<const double> period = one_period(excitation);
   const std::vector<DensityPoint> points =
       period.empty() ? banded(power_density(excitation.samples, rate)) : lines(power_density(period, rate));
   double highest = -300.0;
-  canvas.commands("$density << EOD");
+  std::string rows;
   for (const DensityPoint& point : points) {
     highest = std::max(highest, point.decibels);
-    canvas.commands(fmt::format("{:.9g} {:.4f}", point.frequency_hz, point.decibels));
+    rows += fmt::format("{:.9g} {:.4f}\n", point.frequency_hz, point.decibels);
   }
-  canvas.commands("EOD");
   const double top = 10.0 * std::ceil((highest + 1.0) / 10.0);
-  x_label(canvas, density_frame, period.empty() ? "Frequency (Hz)" : "Frequency (Hz), lines of one period");
-  canvas.commands(fmt::format(
-      "set logscale x\nset format x '%g'\nset mxtics 10\nset grid mxtics\nset offsets 0, 0, 0, 0\n"
-      "set xrange [{:.9g}:{:.9g}]\nset yrange [{:g}:{:g}]\nset ytics 20\nset ylabel 'Power density (dB re 1 {}/Hz)'",
-      std::max(points.empty() ? 0.001 * rate : (period.empty() ? 1.0 : 0.5) * points.front().frequency_hz, 1e-4 * rate),
-      0.5 * rate, top - shown_decibels, top, is_rotary ? "(N m)²" : "N²"));
   const double bottom = top - shown_decibels;
-  const std::string curve = fmt::format("$density with lines {}", gnuplot_line(signal_style));
-  const std::string stems = fmt::format("$density using 1:({0:g}):(0):($2>{0:g}?$2-{0:g}:0) with vectors nohead {1}",
-                                        bottom, gnuplot_line(signal_style));
-  canvas.plot(density_frame, (period.empty() ? curve : stems) + ", NaN notitle");
-  return canvas.draw(format);
+  const double least = points.empty() ? 0.001 * rate : (period.empty() ? 1.0 : 0.5) * points.front().frequency_hz;
+  const Panel over_time{.above = 16.0,
+                        .height = 170.0,
+                        .axes = fmt::format("set xrange [0:{:.9g}]\nset offsets 0, 0, graph 0.05, graph 0.05",
+                                            static_cast<double>(excitation.samples.size()) / rate),
+                        .x_label = "Time (s)",
+                        .y_label = is_rotary ? "Force (N m)" : "Force (N)",
+                        .series = {signal_series(excitation.samples, rate)}};
+  const Panel density{
+      .above = 70.0,
+      .height = 210.0,
+      .axes = fmt::format("set logscale x\nset format x '%g'\nset mxtics 10\nset grid mxtics\nset offsets 0, 0, 0, 0\n"
+                          "set xrange [{:.9g}:{:.9g}]\nset yrange [{:g}:{:g}]\nset ytics 20",
+                          std::max(least, 1e-4 * rate), 0.5 * rate, bottom, top),
+      .x_label = period.empty() ? "Frequency (Hz)" : "Frequency (Hz), lines of one period",
+      .y_label = fmt::format("Power density (dB re 1 {}/Hz)", is_rotary ? "(N m)²" : "N²"),
+      .series = {period.empty() ? Series{rows, as_lines(signal_style)}
+                                : Series{rows, "vectors nohead " + gnuplot_line(signal_style),
+                                         fmt::format("1:({0:g}):(0):($2>{0:g}?$2-{0:g}:0)", bottom)}}};
+  return draw(Figure{.title = excitation_title(excitation.options), .panels = {over_time, density}, .below = 60.0},
+              format);
 }
 
 }  // namespace zwidth::report

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "report/figure/figure.hpp"
 #include "report/figure/identification_figure.hpp"
-#include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
@@ -46,7 +46,7 @@ std::size_t zoom_begin(const Signal& signal) {
 }
 
 /// A gap is where samples are left out: the curve breaks.
-std::string rows(const Signal& signal, std::size_t from, const AxisUnit& unit) {
+std::string signal_rows(const Signal& signal, std::size_t from, const AxisUnit& unit) {
   const double step = (signal.times.back() - signal.times.front()) / static_cast<double>(signal.times.size() - 1);
   std::string text;
   for (std::size_t i = from; i < signal.times.size(); ++i) {
@@ -86,45 +86,48 @@ std::string few_ticks(double largest) {
                          decade);
 }
 
-void draw_signal(Canvas& canvas, const Signal& signal, double top) {
-  const Box zoom{frame_left, frame_right, top + 24.0, top + 204.0};
-  const Box rest{frame_left, frame_right, zoom.bottom + 74.0, zoom.bottom + 184.0};
+/// A zoom, and below it what the fit leaves of the whole.
+void add_signal_panels(std::vector<Panel>& panels, const Signal& signal) {
   const std::size_t from = zoom_begin(signal);
   const AxisUnit shown = axis_unit(largest(signal.measured.subspan(from)));
   const AxisUnit small = axis_unit(largest(signal.residuals));
-  canvas.text(frame_left, top + 10.0,
-              fmt::format("{}: zoom on {:.4g} to {:.4g} s", signal.name, signal.times[from], signal.times.back()));
-  data_block(canvas, "signal", rows(signal, from, shown));
-  data_block(canvas, "residual", residual_rows(signal, small));
-  x_label(canvas, zoom, "Time (s)");
-  canvas.commands(fmt::format("{}\nset xrange [{}:{}]\nset autoscale y\nset ytics autofreq\nset format x '%g'\n{}",
-                              axes_look(), signal.times[from], signal.times.back(),
-                              y_label(fmt::format("{} ({}{})", signal.quantity, shown.prefix, signal.unit))));
-  canvas.plot(zoom, fmt::format("$signal using 1:2 with lines {}, $signal using 1:3 with lines {}",
-                                gnuplot_line(measured_signal_style), gnuplot_line(fitted_style)));
-  canvas.text(frame_left, rest.top - 14.0,
-              fmt::format("residual (measured less fitted) of the whole record: {} rms",
-                          quantity(root_mean_square(signal.residuals), std::string(signal.unit))));
-  x_label(canvas, rest, "Time (s)");
-  if (const double extent = largest(signal.residuals); extent > 0.0) canvas.commands(few_ticks(extent / small.size));
-  canvas.commands(fmt::format("set xrange [{}:{}]\n{}", signal.times.front(), signal.times.back(),
-                              y_label(fmt::format("Residual ({}{})", small.prefix, signal.unit))));
-  canvas.plot(rest, fmt::format("$residual with lines {}", gnuplot_line(residual_style)));
+  const double extent = largest(signal.residuals);
+  const std::string zoomed =
+      fmt::format("{}: zoom on {:.4g} to {:.4g} s", signal.name, signal.times[from], signal.times.back());
+  const std::string left = fmt::format("residual (measured less fitted) of the whole record: {} rms",
+                                       quantity(root_mean_square(signal.residuals), std::string(signal.unit)));
+  const std::string rows = signal_rows(signal, from, shown);
+  const auto note = [](const std::string& text) {
+    return [text](Canvas& canvas, const Box& frame) { canvas.text(frame_left, frame.top - 14.0, text); };
+  };
+  panels.push_back({.above = panels.empty() ? 30.0 : 106.0,
+                    .height = 180.0,
+                    .axes = fmt::format("set xrange [{}:{}]\nset autoscale y\nset ytics autofreq\nset format x '%g'",
+                                        signal.times[from], signal.times.back()),
+                    .x_label = "Time (s)",
+                    .y_label = fmt::format("{} ({}{})", signal.quantity, shown.prefix, signal.unit),
+                    .series = {{rows, as_lines(measured_signal_style)}, {std::nullopt, as_lines(fitted_style), "1:3"}},
+                    .marks = note(zoomed)});
+  panels.push_back({.above = 74.0,
+                    .height = 110.0,
+                    .axes = fmt::format("set xrange [{}:{}]\n{}", signal.times.front(), signal.times.back(),
+                                        extent > 0.0 ? few_ticks(extent / small.size) : ""),
+                    .x_label = "Time (s)",
+                    .y_label = fmt::format("Residual ({}{})", small.prefix, signal.unit),
+                    .series = {{residual_rows(signal, small), as_lines(residual_style)}},
+                    .marks = note(left)});
 }
 
-std::string draw(const std::string& title, const std::string& fitted, const std::string& subtitle,
-                 std::span<const Signal> signals, FigureFormat format) {
-  constexpr double height = 470.0;
-  const Heading heading(title, {{"measured", measured_signal_style}, {fitted, fitted_style}}, subtitle);
-  const std::span<const Signal> shown = signals.first(std::min(signals.size(), most_signals));
-  Canvas canvas(title, canvas_width, heading.bottom() + height * static_cast<double>(shown.size()));
-  heading.draw(canvas);
-  double top = heading.bottom() + 6.0;
-  for (const Signal& signal : shown) {
-    draw_signal(canvas, signal, top);
-    top += height;
+std::string draw_signals(const std::string& title, const std::string& fitted, const std::string& subtitle,
+                         std::span<const Signal> signals, FigureFormat format) {
+  Figure figure{.title = title,
+                .subtitle = subtitle,
+                .legend = {{"measured", measured_signal_style}, {fitted, fitted_style}},
+                .below = 76.0};
+  for (const Signal& signal : signals.first(std::min(signals.size(), most_signals))) {
+    add_signal_panels(figure.panels, signal);
   }
-  return canvas.draw(format);
+  return draw(figure, format);
 }
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -148,7 +151,7 @@ std::string draw_identification(const TimeDomainIdentification& identified, Figu
     }
     signals.push_back(std::move(signal));
   }
-  return draw(
+  return draw_signals(
       fmt::format("{}, identified in time{}", display_name(identified.device), trust_mark(identified.trust)),
       "fitted device with its dry friction",
       signals.size() > most_signals ? fmt::format("The first {} of {} recordings.", most_signals, signals.size()) : "",
@@ -161,7 +164,7 @@ std::string draw_identification(const RigidBodyIdentification& identified, Figur
   const Signal signal{
       file_name(identified.source), "Force", motion == Motion::rotary ? "N m" : "N", fit.times, fit.forces,
       fit.residual_forces};
-  return draw(
+  return draw_signals(
       fmt::format("{}, identified by inverse dynamics{}", display_name(identified.device),
                   trust_mark(identified.trust)),
       "mass, friction and offset of the fitted body",

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "report/figure/plot.hpp"
+#include "report/figure/figure.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
@@ -36,7 +36,7 @@ struct Row {
 /// The angle nearest to `near`, by whole turns.
 double unwrapped(double phase, double near) { return phase + 360.0 * std::round((near - phase) / 360.0); }
 
-std::vector<Row> rows(const Identification& identified, bool has_noise) {
+std::vector<Row> fit_rows(const Identification& identified, bool has_noise) {
   const ParameterFit& fit = identified.fit;
   std::vector<Row> result;
   double last = -180.0;
@@ -76,11 +76,11 @@ double largest_residual(const std::vector<Row>& data) {
 
 std::string dot_marker(std::string_view colour) { return fmt::format("pt 7 ps 0.4 lc rgb '{}'", colour); }
 
-std::string plots(int measured, int low, int high, int fitted) {
-  return fmt::format(
-      "$rows using 1:{}:{} with filledcurves lc rgb '{}', $rows using 1:{} with points {}, $rows using 1:{} with lines "
-      "{}",
-      low, high, fitted_band_colour, measured, dot_marker(point_colour), fitted, gnuplot_line(fit_style));
+/// The measured band and points, and the fitted curve, by their columns.
+std::vector<Series> band_points_and_fit(std::string_view band, int measured, int fitted) {
+  return {{std::nullopt, fmt::format("filledcurves lc rgb '{}'", fitted_band_colour), fmt::format("1:{}", band)},
+          {std::nullopt, as_points(dot_marker(point_colour)), fmt::format("1:{}", measured)},
+          {std::nullopt, as_lines(fit_style), fmt::format("1:{}", fitted)}};
 }
 
 }  // namespace
@@ -97,54 +97,58 @@ std::string draw_identification(const Identification& identified, const Identifi
                                 FigureFormat format) {
   const bool has_noise =
       std::ranges::all_of(identified.response.points, [](const ResponsePoint& point) { return point.variance > 0.0; });
-  const std::vector<Row> data = rows(identified, has_noise);
-  const Heading heading(labels.title,
-                        {{labels.points, {}, fitted_band_colour, dot_marker(point_colour)},
-                         {"fitted device", fit_style},
-                         {"residual of the magnitude", {}, {}, dot_marker(point_colour)},
-                         {"residual of the phase", {}, {}, ring_marker(orange)}},
-                        has_noise ? "Position over force. Residuals in standard deviations (σ) of the noise: 95 % lie "
-                                    "within ±2 where the fit explains the data."
-                                  : "Position over force. Residuals in per cent of the fitted response.");
-  const Box magnitude_frame{frame_left, frame_right, heading.bottom() + 28.0, heading.bottom() + 318.0};
-  const Box phase_frame{frame_left, frame_right, magnitude_frame.bottom + 22.0, magnitude_frame.bottom + 212.0};
-  const Box residual_frame{frame_left, frame_right, phase_frame.bottom + 22.0, phase_frame.bottom + 142.0};
-  Canvas canvas(labels.title, canvas_width, residual_frame.bottom + 70.0);
-  heading.draw(canvas);
-  canvas.commands("$rows << EOD");
+  const std::vector<Row> data = fit_rows(identified, has_noise);
+  std::string rows;
   double lowest = data.front().magnitude;
   double highest = lowest;
   for (const Row& row : data) {
-    canvas.commands(fmt::format("{:.9g} {:.5f} {:.5f} {:.5f} {:.4f} {:.4f} {:.4f} {:.5f} {:.4f} {:.4g} {:.4g}", row.hz,
-                                row.magnitude, row.magnitude_low, row.magnitude_high, row.phase, row.phase_low,
-                                row.phase_high, row.fitted_magnitude, row.fitted_phase, row.radial, row.tangential));
+    rows += fmt::format("{:.9g} {:.5f} {:.5f} {:.5f} {:.4f} {:.4f} {:.4f} {:.5f} {:.4f} {:.4g} {:.4g}\n", row.hz,
+                        row.magnitude, row.magnitude_low, row.magnitude_high, row.phase, row.phase_low, row.phase_high,
+                        row.fitted_magnitude, row.fitted_phase, row.radial, row.tangential);
     lowest = std::min({lowest, row.magnitude, row.fitted_magnitude});
     highest = std::max({highest, row.magnitude, row.fitted_magnitude});
   }
-  canvas.commands("EOD");
   const std::string_view compliance = identified.fit.device.parameters().motion == Motion::rotary ? "rad/(N m)" : "m/N";
-  canvas.commands(fmt::format(
-      "{}\nset grid mxtics\nset logscale x\nset xrange [{}:{}]\nset format x ''\nset yrange [{}:{}]\n{}", axes_look(),
-      data.front().hz, std::max(data.back().hz, 1.01 * data.front().hz), 10.0 * std::floor((lowest - 1.0) / 10.0),
-      10.0 * std::ceil((highest + 1.0) / 10.0), y_label(fmt::format("Magnitude (dB re 1 {})", compliance))));
-  canvas.plot(magnitude_frame, plots(2, 3, 4, 8));
-  canvas.commands("set autoscale y\nset ytics 90\nset ylabel 'Phase (degrees)'");
-  canvas.commands(frequency_ticks(data.front().hz, data.back().hz));
-  canvas.plot(phase_frame, plots(5, 6, 7, 9));
-  x_label(canvas, residual_frame, "Frequency (Hz)");
-  canvas.commands(
-      fmt::format("set ytics autofreq\n{}\nset format x '%g'", y_label(has_noise ? "Residual (σ)" : "Residual (%)")));
+  Panel magnitude{
+      .above = 28.0,
+      .height = 290.0,
+      .axes = fmt::format("set grid mxtics\nset logscale x\nset xrange [{}:{}]\nset format x ''\n"
+                          "set yrange [{}:{}]",
+                          data.front().hz, std::max(data.back().hz, 1.01 * data.front().hz),
+                          10.0 * std::floor((lowest - 1.0) / 10.0), 10.0 * std::ceil((highest + 1.0) / 10.0)),
+      .y_label = fmt::format("Magnitude (dB re 1 {})", compliance),
+      .series = band_points_and_fit("3:4", 2, 8)};
+  Panel phase{.above = 22.0,
+              .height = 190.0,
+              .axes = "set autoscale y\nset ytics 90\n" + decade_ticks("x", data.front().hz, data.back().hz),
+              .y_label = "Phase (degrees)",
+              .series = band_points_and_fit("6:7", 5, 9)};
+  Panel residual{.above = 22.0,
+                 .height = 120.0,
+                 .axes = "set ytics autofreq\nset format x '%g'",
+                 .x_label = "Frequency (Hz)",
+                 .y_label = has_noise ? "Residual (σ)" : "Residual (%)"};
   if (has_noise) {
     const double extent = std::max(1.1 * largest_residual(data), 4.0);
-    canvas.commands(fmt::format("set yrange [{}:{}]", -extent, extent));
-    if (extent < 8.0) canvas.commands("set ytics 2");
+    residual.axes += fmt::format("\nset yrange [{}:{}]{}", -extent, extent, extent < 8.0 ? "\nset ytics 2" : "");
+    for (const char* bound : {"-2", "2"}) residual.series.push_back({bound, as_lines(bound_style), ""});
   }
-  canvas.plot(
-      residual_frame,
-      fmt::format("{}$rows using 1:11 with points {}, $rows using 1:10 with points {}",
-                  has_noise ? fmt::format("-2 with lines {0}, 2 with lines {0}, ", gnuplot_line(bound_style)) : "",
-                  ring_marker(orange), dot_marker(point_colour)));
-  return canvas.draw(format);
+  residual.series.push_back({rows, as_points(ring_marker(orange)), "1:11"});
+  residual.series.push_back({std::nullopt, as_points(dot_marker(point_colour)), "1:10"});
+  magnitude.series.front().rows = rows;
+  phase.series.front().rows = rows;
+  return draw(
+      Figure{.title = labels.title,
+             .subtitle = has_noise ? "Position over force. Residuals in standard deviations (σ) of the noise: 95 % lie "
+                                     "within ±2 where the fit explains the data."
+                                   : "Position over force. Residuals in per cent of the fitted response.",
+             .legend = {{labels.points, {}, fitted_band_colour, dot_marker(point_colour)},
+                        {"fitted device", fit_style},
+                        {"residual of the magnitude", {}, {}, dot_marker(point_colour)},
+                        {"residual of the phase", {}, {}, ring_marker(orange)}},
+             .panels = {magnitude, phase, residual},
+             .below = 70.0},
+      format);
 }
 
 }  // namespace zwidth::report

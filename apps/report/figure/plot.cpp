@@ -7,8 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "report/figure/gnuplot.hpp"
-
 namespace zwidth::report {
 namespace {
 
@@ -82,32 +80,32 @@ AxisUnit axis_unit(double largest, double least_shown) {
   return found != units.end() ? *found : units.back();
 }
 
+double tick_step(const AxisRange& range, double step, double most_ticks) {
+  while ((range.high - range.low) / step > most_ticks) step *= 2.0;
+  return step;
+}
+
+double place_on_log_axis(const Box& frame, const AxisRange& range, double value) {
+  const double share = std::log(value / range.low) / std::log(range.high / range.low);
+  return frame.left + (frame.right - frame.left) * std::clamp(share, 0.0, 1.0);
+}
+
 std::string_view axes_look() {
   return "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
          "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back";
 }
 
-std::string y_label(std::string_view text) {
-  return fmt::format("set ylabel {} font ',12' offset 0.5,0", gnuplot_text(text));
-}
-
-std::string frequency_ticks(double low, double high) {
+std::string decade_ticks(std::string_view axis, double low, double high) {
+  constexpr double rounding = 1e-9;
   std::string ticks;
   for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
     for (const double step : {1.0, 2.0, 5.0}) {
       const double at = step * decade;
-      if (at >= low && at <= high) ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", at);
+      if (at < low * (1.0 - rounding) || at > high * (1.0 + rounding)) continue;
+      ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", at);
     }
   }
-  return "set xtics (" + ticks + ")";
-}
-
-void x_label(Canvas& canvas, const Box& frame, std::string_view text) {
-  canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, text, {Anchor::centre, text_size});
-}
-
-void data_block(Canvas& canvas, std::string_view name, std::string_view rows) {
-  canvas.commands(fmt::format("${} << EOD\n{}EOD", name, rows));
+  return fmt::format("set {}tics ({})", axis, ticks);
 }
 
 }  // namespace zwidth::report

@@ -66,19 +66,22 @@ struct AxisUnit {
 /// The largest prefix in which the largest value is at least `least_shown`; without one for 0.
 [[nodiscard]] AxisUnit axis_unit(double largest, double least_shown = 1.0);
 
+/// What an axis shows.
+struct AxisRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// The step, doubled until the range has at most `most_ticks`.
+[[nodiscard]] double tick_step(const AxisRange& range, double step, double most_ticks);
+
+/// px of a value on the frame's logarithmic axis; what lies beyond the axis at its end.
+[[nodiscard]] double place_on_log_axis(const Box& frame, const AxisRange& range, double value);
+
 /// gnuplot commands that every frame begins with: size of the tics, border, grid behind the curves.
 [[nodiscard]] std::string_view axes_look();
 
-/// `set ylabel` with the text as it is.
-[[nodiscard]] std::string y_label(std::string_view text);
-
-/// `set xtics` at 1, 2 and 5 of every decade, Hz: a measured band is often less than one.
-[[nodiscard]] std::string frequency_ticks(double low, double high);
-
-/// The text below the frame's bottom axis.
-void x_label(Canvas& canvas, const Box& frame, std::string_view text);
-
-/// Data for a plot: `$name << EOD`, the rows, `EOD`.
-void data_block(Canvas& canvas, std::string_view name, std::string_view rows);
+/// `set xtics` of the axis "x" at 1, 2 and 5 of every decade: less than one has too few tics otherwise.
+[[nodiscard]] std::string decade_ticks(std::string_view axis, double low, double high);
 
 }  // namespace zwidth::report

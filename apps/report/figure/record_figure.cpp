@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "report/figure/plot.hpp"
+#include "report/figure/figure.hpp"
 #include "report/text/quantity.hpp"
 
 namespace zwidth::report {
@@ -25,34 +25,38 @@ std::string draw_record(const std::string& title, const std::string& subtitle, c
   double largest = 0.0;
   for (const double each : record.position) largest = std::max(largest, std::abs(each));
   const AxisUnit unit = axis_unit(largest, 0.1);
-  const Heading heading(title, {}, subtitle);
-  const Box force_frame{frame_left, frame_right, heading.bottom() + 20.0, heading.bottom() + 170.0};
-  const Box position_frame{frame_left, frame_right, force_frame.bottom + 28.0, force_frame.bottom + 248.0};
-  Canvas canvas(title, canvas_width, position_frame.bottom + 64.0);
-  heading.draw(canvas);
   const auto time_of = [&](std::size_t k) { return record.start + static_cast<double>(k) * record.sampling_period; };
-  const auto row = [&](std::size_t k, double force, double position) {
-    canvas.commands(fmt::format("{:.9g} {:.9g} {:.9g}", time_of(k), force, position / unit.size));
+  std::string rows;
+  const auto add = [&](std::size_t k, double force, double position) {
+    rows += fmt::format("{:.9g} {:.9g} {:.9g}\n", time_of(k), force, position / unit.size);
   };
-  canvas.commands("$record << EOD");
   const std::size_t stretch = 2 * most_stretches < count ? 1 + (count - 1) / most_stretches : 1;
   for (std::size_t k = 0; k < count; k += stretch) {
     const std::size_t size = std::min(stretch, count - k);
     const auto [least_force, most_force] = std::ranges::minmax(record.force.subspan(k, size));
     const auto [least, most] = std::ranges::minmax(record.position.subspan(k, size));
-    row(k, least_force, least);
-    if (size > 1) row(k + size / 2, most_force, most);
+    add(k, least_force, least);
+    if (size > 1) add(k + size / 2, most_force, most);
   }
-  canvas.commands("EOD");
-  canvas.commands(fmt::format(
-      "{}\nset xrange [{:.9g}:{:.9g}]\nset offsets 0, 0, graph 0.08, graph 0.08\nset format x ''\n{}", axes_look(),
-      time_of(0), time_of(std::max<std::size_t>(count, 2) - 1), y_label(fmt::format("Force ({})", units.force))));
-  canvas.plot(force_frame, fmt::format("$record using 1:2 with steps {}, NaN notitle", gnuplot_line(force_style)));
-  x_label(canvas, position_frame, "Time (s)");
-  canvas.commands("set format x '%g'\n" + y_label(fmt::format("Position ({}{})", unit.prefix, units.length)));
-  canvas.plot(position_frame,
-              fmt::format("$record using 1:3 with lines {}, NaN notitle", gnuplot_line(position_style)));
-  return canvas.draw(format);
+  return draw(
+      Figure{
+          .title = title,
+          .subtitle = subtitle,
+          .panels = {{.above = 20.0,
+                      .height = 150.0,
+                      .axes = fmt::format("set xrange [{:.9g}:{:.9g}]\nset offsets 0, 0, graph 0.08, graph 0.08\nset "
+                                          "format x ''",
+                                          time_of(0), time_of(std::max<std::size_t>(count, 2) - 1)),
+                      .y_label = fmt::format("Force ({})", units.force),
+                      .series = {{rows, "steps " + gnuplot_line(force_style)}}},
+                     {.above = 28.0,
+                      .height = 220.0,
+                      .axes = "set format x '%g'",
+                      .x_label = "Time (s)",
+                      .y_label = fmt::format("Position ({}{})", unit.prefix, units.length),
+                      .series = {{rows, as_lines(position_style), "1:3"}}}},
+          .below = 64.0},
+      format);
 }
 
 }  // namespace zwidth::report

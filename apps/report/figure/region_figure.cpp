@@ -1,5 +1,3 @@
-#include "report/figure/region_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +5,13 @@
 #include <iterator>
 #include <vector>
 
-#include "report/figure/plot.hpp"
+#include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
-#include "results/region_json.hpp"
+#include "zwidth/design/region.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -81,36 +80,36 @@ std::vector<Place> within(const std::vector<Place>& outline, const Extent& exten
 class RegionFigure {
  public:
   RegionFigure(const Device& device, const WallRegion& walls, const std::optional<Wall>& recommended)
-      : device_(device),
-        walls_(walls),
-        recommended_(recommended),
-        units_(units_of(device.parameters().motion)),
-        title_(title()) {}
+      : device_(device), walls_(walls), recommended_(recommended), units_(units_of(device.parameters().motion)) {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
-    const std::vector<Extent> panels = extents();
+    constexpr double gap = 100.0;
+    const std::vector<Extent> shown = extents();
     const Loop& loop = device_.loop();
-    const Heading heading(
-        title_, legend(),
-        fmt::format("Sampled every {}, {} of delay. In brackets: how far a formula lies above the exact "
-                    "limit. White: {}.",
-                    quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"), words_of(WallStability::unstable)));
-    const double top = heading.bottom() + 28.0;
-    Canvas canvas(title_, canvas_width, top + panel_height + 62.0);
-    heading.draw(canvas);
-    data(canvas);
-    const double gap = 100.0;
-    const double width =
-        (frame_right - frame_left - gap * static_cast<double>(panels.size() - 1)) / static_cast<double>(panels.size());
-    for (std::size_t i = 0; i < panels.size(); ++i) {
-      const double left = frame_left + static_cast<double>(i) * (width + gap);
-      if (i > 0) {
-        canvas.text(left, top - 12.0, "Zoom: the corner at the origin of the panel on the left",
-                    {Anchor::left, 12.0, grey});
-      }
-      draw_panel(canvas, {left, left + width, top, top + panel_height}, panels[i]);
+    Figure figure{
+        .title = title(),
+        .subtitle = fmt::format("Sampled every {}, {} of delay. In brackets: how far a formula lies above the "
+                                "exact limit. White: {}.",
+                                quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"),
+                                words_of(WallStability::unstable)),
+        .legend = legend()};
+    const auto count = static_cast<double>(shown.size());
+    const double width = (frame_right - frame_left - gap * (count - 1.0)) / count;
+    double left = frame_left;
+    for (const Extent& extent : shown) {
+      figure.panels.push_back(panel(extent));
+      figure.panels.back().left = left;
+      figure.panels.back().right = left + width;
+      left += width + gap;
     }
-    return canvas.draw(format);
+    if (shown.size() > 1) {
+      figure.panels.back().is_beside = true;
+      figure.panels.back().marks = [](Canvas& canvas, const Box& frame) {
+        canvas.text(frame.left, frame.top - 12.0, "Zoom: the corner at the origin of the panel on the left",
+                    {Anchor::left, 12.0, grey});
+      };
+    }
+    return report::draw(figure, format);
   }
 
  private:
@@ -217,14 +216,6 @@ class RegionFigure {
     return text + "\n";
   }
 
-  static std::string boundary_rows(const ClosedBoundary& boundary) {
-    std::string rows;
-    for (const BoundaryArc& arc : boundary.arcs) {
-      for (const BoundaryPoint& point : arc.points) rows += row(point.damping, point.stiffness);
-    }
-    return rows;
-  }
-
   static std::vector<std::vector<Place>> outlines_within(const StableRegion& region, const Extent& extent) {
     std::vector<std::vector<Place>> outlines;
     for (const StableComponent& component : region.components) {
@@ -250,21 +241,6 @@ class RegionFigure {
     return rest;
   }
 
-  /// Data blocks of a panel: what of the regions it shows, as closed outlines.
-  void filled_data(Canvas& canvas, const Extent& extent) const {
-    std::string outlines;
-    for (const std::vector<Place>& each : outlines_within(walls_.region, extent)) outlines += rows(each);
-    data_block(canvas, "outlines", outlines);
-    if (walls_.nobody && walls_.nobody->region.bounded) {
-      data_block(canvas, "rest", rows(rest_of(outlines_within(walls_.nobody->region, extent), extent)));
-    }
-    std::string filled;
-    if (walls_.any_user) {
-      for (const auto& range : walls_.any_user->ranges) filled += rows(within(outline_of(range), extent));
-    }
-    data_block(canvas, "filled", filled);
-  }
-
   /// Down to K = 0 at either end.
   static std::vector<Place> outline_of(const std::vector<AbsoluteStabilityPoint>& range) {
     std::vector<Place> outline{{range.front().damping, 0.0}};
@@ -273,30 +249,17 @@ class RegionFigure {
     return outline;
   }
 
+  /// The boundary without the axes.
   static std::string edge_rows(const StableRegion& region) {
     std::string edges;
     for (const StableComponent& component : region.components) {
       for (const BoundaryArc& arc : component.outline.arcs) {
         if (arc.kind == BoundaryKind::no_stiffness || arc.kind == BoundaryKind::no_damping) continue;
-        edges += boundary_rows({{arc}}) + "\n";
+        for (const BoundaryPoint& point : arc.points) edges += row(point.damping, point.stiffness);
+        edges += "\n";
       }
     }
     return edges;
-  }
-
-  /// Data blocks of all panels: `edges` as the boundary without the axes, limits and formulas.
-  void data(Canvas& canvas) const {
-    data_block(canvas, "edges", edge_rows(walls_.region));
-    if (walls_.nobody) data_block(canvas, "alone", edge_rows(walls_.nobody->region));
-    std::string limits;
-    if (walls_.any_user) {
-      for (const auto& range : walls_.any_user->ranges) limits += rows(outline_of(range));
-    }
-    data_block(canvas, "limits", limits);
-    if (recommended_) data_block(canvas, "recommended", row(recommended_->damping, *recommended_->stiffness));
-    for (const ComparedApproximation& each : walls_.approximations) {
-      data_block(canvas, results::name_of(each.formula.formula), formula_rows(each.formula));
-    }
   }
 
   [[nodiscard]] std::string formula_rows(const RegionApproximation& formula) const {
@@ -305,54 +268,53 @@ class RegionFigure {
     return end > 0.0 ? first + row(end, formula.at_zero_damping + formula.slope * end) : first;
   }
 
-  void draw_panel(Canvas& canvas, const Box& frame, const Extent& extent) const {
-    filled_data(canvas, extent);
+  [[nodiscard]] Panel panel(const Extent& extent) const {
     const AxisUnit unit = axis_unit(extent.stiffness, 3.0);
-    const std::string columns = fmt::format("using 1:($2/{:g})", unit.size);
-    canvas.commands(fmt::format(
-        "{}\nset grid front\nset xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\n{}\nset xtics autofreq\nset ytics autofreq",
-        axes_look(), extent.damping, extent.stiffness / unit.size,
-        y_label(fmt::format("Stiffness K ({}{})", unit.prefix, units_.stiffness))));
-    x_label(canvas, frame, fmt::format("Virtual damping B ({})", units_.damping));
-    std::string what;
-    if (!walls_.region.components.empty()) {
-      what += fmt::format("$outlines {} with filledcurves closed fc rgb '{}' fs solid noborder notitle, ", columns,
-                          region_colour);
-    }
+    Panel panel{
+        .above = 28.0,
+        .height = panel_height,
+        .axes = fmt::format("set grid front\nset xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\nset xtics autofreq\nset "
+                            "ytics autofreq",
+                            extent.damping, extent.stiffness / unit.size),
+        .x_label = fmt::format("Virtual damping B ({})", units_.damping),
+        .y_label = fmt::format("Stiffness K ({}{})", unit.prefix, units_.stiffness)};
+    const auto add = [&](std::string rows, std::string with) {
+      panel.series.push_back({std::move(rows), std::move(with), fmt::format("1:($2/{:g})", unit.size)});
+    };
+    const auto add_area = [&](const std::string& rows, std::string_view colour) {
+      add(rows, fmt::format("filledcurves closed fc rgb '{}' fs solid noborder", colour));
+    };
+    std::string outlines;
+    for (const std::vector<Place>& each : outlines_within(walls_.region, extent)) outlines += rows(each);
+    add_area(outlines, region_colour);
     if (walls_.nobody && walls_.nobody->region.bounded) {
-      what += fmt::format("$rest {} with filledcurves closed fc rgb 'white' fs solid noborder notitle, ", columns);
+      add_area(rows(rest_of(outlines_within(walls_.nobody->region, extent), extent)), "white");
     }
     if (walls_.any_user && walls_.any_user->stiffest) {
-      what += fmt::format(
-          "$filled {0} with filledcurves closed fc rgb '{1}' fs solid noborder notitle, $limits {0} with lines {2} "
-          "notitle, ",
-          columns, any_user_colour, gnuplot_line(any_user_style));
+      std::string filled;
+      std::string limits;
+      for (const auto& range : walls_.any_user->ranges) {
+        filled += rows(within(outline_of(range), extent));
+        limits += rows(outline_of(range));
+      }
+      add_area(filled, any_user_colour);
+      add(limits, as_lines(any_user_style));
     }
-    if (!walls_.region.components.empty()) {
-      what += fmt::format("$edges {} with lines {} notitle, ", columns,
-                          gnuplot_line(walls_.nobody ? held_style : boundary_style));
-    }
-    if (walls_.nobody && !walls_.nobody->region.components.empty()) {
-      what += fmt::format("$alone {} with lines {} notitle, ", columns, gnuplot_line(boundary_style));
-    }
-    if (recommended_) what += fmt::format("$recommended {} with points {} notitle, ", columns, recommended_marker);
+    add(edge_rows(walls_.region), as_lines(walls_.nobody ? held_style : boundary_style));
+    if (walls_.nobody) add(edge_rows(walls_.nobody->region), as_lines(boundary_style));
+    if (recommended_) add(row(recommended_->damping, *recommended_->stiffness), as_points(recommended_marker));
     for (const ComparedApproximation& each : walls_.approximations) {
       const Formula formula = each.formula.formula;
-      const LineStyle style = style_of(formula);
-      what +=
-          each.formula.largest_damping == 0.0
-              ? fmt::format("${} {} with points {} notitle, ", results::name_of(formula), columns,
-                            point_marker(formula))
-              : fmt::format("${} {} with lines {} notitle, ", results::name_of(formula), columns, gnuplot_line(style));
+      add(formula_rows(each.formula),
+          each.formula.largest_damping == 0.0 ? as_points(point_marker(formula)) : as_lines(style_of(formula)));
     }
-    canvas.plot(frame, what + "NaN notitle");
+    return panel;
   }
 
   const Device& device_;
   const WallRegion& walls_;
   const std::optional<Wall>& recommended_;
   Units units_;
-  std::string title_;
 };
 
 }  // namespace

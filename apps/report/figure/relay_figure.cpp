@@ -1,14 +1,15 @@
-#include "report/figure/relay_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "report/figure/figures.hpp"
 #include "report/figure/record_figure.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/simulation/relay.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::report {

@@ -1,5 +1,3 @@
-#include "report/figure/simulation_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,22 +7,22 @@
 #include <sstream>
 #include <vector>
 
-#include "report/figure/plot.hpp"
+#include "report/figure/figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/simulation_text.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::report {
 namespace {
 
-constexpr double positions_height = 220.0;
-constexpr double forces_height = 180.0;
 constexpr double head_room = 0.06;  // of the axis
 constexpr std::string_view wall_colour = "#e8e8e8";
 /// Points drawn per curve: lowest and highest of each of so many stretches of time.
-constexpr std::size_t stretches = 1200;
+constexpr std::size_t drawn_stretches = 1200;
 constexpr std::array<LineStyle, 2> motion_styles = {LineStyle{"#0b4f9e", 1.6, "1"},
                                                     LineStyle{"#c2410c", 1.4, "(10,5)"}};
 
@@ -33,13 +31,8 @@ struct Curve {
   const std::vector<double>* values = nullptr;
 };
 
-struct CurveRange {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-CurveRange range_of(const std::vector<Curve>& curves) {
-  CurveRange axis{curves.front().values->front(), curves.front().values->front()};
+AxisRange range_of(const std::vector<Curve>& curves) {
+  AxisRange axis{curves.front().values->front(), curves.front().values->front()};
   for (const Curve& curve : curves) {
     const auto [low, high] = std::minmax_element(curve.values->begin(), curve.values->end());
     axis = {std::min(axis.low, *low), std::max(axis.high, *high)};
@@ -52,7 +45,7 @@ CurveRange range_of(const std::vector<Curve>& curves) {
 /// Lowest and highest value of each stretch, in their order: no peak is lost.
 std::vector<std::size_t> drawn_points(const std::vector<double>& values) {
   std::vector<std::size_t> points;
-  const std::size_t length = std::max<std::size_t>(1, values.size() / stretches);
+  const std::size_t length = std::max<std::size_t>(1, values.size() / drawn_stretches);
   for (std::size_t from = 0; from < values.size(); from += length) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(from);
     const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(from + length, values.size()));
@@ -65,7 +58,7 @@ std::vector<std::size_t> drawn_points(const std::vector<double>& values) {
   return points;
 }
 
-void draw_legend(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves) {
+void draw_names(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves) {
   double left = frame.left;
   const double y = frame.top - 14.0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -76,30 +69,26 @@ void draw_legend(Canvas& canvas, const Box& frame, const std::vector<Curve>& cur
   }
 }
 
-void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves, const std::vector<double>& time,
-                std::string_view quantity_name, std::string_view unit) {
-  const CurveRange axis = range_of(curves);
+Panel curves_panel(const std::vector<Curve>& curves, const std::vector<double>& time, std::string_view name,
+                   std::string_view unit) {
+  const AxisRange axis = range_of(curves);
   const AxisUnit drawn = axis_unit(std::max(std::abs(axis.low), std::abs(axis.high)), 0.1);
-  std::string what;
+  Panel panel{
+      .axes = fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics autofreq", time.front(),
+                          std::max(time.back(), time.front() + 1e-12), axis.low / drawn.size, axis.high / drawn.size),
+      .y_label = fmt::format("{} ({}{})", name, drawn.prefix, unit)};
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const std::string name = fmt::format("${}{}", quantity_name, i);
-    canvas.commands(name + " << EOD");
     std::string rows;
     for (const std::size_t k : drawn_points(*curves[i].values)) {
       rows += fmt::format("{:.9g} {:.9g}\n", time[k], (*curves[i].values)[k] / drawn.size);
     }
-    canvas.commands(rows + "EOD");
-    what += fmt::format("{} with lines {}, ", name, gnuplot_line(motion_styles[i]));
+    panel.series.push_back({rows, as_lines(motion_styles[i])});
   }
-  canvas.commands(fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics autofreq\n{}", time.front(),
-                              std::max(time.back(), time.front() + 1e-12), axis.low / drawn.size,
-                              axis.high / drawn.size,
-                              y_label(fmt::format("{} ({}{})", quantity_name, drawn.prefix, unit))));
-  canvas.plot(frame, what + "NaN notitle");
+  return panel;
 }
 
 /// How high the wall begins in the frame, in parts of it; none where it is not in the picture.
-std::optional<double> wall_surface(const Simulation& result, const CurveRange& axis) {
+std::optional<double> wall_surface(const Simulation& result, const AxisRange& axis) {
   const ControllerOptions& wall = result.loop.controller;
   if (wall.kind != ControllerOptions::Kind::wall || wall.position >= axis.high) return std::nullopt;
   return std::max(0.0, (wall.position - axis.low) / (axis.high - axis.low));
@@ -121,40 +110,33 @@ std::string draw_simulation_figure(const Device& device, const Simulation& resul
   const Units units = units_of(device.parameters().motion);
   const std::vector<Curve> moved = position_curves(device, result);
   const std::optional<double> surface = wall_surface(result, range_of(moved));
-  std::vector<LegendEntry> legend;
-  for (std::size_t i = 0; i < moved.size(); ++i) legend.push_back({moved[i].name, motion_styles[i]});
-  if (surface) legend.push_back({"inside the wall", {wall_colour}, wall_colour});
-  const std::string title = fmt::format("Simulated motion of {}{}", display_name(device), trust_mark(result.trust));
   const std::string period = quantity(device.loop().sampling_period, "s");
-  const bool has_wall = result.generated_energy.has_value();
-  const Heading heading(title, legend,
-                        has_wall
-                            ? fmt::format("Wall of {}; sampled every {}.", simulated_wall_text(device, result), period)
-                            : fmt::format("No wall; sampled every {}.", period));
-  const Box positions{frame_left, frame_right, heading.bottom() + 14.0, heading.bottom() + 14.0 + positions_height};
-  const Box forces{frame_left, frame_right, positions.bottom + 52.0, positions.bottom + 52.0 + forces_height};
-  std::vector<std::string> lines;
+  Figure figure{.title = fmt::format("Simulated motion of {}{}", display_name(device), trust_mark(result.trust)),
+                .subtitle = result.generated_energy ? fmt::format("Wall of {}; sampled every {}.",
+                                                                  simulated_wall_text(device, result), period)
+                                                    : fmt::format("No wall; sampled every {}.", period),
+                .below = 64.0};
+  for (std::size_t i = 0; i < moved.size(); ++i) figure.legend.push_back({moved[i].name, motion_styles[i]});
+  if (surface) figure.legend.push_back({"inside the wall", {wall_colour}, wall_colour});
   std::istringstream sentence(broken(verdict_sentence(device, result), 115, 0));
-  for (std::string line; std::getline(sentence, line);) lines.push_back(line);
-  const double list_top = forces.bottom + 64.0;
-  Canvas canvas(title, canvas_width, list_top + row_height * static_cast<double>(lines.size()));
-  heading.draw(canvas);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    canvas.text(positions.left, list_top + row_height * static_cast<double>(i), lines[i], {Anchor::left, text_size});
-  }
-  canvas.commands(axes_look());
-  if (surface) {
-    canvas.rectangle({positions.left, positions.right, positions.top,
-                      positions.bottom - *surface * (positions.bottom - positions.top)},
-                     wall_colour);
-  }
-  draw_frame(canvas, positions, moved, kept.time, "Position", units.length);
+  for (std::string line; std::getline(sentence, line);) figure.notes.push_back({line});
   std::vector<Curve> pushed{{"commanded force", &kept.command}};
   if (result.loop.user_force.kind != UserForce::Kind::none) pushed.push_back({"user's force", &kept.user_force});
-  x_label(canvas, forces, "Time (s)");
-  draw_legend(canvas, forces, pushed);
-  draw_frame(canvas, forces, pushed, kept.time, "Force", units.force);
-  return canvas.draw(format);
+  Panel positions = curves_panel(moved, kept.time, "Position", units.length);
+  positions.above = 14.0;
+  positions.height = 220.0;
+  positions.marks = [&](Canvas& canvas, const Box& frame) {
+    if (!surface) return;
+    const double bottom = frame.bottom - *surface * (frame.bottom - frame.top);
+    canvas.rectangle({frame.left, frame.right, frame.top, bottom}, wall_colour);
+  };
+  Panel forces = curves_panel(pushed, kept.time, "Force", units.force);
+  forces.above = 52.0;
+  forces.height = 180.0;
+  forces.x_label = "Time (s)";
+  forces.marks = [&](Canvas& canvas, const Box& frame) { draw_names(canvas, frame, pushed); };
+  figure.panels = {positions, forces};
+  return draw(figure, format);
 }
 
 }  // namespace zwidth::report

@@ -1,5 +1,3 @@
-#include "report/figure/stiffness_axis_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "report/analysed_device.hpp"
+#include "report/figure/figures.hpp"
 #include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
 
@@ -101,31 +101,21 @@ std::vector<Label> labels_of(const AnalysedDevice& analysed) {
   return labels;
 }
 
-struct Axis {
-  double low = 1.0;
-  double high = 1e6;
-  [[nodiscard]] double x(double stiffness) const {
-    const double part = std::log(stiffness / low) / std::log(high / low);
-    return bar_sides.left + std::clamp(part, 0.0, 1.0) * (bar_sides.right - bar_sides.left);
-  }
-};
-
-Axis axis_of(const std::vector<Label>& labels) {
-  if (labels.empty()) return {};
-  const auto [least, most] = std::minmax_element(
-      labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.stiffness < b.stiffness; });
-  return {std::pow(10.0, std::floor(std::log10(least->stiffness) - 0.7)),
-          std::pow(10.0, std::ceil(std::log10(most->stiffness) + 0.3))};
+AxisRange axis_of(const std::vector<Label>& labels) {
+  if (labels.empty()) return {1.0, 1e6};
+  const auto [least, most] = std::ranges::minmax(labels, {}, &Label::stiffness);
+  return {std::pow(10.0, std::floor(std::log10(least.stiffness) - 0.7)),
+          std::pow(10.0, std::ceil(std::log10(most.stiffness) + 0.3))};
 }
 
 /// Each text stands left of its leader, like a flag, in the lowest row above every leader that it passes: so no leader
 /// crosses a text. Returns whether all texts keep inside the canvas.
-bool place(std::vector<Label>& labels, const Axis& axis) {
-  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.stiffness < b.stiffness; });
+bool place(std::vector<Label>& labels, const AxisRange& axis) {
+  std::ranges::sort(labels, {}, &Label::stiffness);
   bool inside = true;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     Label& label = labels[i];
-    label.x = axis.x(label.stiffness);
+    label.x = place_on_log_axis(bar_sides, axis, label.stiffness);
     label.row = 0;
     const double left = label.x - text_gap - Canvas::text_width(label.text, text_size);
     for (std::size_t j = 0; j < i; ++j) {
@@ -137,9 +127,9 @@ bool place(std::vector<Label>& labels, const Axis& axis) {
 }
 
 /// Lowers the axis until the leftmost texts have room.
-Axis place_with_room(std::vector<Label>& labels) {
+AxisRange place_with_room(std::vector<Label>& labels) {
   constexpr int most_decades = 4;
-  Axis axis = axis_of(labels);
+  AxisRange axis = axis_of(labels);
   for (int i = 0; i < most_decades && !place(labels, axis); ++i) axis.low /= 10.0;
   return axis;
 }
@@ -164,7 +154,7 @@ void draw_legend(Canvas& canvas) {
 
 std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat format) {
   std::vector<Label> labels = labels_of(analysed);
-  const Axis axis = place_with_room(labels);
+  const AxisRange axis = place_with_room(labels);
   std::size_t rows = 0;
   for (const Label& label : labels) rows = std::max(rows, label.row + 1);
   const double bar_top = 48.0 + row_height * static_cast<double>(rows);
@@ -180,13 +170,13 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
     canvas.text(0.5 * (left + right), 0.5 * (bar.top + bar.bottom), name, {Anchor::centre, text_size});
   };
   for (const StableInterval& interval : stable_walls(analysed.analysis)) {
-    const double left = interval.lower > 0.0 ? axis.x(interval.lower) : bar.left;
-    const double right = interval.upper ? axis.x(*interval.upper) : bar.right;
+    const double left = interval.lower > 0.0 ? place_on_log_axis(bar, axis, interval.lower) : bar.left;
+    const double right = interval.upper ? place_on_log_axis(bar, axis, *interval.upper) : bar.right;
     canvas.rectangle({left, right, bar.top, bar.bottom}, alone_colour);
     name_segment(unstable_from, left, words_of(WallStability::unstable));
     double safe = left;  // with every passive user
     if (interval.lower == 0.0 && is_stable_for_anyone(analysed.analysis)) {
-      safe = std::min(axis.x(analysed.analysis.any_user->stiffness), right);
+      safe = std::min(place_on_log_axis(bar, axis, analysed.analysis.any_user->stiffness), right);
       canvas.rectangle({left, safe, bar.top, bar.bottom}, anyone_colour);
       name_segment(left, safe, words_of(WallStability::anyone));
     }

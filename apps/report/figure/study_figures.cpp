@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "report/figure/plot.hpp"
+#include "report/figure/figure.hpp"
+#include "report/study_report.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/study_text.hpp"
 #include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
@@ -21,7 +21,7 @@ namespace {
 constexpr double study_panel_height = 300.0;
 constexpr double least_gain_shown = 0.001;  // of the yield: the axis where nothing is gained
 constexpr std::string_view bar_colour = "#9db8dc";
-constexpr std::string_view colours[] = {blue, orange, green, purple, red, grey};
+constexpr std::string_view group_colours[] = {blue, orange, green, purple, red, grey};
 
 /// The parameters by what they do to K_CR: by total index, or by how far off they are among the worst tenth.
 std::vector<std::size_t> by_weight(const Study& study) {
@@ -86,14 +86,6 @@ std::optional<std::string> draw_study_distribution(const StudyRun& run, const St
   const auto& wanted = run.options().specification.critical_stiffness;
   const std::string title = fmt::format("Critical stiffness of {} units of {}{}", study.samples,
                                         display_name(run.device()), trust_mark(study.trust));
-  std::vector<LegendEntry> legend{{"units", {bar_colour, 8.0}, {}},
-                                  {"share of all units that reach K", {blue, 2.0}, {}}};
-  if (wanted) legend.push_back({fmt::format("specified: {}", quantity(*wanted, unit)), {red, 1.6, "(8,4)"}, {}});
-  const Heading heading(title, legend);
-  const Box frame{frame_left, frame_right - 50.0, heading.bottom() + 16.0,
-                  heading.bottom() + 16.0 + study_panel_height};
-  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
-  heading.draw(canvas);
   const double low = wanted ? std::min(histogram.edges.front(), 0.98 * *wanted) : histogram.edges.front();
   const double high = wanted ? std::max(histogram.edges.back(), 1.02 * *wanted) : histogram.edges.back();
   const AxisUnit axis = axis_unit(high);
@@ -106,23 +98,27 @@ std::optional<std::string> draw_study_distribution(const StudyRun& run, const St
   for (std::size_t i = 0; i < histogram.edges.size(); ++i) {
     curve += fmt::format("{:.9g} {:.9g}\n", histogram.edges[i] / axis.size, 100.0 * histogram.yields[i]);
   }
-  data_block(canvas, "bars", bars);
-  data_block(canvas, "curve", curve);
-  if (wanted) data_block(canvas, "wanted", fmt::format("{0:.9g} 0\n{0:.9g} 100\n", *wanted / axis.size));
-  canvas.commands(fmt::format(
-      "{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [0:*]\nset y2range [0:100]\nset y2tics 25 format '%g %%'\nset "
-      "ytics nomirror\n{}\nset boxwidth {:.9g}\nset style fill solid noborder",
-      axes_look(), low / axis.size, high / axis.size, y_label("Units"),
-      (histogram.edges[1] - histogram.edges[0]) / axis.size));
-  x_label(canvas, frame, fmt::format("Critical stiffness ({}{})", axis.prefix, unit));
-  canvas.plot(frame,
-              fmt::format("$bars using 1:2 with boxes lc rgb '{}' notitle, $curve using 1:2 axes x1y2 with lines {} "
-                          "notitle{}",
-                          bar_colour, gnuplot_line({blue, 2.0}),
-                          wanted ? fmt::format(", $wanted using 1:2 axes x1y2 with lines {} notitle",
-                                               gnuplot_line({red, 1.6, "(8,4)"}))
-                                 : ""));
-  return canvas.draw(format);
+  constexpr const char* of_shares = "1:2 axes x1y2";
+  Panel panel{
+      .above = 16.0,
+      .height = study_panel_height,
+      .right = frame_right - 50.0,
+      .axes = fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [0:*]\nset y2range [0:100]\nset y2tics 25 "
+                          "format '%g %%'\nset ytics nomirror\nset boxwidth {:.9g}\nset style fill solid noborder",
+                          low / axis.size, high / axis.size, (histogram.edges[1] - histogram.edges[0]) / axis.size),
+      .x_label = fmt::format("Critical stiffness ({}{})", axis.prefix, unit),
+      .y_label = "Units",
+      .series = {{bars, fmt::format("boxes lc rgb '{}'", bar_colour)}, {curve, as_lines({blue, 2.0}), of_shares}}};
+  Figure figure{.title = title,
+                .legend = {{"units", {bar_colour, 8.0}, {}}, {"share of all units that reach K", {blue, 2.0}, {}}}};
+  if (wanted) {
+    constexpr LineStyle specified{red, 1.6, "(8,4)"};
+    figure.legend.push_back({fmt::format("specified: {}", quantity(*wanted, unit)), specified, {}});
+    panel.series.push_back(
+        {fmt::format("{0:.9g} 0\n{0:.9g} 100\n", *wanted / axis.size), as_lines(specified), of_shares});
+  }
+  figure.panels = {panel};
+  return draw(figure, format);
 }
 
 std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& study, FigureFormat format) {
@@ -140,41 +136,31 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
   for (const StudyPoint& each : study.points) {
     rows[{static_cast<int>(each.status), each.mode}] += row_of(each.values);
   }
-  std::vector<LegendEntry> legend;
-  std::string what;
-  std::size_t colour = 0;
-  for (const auto& [kind, points] : rows) {
-    const std::string_view ink_of = colours[std::min(colour++, std::size(colours) - 1)];
-    const std::string style = fmt::format("pt 7 ps 0.3 lc rgb '{}'", ink_of);
-    legend.push_back({mechanism_of(static_cast<StiffnessStatus>(kind.first), kind.second), {}, {}, style});
-    what += fmt::format("$group{} with points {} notitle, ", colour, style);
-  }
-  if (study.worst) {
-    const std::string ring = ring_marker(ink);
-    legend.push_back({"the worst unit", {}, {}, ring});
-    what += fmt::format("$worst with points {} notitle, ", ring);
-  }
-  const std::string title =
-      fmt::format("What limits the units: {} of them{}", study.points.size(), trust_mark(study.trust));
-  const Heading heading(title, legend);
-  const Box frame{frame_left + 20.0, frame_right, heading.bottom() + 16.0,
-                  heading.bottom() + 16.0 + study_panel_height};
-  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
-  heading.draw(canvas);
-  std::size_t group = 0;
-  for (const auto& [kind, points] : rows) data_block(canvas, fmt::format("group{}", ++group), points);
-  if (study.worst) {
-    data_block(canvas, "worst", row_of(study.worst->values));
-  }
   const auto label = [&](std::size_t j, const AxisUnit& axis) {
     const std::string unit = results::parameter_unit(study.keys[j], motion);
     return unit.empty() ? study.keys[j] : fmt::format("{} ({}{})", study.keys[j], axis.prefix, unit);
   };
-  canvas.commands(fmt::format("{}\nset offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n{}", axes_look(),
-                              y_label(label(y, y_axis))));
-  x_label(canvas, frame, label(x, x_axis));
-  canvas.plot(frame, what + "NaN notitle");
-  return canvas.draw(format);
+  Figure figure{.title =
+                    fmt::format("What limits the units: {} of them{}", study.points.size(), trust_mark(study.trust))};
+  Panel panel{.above = 16.0,
+              .height = study_panel_height,
+              .left = frame_left + 20.0,
+              .axes = "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03",
+              .x_label = label(x, x_axis),
+              .y_label = label(y, y_axis)};
+  const auto add = [&](const std::string& name, const std::string& points, const std::string& marker) {
+    figure.legend.push_back({name, {}, {}, marker});
+    panel.series.push_back({points, as_points(marker)});
+  };
+  std::size_t group = 0;
+  for (const auto& [kind, points] : rows) {
+    const std::string_view colour = group_colours[std::min(group++, std::size(group_colours) - 1)];
+    add(mechanism_of(static_cast<StiffnessStatus>(kind.first), kind.second), points,
+        fmt::format("pt 7 ps 0.3 lc rgb '{}'", colour));
+  }
+  if (study.worst) add("the worst unit", row_of(study.worst->values), ring_marker(ink));
+  figure.panels = {panel};
+  return draw(figure, format);
 }
 
 std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat format) {
@@ -200,38 +186,41 @@ std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat f
       "{}{}", of_variance ? "What K_CR depends on: share of its variance" : "Which tolerance to tighten: yield gained",
       trust_mark(study.trust));
   using Legend = std::vector<LegendEntry>;
-  const Heading heading(title, of_variance ? Legend{{"a parameter alone", {blue, 8.0}, {}},
+  const auto draw_bars = [&](Canvas& canvas, const Box& frame) {
+    const auto x = [&](double share) {
+      return frame.left + (std::clamp(share, low, high) - low) / (high - low) * (frame.right - frame.left);
+    };
+    double middle = frame.top - 0.5 * row;
+    for (const std::size_t j : order) {
+      middle += row;
+      if (of_variance) {
+        const SobolIndex& index = (*study.sobol_indices)[j];
+        canvas.rectangle({frame.left, x(index.total), middle - 9.0, middle + 9.0}, bar_colour);
+        canvas.rectangle({frame.left, x(index.first), middle - 5.0, middle + 5.0}, blue);
+      } else {
+        const TighteningGain& gain = (*study.tightening)[j];
+        canvas.rectangle(
+            {x(std::min(gain.yield_gain, 0.0)), x(std::max(gain.yield_gain, 0.0)), middle - 9.0, middle + 9.0},
+            bar_colour);
+        canvas.line(x(gain.yield_gain - gain.error), middle, x(gain.yield_gain + gain.error), middle, {ink, 1.2});
+      }
+      canvas.text(frame.left - 8.0, middle, Canvas::fitted(study.keys[j], text_size, frame.left - 16.0),
+                  {Anchor::right, text_size});
+    }
+  };
+  return draw(Figure{.title = title,
+                     .legend = of_variance ? Legend{{"a parameter alone", {blue, 8.0}, {}},
                                                     {"together with others", {bar_colour, 8.0}, {}}}
                                            : Legend{{"half the spread of one parameter", {bar_colour, 8.0}, {}},
-                                                    {"standard error", {ink, 1.2}, {}}});
-  const double top = heading.bottom() + 16.0;
-  const Box frame{frame_left + 180.0, frame_right, top, top + row * static_cast<double>(order.size())};
-  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
-  heading.draw(canvas);
-  const auto x = [&](double share) {
-    return frame.left + (std::clamp(share, low, high) - low) / (high - low) * (frame.right - frame.left);
-  };
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const double middle = frame.top + row * (static_cast<double>(i) + 0.5);
-    if (of_variance) {
-      const SobolIndex& index = (*study.sobol_indices)[order[i]];
-      canvas.rectangle({frame.left, x(index.total), middle - 9.0, middle + 9.0}, bar_colour);
-      canvas.rectangle({frame.left, x(index.first), middle - 5.0, middle + 5.0}, blue);
-    } else {
-      const TighteningGain& gain = (*study.tightening)[order[i]];
-      canvas.rectangle(
-          {x(std::min(gain.yield_gain, 0.0)), x(std::max(gain.yield_gain, 0.0)), middle - 9.0, middle + 9.0},
-          bar_colour);
-      canvas.line(x(gain.yield_gain - gain.error), middle, x(gain.yield_gain + gain.error), middle, {ink, 1.2});
-    }
-    canvas.text(frame.left - 8.0, middle, Canvas::fitted(study.keys[order[i]], text_size, frame.left - 16.0),
-                {Anchor::right, text_size});
-  }
-  x_label(canvas, frame, of_variance ? "Share of the variance (%)" : "Yield gained (%)");
-  canvas.commands(fmt::format("{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [0:1]\nunset ytics", axes_look(), 100.0 * low,
-                              100.0 * high));
-  canvas.plot(frame, "NaN notitle");
-  return canvas.draw(format);
+                                                    {"standard error", {ink, 1.2}, {}}},
+                     .panels = {{.above = 16.0,
+                                 .height = row * static_cast<double>(order.size()),
+                                 .left = frame_left + 180.0,
+                                 .axes = fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [0:1]\nunset ytics",
+                                                     100.0 * low, 100.0 * high),
+                                 .x_label = of_variance ? "Share of the variance (%)" : "Yield gained (%)",
+                                 .marks = draw_bars}}},
+              format);
 }
 
 std::optional<std::string> draw_study_regions(const StudyRun& run, const Study& study, FigureFormat format) {
@@ -247,33 +236,28 @@ std::optional<std::string> draw_study_regions(const StudyRun& run, const Study& 
   const std::string title =
       fmt::format("Walls that shares of {} units of {} render{}", regions.units, display_name(run.device()),
                   trust_mark(regions.trust.sound() ? study.trust : regions.trust));
-  std::vector<LegendEntry> legend;
-  std::string bands;
-  std::string lines;
+  Figure figure{.title = title,
+                .subtitle = fmt::format("Exact every {} {}, with straight lines between; bands: 95 % intervals",
+                                        number(regions.damping_step), units.damping)};
+  Panel panel{.above = 16.0,
+              .height = study_panel_height,
+              .axes = fmt::format("set xrange [0:{:.9g}]\nset yrange [0:{:.9g}]", regions.dampings.back(),
+                                  1.06 * high / axis.size),
+              .x_label = fmt::format("Virtual damping B ({})", units.damping),
+              .y_label = fmt::format("Stiffness K ({}{})", axis.prefix, units.stiffness)};
+  std::vector<Series> curves;  // over the bands
   for (std::size_t i = 0; i < regions.contours.size(); ++i) {
     const ContourLook& look = contour_looks[std::min(i, std::size(contour_looks) - 1)];
-    legend.push_back({fmt::format("stable for {:g} % of the units", 100.0 * regions.contours[i].share),
-                      {look.line, 2.0},
-                      look.band});
-    bands +=
-        fmt::format("$contour{} using 1:3:4 with filledcurves fc rgb '{}' fs solid noborder notitle, ", i, look.band);
-    lines += fmt::format("$contour{} using 1:2 with lines {} notitle, ", i, gnuplot_line({look.line, 2.0}));
+    const std::string rows = contour_rows(regions.dampings, regions.contours[i], axis.size);
+    figure.legend.push_back({fmt::format("stable for {:g} % of the units", 100.0 * regions.contours[i].share),
+                             {look.line, 2.0},
+                             look.band});
+    panel.series.push_back({rows, as_area(look.band), "1:3:4"});
+    curves.push_back({rows, as_lines({look.line, 2.0})});
   }
-  const Heading heading(title, legend,
-                        fmt::format("Exact every {} {}, with straight lines between; bands: 95 % intervals",
-                                    number(regions.damping_step), units.damping));
-  const Box frame{frame_left, frame_right, heading.bottom() + 16.0, heading.bottom() + 16.0 + study_panel_height};
-  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
-  heading.draw(canvas);
-  for (std::size_t i = 0; i < regions.contours.size(); ++i) {
-    data_block(canvas, fmt::format("contour{}", i), contour_rows(regions.dampings, regions.contours[i], axis.size));
-  }
-  canvas.commands(fmt::format("{}\nset xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\n{}", axes_look(),
-                              regions.dampings.back(), 1.06 * high / axis.size,
-                              y_label(fmt::format("Stiffness K ({}{})", axis.prefix, units.stiffness))));
-  x_label(canvas, frame, fmt::format("Virtual damping B ({})", units.damping));
-  canvas.plot(frame, bands + lines + "NaN notitle");
-  return canvas.draw(format);
+  panel.series.insert(panel.series.end(), curves.begin(), curves.end());
+  figure.panels = {panel};
+  return draw(figure, format);
 }
 
 }  // namespace zwidth::report

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <string_view>
 
-#include "report/figure/frf_figure.hpp"
+#include "report/figure/figures.hpp"
 #include "report/figure/identification_figure.hpp"
 #include "report/figure/record_figure.hpp"
-#include "report/figure/relay_figure.hpp"
-#include "report/figure/rig_limit_figure.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/rig_text.hpp"
+#include "results/frf_json.hpp"
 
 namespace zwidth::report {
 namespace {

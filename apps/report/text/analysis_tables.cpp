@@ -23,10 +23,6 @@ std::string effect_of(int poles_leaving) {
   return count == 1 ? fmt::format("1 pole {}s", verb) : fmt::format("{} poles {}", count, verb);
 }
 
-std::string short_name(const Mechanism& mechanism) {
-  return mechanism.kind == Mechanism::Kind::rigid_body ? "rigid body" : fmt::format("mode {}", mechanism.mode);
-}
-
 std::string rigid_cell(const AnalysedDevice& analysed) {
   const auto& rigid = analysed.analysis.rigid;
   if (!rigid) return "-";
@@ -41,11 +37,7 @@ std::string rigid_cell(const AnalysedDevice& analysed) {
 }
 
 std::string limit_cell(const std::optional<HolderLimit>& limit, Motion motion) {
-  if (!limit) return "-";
-  const double stiffness = limit->critical_stiffness;
-  if (std::isnan(stiffness)) return "refused";
-  if (stiffness == 0.0) return "none";
-  return std::isfinite(stiffness) ? quantity(stiffness, units_of(motion).stiffness) : "unbounded";
+  return limit ? limit_value_text(limit->critical_stiffness, units_of(motion).stiffness) : "-";
 }
 
 bool has_user(std::span<const AnalysedDevice> devices) {

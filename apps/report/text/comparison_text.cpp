@@ -13,19 +13,11 @@
 namespace zwidth::report {
 namespace {
 
-std::string stiffness_cell(double stiffness, std::string_view unit) {
-  if (stiffness == 0.0) return "none";
-  if (std::isnan(stiffness)) return "refused";
-  return std::isfinite(stiffness) ? quantity(stiffness, unit) : std::string("unbounded");
-}
-
 std::string critical_cell(const CriticalStiffness& critical, std::string_view unit) {
-  const std::string stiffness = stiffness_cell(critical.stiffness, unit);
+  const std::string stiffness = limit_value_text(critical.stiffness, unit);
   if (!critical.limit) return stiffness;
-  const std::string mechanism = critical.limit->limited_by.kind == Mechanism::Kind::rigid_body
-                                    ? std::string("rigid body")
-                                    : fmt::format("mode {}", critical.limit->limited_by.mode);
-  return fmt::format("{} ({}, {})", stiffness, quantity(hertz(critical.limit->frequency), "Hz"), mechanism);
+  return fmt::format("{} ({}, {})", stiffness, quantity(hertz(critical.limit->frequency), "Hz"),
+                     short_name(critical.limit->limited_by));
 }
 
 std::string short_key(const std::string& key) {
@@ -44,14 +36,14 @@ std::string sentence(std::string_view user, const DesignComparison& comparison, 
   if (best == 0.0) return fmt::format("{}: no wall is stable with any of them.", user);
   if (order->as_good) {
     return fmt::format("{}: {} and {} are as good ({}).", user, name(order->best), name(order->second),
-                       stiffness_cell(best, unit));
+                       limit_value_text(best, unit));
   }
   const std::string gain =
       next > 0.0 && std::isfinite(best) ? fmt::format(" ({:+.3g} %)", 100.0 * (best / next - 1.0)) : std::string();
-  return fmt::format("{}: {} is better, {} against {}{}.", user, name(order->best), stiffness_cell(best, unit),
+  return fmt::format("{}: {} is better, {} against {}{}.", user, name(order->best), limit_value_text(best, unit),
                      comparison.designs.size() > 2
-                         ? fmt::format("{} of the next, {}", stiffness_cell(next, unit), name(order->second))
-                         : stiffness_cell(next, unit),
+                         ? fmt::format("{} of the next, {}", limit_value_text(next, unit), name(order->second))
+                         : limit_value_text(next, unit),
                      gain);
 }
 
@@ -78,7 +70,7 @@ std::string comparison_text(const DesignComparison& comparison) {
   if (held) add_column("the given user");
   for (const ComparedDesign& each : comparison.designs) {
     std::vector<std::string> row = {shortened(each.value, 24), critical_cell(each.free, unit)};
-    if (any_user) row.push_back(each.any_user ? stiffness_cell(each.any_user->stiffness, unit) : "-");
+    if (any_user) row.push_back(each.any_user ? limit_value_text(each.any_user->stiffness, unit) : "-");
     if (held) row.push_back(critical_cell(*each.held, unit));
     table.rows.push_back(std::move(row));
   }

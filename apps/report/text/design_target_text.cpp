@@ -68,7 +68,7 @@ class TargetTable {
       row.push_back(words_.any_user(each.absolute_stability_limit_then));
     }
     table_.rows.push_back(std::move(row));
-    notes_ += wrap(fmt::format("{}: {}", key, text(each.why)), line_width, 4).replace(0, 4, "  - ");
+    notes_ += bulleted(fmt::format("{}: {}", key, text(each.why)));
   }
 
   [[nodiscard]] std::string under(const std::string& heading) const {
@@ -90,13 +90,13 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
   const LimitWords words(options.limit_of, motion);
   const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
   std::string text = shortened(display_name(device), line_width) + "\n";
-  if (const auto trust = trust_note(targets.trust)) text += wrap(*trust, line_width, 22).replace(0, 7, "  trust");
+  if (const auto trust = trust_note(targets.trust)) text += labelled("  trust", *trust);
   text += fmt::format("  {}  {}, asked for {}\n", any_user ? "any passive user  " : words.nobody(),
                       words.limit(targets.limit_now), words.asked(options, targets));
   if (!any_user && targets.absolute_stability_limit_now) {
     text += fmt::format("  any passive user    {}\n", words.limit(targets.absolute_stability_limit_now));
   }
-  for (const Remark& remark : targets.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
+  for (const Remark& remark : targets.remarks) text += bulleted(remark_line(remark));
   TargetTable reaching(motion, words, targets.absolute_stability_limit_now.has_value());
   TargetTable lowering(motion, words, true);
   std::string without;
@@ -104,8 +104,7 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
     if (each.value_needed) {
       (each.safe.value_or(true) ? reaching : lowering).add(each);
     } else {
-      without += wrap(fmt::format("{}: {}", shortened(each.key, target_width), zwidth::text(each.why)), line_width, 4)
-                     .replace(0, 4, "  - ");
+      without += bulleted(fmt::format("{}: {}", shortened(each.key, target_width), zwidth::text(each.why)));
     }
   }
   text += reaching.under("What reaches it, the smallest change first; numbers that are 0 now at the end");

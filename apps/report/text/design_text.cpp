@@ -106,10 +106,7 @@ class DesignWriter {
   }
 
   [[nodiscard]] std::string mechanism(const Crossover& crossover) const {
-    const std::string name = crossover.limited_by.kind == Mechanism::Kind::rigid_body
-                                 ? std::string("the rigid body")
-                                 : fmt::format("vibration mode {}", crossover.limited_by.mode);
-    return fmt::format("{} at {}", name, quantity(hertz(crossover.frequency), "Hz"));
+    return fmt::format("{} at {}", long_name(crossover.limited_by), quantity(hertz(crossover.frequency), "Hz"));
   }
 
   [[nodiscard]] std::string switch_note(const BranchSwitch& each) const {
@@ -135,7 +132,7 @@ class DesignWriter {
     }
     if (design_.branch_switches->empty()) return {};
     std::string text = "\nWhere another crossover takes over, and the slope above ends\n";
-    for (const BranchSwitch& each : *design_.branch_switches) text += labelled("  - ", switch_note(each), 4);
+    for (const BranchSwitch& each : *design_.branch_switches) text += bulleted(switch_note(each));
     return text;
   }
 

@@ -35,7 +35,7 @@ std::string cause_text(OscillationCause cause) {
 }
 
 std::string line(std::string_view label, std::string_view content) {
-  return wrap(content, line_width, cause_indent).replace(0, 2 + label.size(), fmt::format("  {}", label));
+  return labelled(fmt::format("  {}", label), content, cause_indent);
 }
 
 std::string mechanism_text(const std::optional<Mechanism>& mechanism) {
@@ -167,8 +167,7 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
       "\n" + wrap(fmt::format("What moves it, each change alone and recomputed ({})", now), line_width, 0);
   text += layout(table);
   if (!lowering.empty()) {
-    text +=
-        wrap(fmt::format("lowers the limit with any passive user: {}", lowering), line_width, 4).replace(0, 4, "  - ");
+    text += bulleted(fmt::format("lowers the limit with any passive user: {}", lowering));
   }
   return text;
 }
@@ -198,14 +197,12 @@ std::string diagnosis_text(const Device& device, const Diagnosis& diagnosis) {
   } else {
     text += line("cause", "none fits: nothing that is modelled here oscillates there with this wall");
   }
-  for (const Remark& remark : diagnosis.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
+  for (const Remark& remark : diagnosis.remarks) text += bulleted(remark_line(remark));
   std::string others;
   for (std::size_t i = diagnosis.nearest ? 1 : 0; i < diagnosis.candidates.size(); ++i) {
     const OscillationCandidate& each = diagnosis.candidates[i];
     others +=
-        wrap(fmt::format("{}{}: {}", each.fits ? "possible: " : "", cause_text(each.cause), why_text(each, units)),
-             line_width, 4)
-            .replace(0, 4, "  - ");
+        bulleted(fmt::format("{}{}: {}", each.fits ? "possible: " : "", cause_text(each.cause), why_text(each, units)));
   }
   if (!others.empty()) text += (diagnosis.nearest ? "\nWhat else was looked at\n" : "\nWhat was looked at\n") + others;
   if (!diagnosis.changes.empty()) text += changes_text(device, diagnosis);

@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t most_shown = 3;
 
 std::string bullet_line(const std::string& line, bool is_warning) {
-  constexpr std::size_t bullet = 4;
-  return wrap(line, line_width, bullet).replace(0, bullet, is_warning ? "  ! " : "  - ");
+  return labelled(is_warning ? "  ! " : "  - ", line, 4);
+}
 }
 
 }  // namespace

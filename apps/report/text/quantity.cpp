@@ -2,11 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace zwidth::report {
 
 std::string crossover_frequency_text(double frequency) {
   if (frequency == 0.0) return "0 Hz (a real pole at rest)";
   return fmt::format("{} ({} rad/s)", quantity(hertz(frequency), "Hz"), number(frequency));
+}
+
+std::string limit_value_text(double limit, std::string_view unit) {
+  if (std::isnan(limit)) return "refused";
+  if (limit == 0.0) return "none";
+  return std::isfinite(limit) ? quantity(limit, unit) : "unbounded";
+}
+
+std::string short_name(const Mechanism& mechanism) {
+  return mechanism.kind == Mechanism::Kind::rigid_body ? "rigid body" : fmt::format("mode {}", mechanism.mode);
+}
+
+std::string long_name(const Mechanism& mechanism) {
+  return mechanism.kind == Mechanism::Kind::rigid_body ? "the rigid body"
+                                                       : fmt::format("vibration mode {}", mechanism.mode);
 }
 
 std::string parameter_text(const std::string& key, double value, Motion motion) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "results/units.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::report {
 
@@ -17,6 +19,14 @@ using zwidth::units_of;
 
 /// Where a pole leaves the unit circle, from rad/s: "6.143 Hz (38.6 rad/s)", or "0 Hz (a real pole at rest)".
 [[nodiscard]] std::string crossover_frequency_text(double frequency);
+
+/// "8.849 kN/m", "none" of 0, "unbounded", "refused" of NaN.
+[[nodiscard]] std::string limit_value_text(double limit, std::string_view unit);
+
+/// "rigid body", "mode 1".
+[[nodiscard]] std::string short_name(const Mechanism& mechanism);
+/// "the rigid body", "vibration mode 1".
+[[nodiscard]] std::string long_name(const Mechanism& mechanism);
 
 /// A parameter's value with its unit: "0.3 kg", "250 µs".
 [[nodiscard]] std::string parameter_text(const std::string& key, double value, Motion motion);

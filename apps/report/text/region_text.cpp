@@ -57,8 +57,7 @@ class RegionWriter {
 
  private:
   [[nodiscard]] std::string line(std::string_view label, std::string_view content) const {
-    std::string lines = wrap(content, line_width, region_indent);
-    return lines.replace(0, 2 + label.size(), fmt::format("  {}", label));
+    return labelled(fmt::format("  {}", label), content, region_indent);
   }
 
   [[nodiscard]] std::string stiffness(double value) const { return quantity(value, units_.stiffness); }

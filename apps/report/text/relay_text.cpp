@@ -17,12 +17,6 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t relay_bullet = 4;
-
-std::string bulleted(std::string_view text) {
-  return wrap(text, line_width, relay_bullet).replace(0, relay_bullet, "  - ");
-}
-
 std::string heading(const RelayResult& result) {
   const Units units = units_of(result.motion);
   const std::string relay = fmt::format("relay of {}", quantity(result.relay.amplitude, units.force));

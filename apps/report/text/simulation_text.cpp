@@ -21,12 +21,6 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t simulation_indent = 22;
-
-std::string line(std::string_view label, std::string_view text) {
-  return wrap(text, line_width, simulation_indent).replace(0, label.size() + 2, fmt::format("  {}", label));
-}
-
 std::string start_text(const Device& device, const Simulation& result) {
   const Units units = units_of(device.parameters().motion);
   const HybridLoopOptions& options = result.loop;
@@ -206,29 +200,30 @@ std::string simulation_text(const Device& device, const Simulation& result) {
   const double period = device.loop().sampling_period;
   const bool has_wall = result.generated_energy.has_value();
   std::string text = shortened(display_name(device), line_width) + "\n";
-  if (const auto note = trust_note(result.trust)) text += line("trust", "of the limit: " + *note);
-  text +=
-      line("simulated", fmt::format("{}, {} samples at {}", quantity(static_cast<double>(result.samples) * period, "s"),
-                                    result.samples, quantity(1.0 / period, "Hz")));
-  if (has_wall) text += line("wall", simulated_wall_text(device, result));
-  text += line("start", start_text(device, result));
-  if (result.loop.user_force.kind != UserForce::Kind::none) text += line("user's force", user_text(device, result));
-  if (const std::string faults = faults_text(result.loop.faults); !faults.empty()) text += line("faults", faults);
+  if (const auto note = trust_note(result.trust)) text += labelled("  trust", "of the limit: " + *note);
+  text += labelled("  simulated",
+                   fmt::format("{}, {} samples at {}", quantity(static_cast<double>(result.samples) * period, "s"),
+                               result.samples, quantity(1.0 / period, "Hz")));
+  if (has_wall) text += labelled("  wall", simulated_wall_text(device, result));
+  text += labelled("  start", start_text(device, result));
+  if (result.loop.user_force.kind != UserForce::Kind::none)
+    text += labelled("  user's force", user_text(device, result));
+  if (const std::string faults = faults_text(result.loop.faults); !faults.empty()) text += labelled("  faults", faults);
   text += "\n" + wrap(verdict_sentence(device, result) + ".", line_width, 0) + "\n";
   if (result.settling_time) {
-    text += line("settled after",
-                 fmt::format("{} (to 2 % of its largest excursion)", quantity(*result.settling_time, "s")));
+    text += labelled("  settled after",
+                     fmt::format("{} (to 2 % of its largest excursion)", quantity(*result.settling_time, "s")));
   }
-  text += line("ends at", quantity(result.final_position, units.length));
+  text += labelled("  ends at", quantity(result.final_position, units.length));
   if (has_wall) {
-    text += line("peak penetration",
-                 result.peak_penetration > 0.0 ? quantity(result.peak_penetration, units.length) : "none");
-    text += line("generated energy", energy_text(result));
+    text += labelled("  peak penetration",
+                     result.peak_penetration > 0.0 ? quantity(result.peak_penetration, units.length) : "none");
+    text += labelled("  generated energy", energy_text(result));
   }
-  if (result.friction_events > 0) text += line("stick-slip", fmt::format("{} instants", result.friction_events));
-  text += line("linear answer", linear_answer(device, result));
+  if (result.friction_events > 0) text += labelled("  stick-slip", fmt::format("{} instants", result.friction_events));
+  text += labelled("  linear answer", linear_answer(device, result));
   for (const Remark& remark : result.remarks) {
-    text += line("note", remark_line(remark));
+    text += labelled("  note", remark_line(remark));
   }
   return text;
 }

@@ -17,27 +17,7 @@ namespace {
 constexpr std::size_t most_rows = 25;
 
 std::string status_text(const SweepPoint& point, std::string_view unit) {
-  switch (point.status) {
-    case StiffnessStatus::refused:
-      return "refused";
-    case StiffnessStatus::none_stable:
-      return "none stable";
-    case StiffnessStatus::unbounded:
-      return "unbounded";
-    case StiffnessStatus::finite:
-      break;
-  }
-  return quantity(point.stiffness, unit);
-}
-
-std::string any_user_text(const AbsoluteStabilityLimit& limit, std::string_view unit) {
-  if (limit.stiffness == 0.0) return "none";
-  return std::isfinite(limit.stiffness) ? quantity(limit.stiffness, unit) : std::string("unbounded");
-}
-
-std::string mechanism_text(const Crossover& crossover) {
-  return crossover.limited_by.kind == Mechanism::Kind::rigid_body ? "rigid body"
-                                                                  : fmt::format("mode {}", crossover.limited_by.mode);
+  return point.status == StiffnessStatus::none_stable ? "none stable" : limit_value_text(point.stiffness, unit);
 }
 
 class SweepWriter {
@@ -69,8 +49,9 @@ class SweepWriter {
       const SweepPoint& point = sweep_.points[i];
       std::vector<std::string> cells = {value_text(0, sweep_.values[0][i]), status_text(point, unit_),
                                         point.limit ? quantity(hertz(point.limit->frequency), "Hz") : "-",
-                                        point.limit ? mechanism_text(*point.limit) : "-"};
-      if (sweep_.has_any_user) cells.push_back(point.any_user ? any_user_text(*point.any_user, unit_) : "-");
+                                        point.limit ? short_name(point.limit->limited_by) : "-"};
+      if (sweep_.has_any_user)
+        cells.push_back(point.any_user ? limit_value_text(point.any_user->stiffness, unit_) : "-");
       table.rows.push_back(std::move(cells));
       if (i + 1 == count) break;
     }

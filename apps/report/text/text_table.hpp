@@ -32,6 +32,9 @@ inline constexpr std::size_t line_width = 100;  ///< of text to read
 /// wrap() to `line_width`, the label at the start of the first line.
 [[nodiscard]] std::string labelled(std::string_view label, std::string_view text, std::size_t indent = 22);
 
+/// An item of a list: "  - text".
+[[nodiscard]] inline std::string bulleted(std::string_view text) { return labelled("  - ", text, 4); }
+
 /// At most `width` characters of UTF-8 text. What is cut out, in the middle, leaves an ellipsis: names that are alike
 /// differ at either end. width > 0.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t width);

@@ -22,11 +22,10 @@ std::string_view trust_mark(const Trust& trust) {
 }
 
 std::string trust_lines(const Trust& trust, std::string_view what) {
-  constexpr std::size_t bullet = 4;
   if (trust.sound()) return "";
   std::string text = trust.refused() ? fmt::format("REFUSED: no {} is given, because\n", what)
                                      : fmt::format("DOUBTFUL: data and model do not carry the {}, because\n", what);
-  for (const std::string& reason : trust.reasons) text += wrap(reason, line_width, bullet).replace(0, bullet, "  ! ");
+  for (const std::string& reason : trust.reasons) text += labelled("  ! ", reason, 4);
   return text;
 }
 

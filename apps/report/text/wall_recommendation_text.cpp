@@ -14,8 +14,6 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t recommendation_indent = 22;
-
 std::string bound_text(WallBound bound) {
   switch (bound) {
     case WallBound::none:
@@ -73,15 +71,15 @@ class RecommendationWriter {
 
   [[nodiscard]] std::string text() const {
     std::string text = shortened(display_name(device_), line_width) + "\n";
-    if (const auto note = trust_note(answer_.trust)) text += line("trust", *note);
+    if (const auto note = trust_note(answer_.trust)) text += labelled("  trust", *note);
     if (answer_.trust.refused()) return text;
-    text += line("asked for", asked());
+    text += labelled("  asked for", asked());
     if (!answer_.wall) {
-      text += line("no wall", zwidth::text(answer_.reason));
+      text += labelled("  no wall", zwidth::text(answer_.reason));
     } else {
       text += wall_lines(*answer_.wall);
     }
-    for (const Remark& remark : answer_.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
+    for (const Remark& remark : answer_.remarks) text += bulleted(remark_line(remark));
     if (!answer_.wall) return text;
     if (!answer_.alternatives.empty()) text += "\n" + trade_off();
     text += "\nFor the device file\n" + for_the_file(answer_.wall->wall);
@@ -93,9 +91,6 @@ class RecommendationWriter {
   }
 
  private:
-  [[nodiscard]] static std::string line(std::string_view label, std::string_view content) {
-    return wrap(content, line_width, recommendation_indent).replace(0, 2 + label.size(), fmt::format("  {}", label));
-  }
   [[nodiscard]] std::string stiffness(double value) const { return quantity(value, units_.stiffness); }
   [[nodiscard]] std::string damping(double value) const { return fmt::format("{} {}", number(value), units_.damping); }
   [[nodiscard]] static std::string degrees(double angle) {
@@ -123,34 +118,35 @@ class RecommendationWriter {
     const WallBounds& bounds = each.bounded_by;
     std::string text;
     if (options_.goal == WallGoal::damper) {
-      text = line("damping B", fmt::format("{}, without a spring (K = 0); bounded by {}", damping(wall.damping),
-                                           bound_text(bounds.damping.value_or(WallBound::none))));
+      text = labelled("  damping B", fmt::format("{}, without a spring (K = 0); bounded by {}", damping(wall.damping),
+                                                 bound_text(bounds.damping.value_or(WallBound::none))));
     } else {
-      text = line("stiffness K",
-                  fmt::format("{}; bounded by {}", stiffness(*wall.stiffness), bound_text(bounds.stiffness)));
-      text += line("damping B", fmt::format("{}; with more: {}", damping(wall.damping),
-                                            bound_text(bounds.damping.value_or(WallBound::none))));
+      text = labelled("  stiffness K",
+                      fmt::format("{}; bounded by {}", stiffness(*wall.stiffness), bound_text(bounds.stiffness)));
+      text += labelled("  damping B", fmt::format("{}; with more: {}", damping(wall.damping),
+                                                  bound_text(bounds.damping.value_or(WallBound::none))));
     }
     std::string filter = wall.velocity_filter_hz > 0.0 ? quantity(wall.velocity_filter_hz, "Hz") : std::string("none");
     if (bounds.velocity_filter) filter += fmt::format("; with a faster one: {}", bound_text(*bounds.velocity_filter));
-    text += line("velocity filter", filter);
-    if (const auto filters = wall_filters_text(wall)) text += line("filters", *filters);
-    text += line("margins", margins(each));
+    text += labelled("  velocity filter", filter);
+    if (const auto filters = wall_filters_text(wall)) text += labelled("  filters", *filters);
+    text += labelled("  margins", margins(each));
     if (each.absolute_stability_damping_limit) {
-      text += line("any passive user", fmt::format("B up to {}", damping(*each.absolute_stability_damping_limit)));
+      text +=
+          labelled("  any passive user", fmt::format("B up to {}", damping(*each.absolute_stability_damping_limit)));
     } else if (each.absolute_stability_limit) {
-      text += line("any passive user",
-                   fmt::format("K up to {} with this damper", stiffness(*each.absolute_stability_limit)));
+      text += labelled("  any passive user",
+                       fmt::format("K up to {} with this damper", stiffness(*each.absolute_stability_limit)));
     }
     if (each.contact_damping_ratio) {
-      text +=
-          line("damping of contact", fmt::format("{:.3g} of critical, nobody holding", *each.contact_damping_ratio));
+      text += labelled("  damping of contact",
+                       fmt::format("{:.3g} of critical, nobody holding", *each.contact_damping_ratio));
     }
     if (each.force_per_count) {
       const ForcePerCount& force = *each.force_per_count;
-      text += line("force per count",
-                   fmt::format("{}: K q = {}, damper {}", quantity(force.largest, units_.force),
-                               quantity(force.stiffness, units_.force), quantity(force.damping, units_.force)));
+      text += labelled("  force per count",
+                       fmt::format("{}: K q = {}, damper {}", quantity(force.largest, units_.force),
+                                   quantity(force.stiffness, units_.force), quantity(force.damping, units_.force)));
     }
     return text;
   }

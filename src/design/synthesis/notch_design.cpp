@@ -33,7 +33,6 @@ constexpr double shaved = 1e-6;  // off the least over the modal shift: what lie
 constexpr double step_down = 0.99;
 constexpr int most_steps_down = 200;
 constexpr double bound_by_phase = 0.1;  // of the stiffness that the gain margin allows
-constexpr double same_limit = 1e-9;     // relative, of two absolute stability limits
 
 Device with_filter(const Device& device, const WallFilter& filter) {
   DeviceParameters parameters = device.parameters();
@@ -121,7 +120,7 @@ class Verification {
       notched.push_back(with_filter(each.device, notch));
       const Device& device = notched.back();
       if (each.any_user > 0.0 &&
-          absolute_stability_limit(device, virtual_damper(device)).stiffness < each.any_user * (1.0 - same_limit)) {
+          is_lower(absolute_stability_limit(device, virtual_damper(device)).stiffness, each.any_user)) {
         return 0.0;
       }
     }

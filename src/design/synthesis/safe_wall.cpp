@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "design/synthesis/known_holders.hpp"
+#include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
 #include "stability/device_draws.hpp"
@@ -104,18 +105,9 @@ SafeWall refused(SafeWall wall) {
   return result;
 }
 
-/// The device with this wall.
-Device with_wall(const Device& device, double stiffness, double damping) {
-  DeviceParameters parameters = device.parameters();
-  parameters.uncertainty.reset();
-  parameters.wall.stiffness = stiffness;
-  parameters.wall.damping = damping;
-  return Device(std::move(parameters));
-}
-
 /// Asks the second route.
 void check(const Device& device, double stiffness, double damping, Trust& trust) {
-  const Device walled = with_wall(device, stiffness, damping);
+  const Device walled = with_wall(device, stiffness, {damping, device.parameters().wall.velocity_filter_hz});
   distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
 }
 
@@ -240,7 +232,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
   const KnownHolderLimit& least =
       *std::ranges::min_element(held, {}, [](const KnownHolderLimit& each) { return each.critical.stiffness; });
   wall.limit = least.critical.stiffness;
-  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability) {
+  if (can_be_held(device)) {
     const double any_user = absolute_stability_limit(device, {wall.damping, filter}).stiffness;
     if (any_user > 0.0 && std::isfinite(any_user)) {
       wall.basis = SafeWall::Basis::any_user;

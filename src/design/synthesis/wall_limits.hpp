@@ -18,6 +18,9 @@ namespace zwidth::internal {
 // The device as it is with one more filter in its wall; without its uncertainty.
 [[nodiscard]] Device with_filter(const Device& device, const WallFilter& filter);
 
+// Of two limits with any user: lower by more than their rounding.
+[[nodiscard]] inline bool is_lower(double limit, double than) { return limit < than * (1.0 - 1e-9); }
+
 // The limit over all passive users can be computed.
 [[nodiscard]] bool can_be_held(const Device& device);
 

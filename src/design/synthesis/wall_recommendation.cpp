@@ -26,7 +26,6 @@ constexpr std::size_t searched_exactly = 3;  // velocity filters, the most promi
 constexpr double worth_a_damper = 1e-3;      // relative gain of the goal
 constexpr double worth_a_filter = 0.02;
 constexpr double worth_a_notch = 0.05;
-constexpr double same_limit = 1e-9;      // relative, of two absolute stability limits
 constexpr double more_damping = 1.05;    // where the bound of B is looked for
 constexpr double first_damping = 1e-3;   // times K/w, where B is 0
 constexpr double faster = 1.25;          // where the bound of the velocity filter is
@@ -168,8 +167,7 @@ class Recommendation {
     const Candidate candidate =
         exact(search_of(notch).best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
     const bool lower_absolute_stability_limit =
-        limits_.has_users() &&
-        limits_of(notch).limit(candidate.damper) < limits_.limit(candidate.damper) * (1.0 - same_limit);
+        limits_.has_users() && is_lower(limits_of(notch).limit(candidate.damper), limits_.limit(candidate.damper));
     if (lower_absolute_stability_limit || !(candidate.value > best->value * (1.0 + worth_a_notch))) return best;
     return candidate;
   }

@@ -15,7 +15,6 @@ namespace zwidth::internal {
 namespace {
 
 constexpr std::uint64_t seed = 1;
-constexpr double same_limit = 1e-9;  // relative, of two absolute stability limits
 constexpr int steps_of_damping = 10;
 constexpr double softer = 0.97;
 constexpr int most_softer = 40;
@@ -91,7 +90,7 @@ bool WorstCaseScreening::most_keep(double stiffness, VirtualDamper damper) {
 
 bool WorstCaseScreening::has_no_lower_limit_than(const WorstCaseScreening& others, VirtualDamper damper) const {
   for (std::size_t i = 0; i < devices_.size(); ++i) {
-    if (devices_[i].limits->limit(damper) < others.devices_[i].limits->limit(damper) * (1.0 - same_limit)) return false;
+    if (is_lower(devices_[i].limits->limit(damper), others.devices_[i].limits->limit(damper))) return false;
   }
   return true;
 }

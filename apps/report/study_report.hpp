@@ -6,10 +6,16 @@
 
 namespace zwidth::report {
 
-/// The study as a page: the yield, what it depends on, the worst unit, with figures. Throws OutputFailed.
+/// The answer of `study` in words and tables.
+[[nodiscard]] std::string study_text(const StudyRun& run, const Study& study);
+
+/// The same as a page, with figures. Throws OutputFailed.
 [[nodiscard]] std::string study_page(const StudyRun& run, const Study& study);
 
 /// The worst unit as a device file, named so, with the trust of the study. Requires that there is one.
 [[nodiscard]] std::string worst_device_file(const StudyRun& run, const Study& study);
+
+/// "vibration mode 1", "no wall is stable", ...
+[[nodiscard]] std::string mechanism_of(StiffnessStatus status, int mode);
 
 }  // namespace zwidth::report

@@ -1,4 +1,4 @@
-#include "report/text/study_text.hpp"
+#include "report/study_report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,22 +6,26 @@
 #include <cmath>
 #include <utility>
 
+#include "report/document.hpp"
+#include "report/figure/study_figures.hpp"
+#include "report/page/html_page.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/io/device_file.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {
 
-std::string stiffness_text(const StudyRun& run, double value) {
+std::string unit_stiffness_text(const StudyRun& run, double value) {
   if (std::isnan(value)) return "none";
   if (std::isinf(value)) return "unbounded";
   return quantity(value, units_of(run.device().parameters().motion).stiffness);
 }
 
 /// With as many digits as tell it from 0 % and from 100 %.
-std::string share_text(double share) {
+std::string share_of_units_text(double share) {
   const double rest = std::min(share, 1.0 - share);
   const int digits = rest <= 0.0 ? 2 : std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(rest * 100.0))), 2, 8);
   return fmt::format("{:.{}f} %", 100.0 * share, digits);
@@ -30,36 +34,20 @@ std::string share_text(double share) {
 std::string wanted_text(const StudyRun& run) {
   const Specification& wanted = run.options().specification;
   std::string text;
-  if (wanted.critical_stiffness) text = fmt::format("K_CR of {}", stiffness_text(run, *wanted.critical_stiffness));
+  if (wanted.critical_stiffness) text = fmt::format("K_CR of {}", unit_stiffness_text(run, *wanted.critical_stiffness));
   if (wanted.any_user) {
-    text +=
-        fmt::format("{}{} with any passive user", text.empty() ? "" : " and ", stiffness_text(run, *wanted.any_user));
+    text += fmt::format("{}{} with any passive user", text.empty() ? "" : " and ",
+                        unit_stiffness_text(run, *wanted.any_user));
   }
   return text;
-}
-
-}  // namespace
-
-std::string mechanism_of(StiffnessStatus status, int mode) {
-  switch (status) {
-    case StiffnessStatus::none_stable:
-      return "no wall is stable";
-    case StiffnessStatus::unbounded:
-      return "unbounded";
-    case StiffnessStatus::refused:
-      return "no answer";
-    case StiffnessStatus::finite:
-      break;
-  }
-  return mode == 0 ? "the rigid body" : fmt::format("vibration mode {}", mode);
 }
 
 std::string yield_sentence(const StudyRun& run, const Study& study) {
   if (!study.yield) return "Nothing is specified: there is no yield to state.";
   const Proportion& share = *study.yield;
-  return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).", share_text(share.value),
-                     wanted_text(run), share_text(share.lower), share_text(share.upper), share.total - share.count,
-                     share.total);
+  return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).",
+                     share_of_units_text(share.value), wanted_text(run), share_of_units_text(share.lower),
+                     share_of_units_text(share.upper), share.total - share.count, share.total);
 }
 
 TextTable quantile_table(const StudyRun& run, const Study& study) {
@@ -69,7 +57,7 @@ TextTable quantile_table(const StudyRun& run, const Study& study) {
     table.rows[0].emplace_back(words_of(Holder::any_user));
   }
   const auto end = [&](const std::optional<double>& value) {
-    return value ? stiffness_text(run, *value) : std::string("?");
+    return value ? unit_stiffness_text(run, *value) : std::string("?");
   };
   for (std::size_t i = 0; i < study.quantiles.size(); ++i) {
     const QuantileEstimate& each = study.quantiles[i];
@@ -134,7 +122,8 @@ TextTable cluster_table(const Study& study) {
                                              quantity(hertz(*each.highest_frequency), "Hz"))
                                : std::string("-");
     table.rows.push_back({mechanism_of(each.status, each.limited_by ? each.limited_by->mode : -1),
-                          std::to_string(each.count), share_text(each.share), at, common.empty() ? "nothing" : common});
+                          std::to_string(each.count), share_of_units_text(each.share), at,
+                          common.empty() ? "nothing" : common});
   }
   return table;
 }
@@ -162,8 +151,9 @@ TextTable region_table(const StudyRun& run, const Study& study) {
     }
     std::vector<std::string> row{fmt::format("{:g} %", 100.0 * each.share), "none", "", "", ""};
     if (each.stiffness[best] > 0.0) {
-      row[1] = stiffness_text(run, each.stiffness[best]);
-      row[2] = fmt::format("{} to {}", stiffness_text(run, each.lower[best]), stiffness_text(run, each.upper[best]));
+      row[1] = unit_stiffness_text(run, each.stiffness[best]);
+      row[2] = fmt::format("{} to {}", unit_stiffness_text(run, each.lower[best]),
+                           unit_stiffness_text(run, each.upper[best]));
       row[3] = fmt::format("{} {}", number(dampings[best]), units.damping);
       row[4] = fmt::format("{} {}", number(dampings[last]), units.damping);
     }
@@ -184,19 +174,21 @@ std::string worst_sentence(const StudyRun& run, const Study& study) {
                              parameter_text(study.keys[j], worst.values[j], run.device().parameters().motion));
     }
     const int mode = worst.critical.limit ? worst.critical.limit->limited_by.mode : -1;
-    const std::string critical = fmt::format("K_CR {}, limited by {}", stiffness_text(run, worst.critical.stiffness),
-                                             mechanism_of(worst.critical.status, mode));
+    const std::string critical =
+        fmt::format("K_CR {}, limited by {}", unit_stiffness_text(run, worst.critical.stiffness),
+                    mechanism_of(worst.critical.status, mode));
     const std::string limits =
-        any_user         ? fmt::format("{} ({})", stiffness_text(run, *worst.any_user), critical)
-        : worst.any_user ? fmt::format("{} ({} with any user)", critical, stiffness_text(run, *worst.any_user))
+        any_user         ? fmt::format("{} ({})", unit_stiffness_text(run, *worst.any_user), critical)
+        : worst.any_user ? fmt::format("{} ({} with any user)", critical, unit_stiffness_text(run, *worst.any_user))
                          : critical;
     const auto note = trust_note(worst.trust);
     text += fmt::format(
         "{}Worst unit{}: {}, where {}. The worst of the samples has {}; the search looked at the ends of the "
         "distributions, "
         "or at all but one unit in {:.0f}, and {} of its {} descents ended here.{}",
-        text.empty() ? "" : " ", any_user ? " with any user" : "", limits, numbers, stiffness_text(run, worst.sampled),
-        1.0 / worst.outside, worst.agreeing, worst.descents, note ? " " + *note : std::string());
+        text.empty() ? "" : " ", any_user ? " with any user" : "", limits, numbers,
+        unit_stiffness_text(run, worst.sampled), 1.0 / worst.outside, worst.agreeing, worst.descents,
+        note ? " " + *note : std::string());
   }
   return text;
 }
@@ -216,39 +208,92 @@ std::string rare_sentence(const Study& study) {
                      rare.share, rare.lower, rare.upper, note ? " " + *note : std::string());
 }
 
-std::string study_text(const StudyRun& run, const Study& study) {
-  std::string text = shortened(display_name(run.device()), line_width) + "\n";
-  if (const auto note = trust_note(study.trust)) text += wrap(*note, line_width, 0);
-  if (study.trust.refused()) return text;
-  const auto paragraph = [&](const std::string& sentence) {
-    if (!sentence.empty()) text += wrap(sentence, line_width, 0);
-  };
-  const auto table = [&](const std::string& heading, const TextTable& rows) {
-    if (rows.rows.size() > 1) text += "\n" + heading + "\n" + layout(rows);
-  };
-  paragraph(yield_sentence(run, study));
+std::string study_report(const StudyRun& run, const Study& study, Medium medium) {
+  Document document(medium);
+  document.verbatim(document.is_page() ? "<div class=\"answer\">\n"
+                                       : shortened(display_name(run.device()), line_width) + "\n");
+  document.paragraph(trust_note(study.trust));
+  if (study.trust.refused()) return std::move(document).str();
+  document.paragraph(yield_sentence(run, study));
   if (study.reached_by_95_percent) {
-    paragraph(fmt::format("95 % of all units reach {}, with 95 % confidence.",
-                          stiffness_text(run, *study.reached_by_95_percent)));
+    document.paragraph(fmt::format("95 % of all units reach {}, with 95 % confidence.",
+                                   unit_stiffness_text(run, *study.reached_by_95_percent)));
   }
   if (study.none_stable + study.unbounded + study.failed_count > 0) {
-    paragraph(fmt::format("Units without any stable wall: {}; unbounded: {}; without an answer: {}.", study.none_stable,
-                          study.unbounded, study.failed_count));
+    document.paragraph(fmt::format("Units without any stable wall: {}; unbounded: {}; without an answer: {}.",
+                                   study.none_stable, study.unbounded, study.failed_count));
   }
-  paragraph(rare_sentence(study));
-  paragraph(worst_sentence(run, study));
-  paragraph(tightening_sentence(study));
-  table(fmt::format("Critical stiffness K_CR with {}", words_of(study.limits.user ? Holder::user : Holder::nobody)),
-        quantile_table(run, study));
-  table("What it depends on", parameter_table(study));
+  document.paragraph(rare_sentence(study));
+  if (!document.is_page()) document.paragraph(worst_sentence(run, study));
+  document.paragraph(tightening_sentence(study));
+  if (document.is_page()) document.verbatim("</div>\n");
+  document.figure("distribution",
+                  "Bars: units by their critical stiffness. Line: the yield of a specification at each stiffness.",
+                  [&] { return draw_study_distribution(run, study, FigureFormat::svg); });
+  document.part(
+      fmt::format("Critical stiffness K_CR with {}", words_of(study.limits.user ? Holder::user : Holder::nobody)));
+  document.table(quantile_table(run, study));
+  document.part("What it depends on");
+  document.table(parameter_table(study));
+  document.figure("tornado",
+                  study.sobol_indices ? "First-order and total Sobol indices: shares of the variance of K_CR."
+                                      : "Yield gained where one parameter has half its spread, the others theirs.",
+                  [&] { return draw_study_tornado(study, FigureFormat::svg); });
+  document.figure("scatter", "The two parameters that matter most; every point a unit, coloured by what limits it.",
+                  [&] { return draw_study_scatter(run, study, FigureFormat::svg); });
   if (study.regions) {
-    if (const auto note = trust_note(study.regions->trust)) paragraph(*note);
-    table(region_heading(run, study), region_table(run, study));
+    document.part(region_heading(run, study));
+    document.table(region_table(run, study));
+    document.paragraph(trust_note(study.regions->trust));
+    document.figure("regions",
+                    "A wall below a line is stable, with every softer one of its damping, for that share of the units.",
+                    [&] { return draw_study_regions(run, study, FigureFormat::svg); });
   }
-  table("Units that miss the specification (s: standard deviations from the middle)", cluster_table(study));
-  if (!study.remarks.empty()) text += "\n";
-  for (const Remark& remark : study.remarks) paragraph(remark_line(remark));
-  return text;
+  document.part("Units that miss the specification (s: standard deviations from the middle)");
+  document.table(cluster_table(study));
+  document.part("The worst unit");
+  if (document.is_page()) document.paragraph(worst_sentence(run, study));
+  document.part("", "Remarks");
+  for (const Remark& remark : study.remarks) document.paragraph(remark_line(remark));
+  return std::move(document).str();
+}
+
+}  // namespace
+
+std::string mechanism_of(StiffnessStatus status, int mode) {
+  switch (status) {
+    case StiffnessStatus::none_stable:
+      return "no wall is stable";
+    case StiffnessStatus::unbounded:
+      return "unbounded";
+    case StiffnessStatus::refused:
+      return "no answer";
+    case StiffnessStatus::finite:
+      break;
+  }
+  return mode == 0 ? "the rigid body" : fmt::format("vibration mode {}", mode);
+}
+
+std::string study_text(const StudyRun& run, const Study& study) { return study_report(run, study, Medium::text); }
+
+std::string study_page(const StudyRun& run, const Study& study) {
+  const std::string title = fmt::format("{}: a study of {} units", display_name(run.device()), study.samples);
+  const std::string version = fmt::format("zwidth {}, seed {}", ZWIDTH_VERSION, run.options().seed);
+  return html_page(title, element("h1", title) + study_report(run, study, Medium::page) + "<footer>" +
+                              element("p", version) + "</footer>");
+}
+
+std::string worst_device_file(const StudyRun& run, const Study& study) {
+  DeviceParameters device = study.worst->device;
+  device.name = fmt::format("{}, worst unit of a study", display_name(run.device())).substr(0, max_name_size);
+  Trust whole = study.trust;
+  whole.inherit(study.worst->critical.trust);
+  if (!whole.sound()) {
+    Uncertainty& uncertainty = device.uncertainty.emplace();
+    uncertainty.verdict = whole.verdict;
+    uncertainty.reasons = whole.reasons;
+  }
+  return write_device(device);
 }
 
 }  // namespace zwidth::report

@@ -12,4 +12,8 @@ namespace zwidth::report {
 /// One device in full; several as a comparison table followed by a short answer for each.
 [[nodiscard]] std::string analysis_text(std::span<const AnalysedDevice> devices);
 
+/// The same as one self-contained HTML page, every device in full, with figures and the numbers of its file. Throws
+/// OutputFailed when the figures cannot be drawn.
+[[nodiscard]] std::string html_report(std::span<const AnalysedDevice> devices);
+
 }  // namespace zwidth::report

@@ -1,0 +1,292 @@
+#include "report/analysis_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "report/document.hpp"
+#include "report/figure/device_bode_figure.hpp"
+#include "report/figure/figures.hpp"
+#include "report/page/html_page.hpp"
+#include "report/text/analysis_tables.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/limit_rows.hpp"
+#include "report/text/markup.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
+#include "report/text/wall_filter_text.hpp"
+#include "report/text/wall_note.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr std::size_t any_width = 1000;
+
+std::string first_lines(const AnalysedDevice& analysed) {
+  const auto trust = trust_note(analysed.analysis.trust);
+  std::string text = limit_lines(analysed) + (trust ? labelled("  trust", *trust) : "");
+  if (const auto interval = interval_note(analysed)) text += labelled("  95 % interval", *interval);
+  if (const auto worst = worst_user_note(analysed)) text += labelled("  the worst one", *worst);
+  if (const auto family = user_family_note(analysed)) text += labelled("  users as given", *family);
+  return text;
+}
+
+/// The stiffest spring that stays stable when the user lets go, too.
+std::string headline(const AnalysedDevice& analysed) {
+  const HoldingLimits& limits = analysed.analysis.limits;
+  const bool user_limits = limits.user && limits.user->critical_stiffness < limits.nobody.critical_stiffness;
+  const AnalysedDevice held = user_limits ? analysed : with_nobody_holding(analysed);
+  return element("p",
+                 fmt::format("Stiffest stable spring with {}", words_of(user_limits ? Holder::user : Holder::nobody))) +
+         fmt::format("<p class=\"value\">{}</p>\n", escape_markup(critical_stiffness_text(
+                                                        held.analysis.critical, analysed.device.parameters().motion)));
+}
+
+std::string limit_table(const AnalysedDevice& analysed) {
+  const std::vector<LimitRow> rows = limit_rows(analysed);
+  if (rows.empty()) return "";
+  TextTable table{{Align::left, Align::left, Align::left}, {{"wall", "who holds", "stable"}}};
+  for (const LimitRow& row : rows) {
+    table.rows.push_back({row.what, row.holder, row.hint.empty() ? row.answer : row.answer + "; " + row.hint});
+  }
+  return html_table(table);
+}
+
+std::string answer_box(const AnalysedDevice& analysed) {
+  std::string text = "<div class=\"answer\">\n";
+  text += element("p", trust_note(analysed.analysis.trust).value_or("sound"));
+  text += headline(analysed) + limit_table(analysed);
+  if (const auto interval = interval_note(analysed)) text += element("p", "95 % interval: " + *interval + ".");
+  return text + "</div>\n";
+}
+
+void add_users(Document& document, const AnalysedDevice& analysed) {
+  TextTable table{{Align::left, Align::left}, {{"who holds it", "critical stiffness"}}};
+  const auto add = [&](std::string who, const std::optional<std::string>& note) {
+    if (note) table.rows.push_back({std::move(who), *note});
+  };
+  add("the worst one", worst_user_note(analysed));
+  add("users as given", user_family_note(analysed));
+  document.part("Users asked for");
+  document.table(table);
+}
+
+void add_wall(Document& document, const AnalysedDevice& analysed) {
+  document.part("", "The wall of the file");
+  if (const auto filters = wall_filters_text(analysed.device.parameters().wall)) {
+    document.paragraph(fmt::format("Filters in the wall, closed in every number here: {}.", *filters));
+  }
+  if (const auto verdict = wall_note(analysed)) {
+    document.paragraph(*verdict);
+    document.list(wall_margin_notes(analysed.analysis));
+  }
+  document.list(encoder_notes(analysed));
+}
+
+void add_figures(Document& document, const AnalysedDevice& analysed, std::size_t index) {
+  const std::string device = fmt::format("{}, sampled every {}", display_name(analysed.device),
+                                         quantity(analysed.device.loop().sampling_period, "s"));
+  document.part();
+  document.figure(fmt::format("axis{}", index),
+                  device +
+                      ": stiffness K of the virtual wall, logarithmic. Numbers are those of the table of "
+                      "crossovers.",
+                  [&] { return draw_stiffness_axis(analysed, FigureFormat::svg); });
+  document.figure(fmt::format("bode{}", index),
+                  device +
+                      ": response from the commanded force to the sensed position. Where the phase is an odd "
+                      "multiple of 180° the loop oscillates when 1/K equals the magnitude: the numbered points, "
+                      "as in the table of crossovers.",
+                  [&] {
+                    return draw(device_bode_figure({&analysed, 1}), FigureFormat::svg);
+                  });
+}
+
+/// The device with only its crossovers of least stiffness, `most` of them.
+AnalysedDevice with_softest_crossovers(AnalysedDevice analysed, std::size_t most) {
+  auto& crossovers = analysed.analysis.critical.crossovers;
+  std::vector<double> stiffnesses;
+  for (const Crossover& crossover : crossovers) stiffnesses.push_back(crossover.stiffness);
+  const auto last = stiffnesses.begin() + static_cast<std::ptrdiff_t>(most - 1);
+  std::nth_element(stiffnesses.begin(), last, stiffnesses.end());
+  std::erase_if(crossovers, [last](const Crossover& crossover) { return crossover.stiffness > *last; });
+  return analysed;
+}
+
+/// The table with a first column of numbers, which the figures use.
+TextTable numbered(TextTable table) {
+  table.alignment.insert(table.alignment.begin(), Align::right);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    table.rows[i].insert(table.rows[i].begin(), i == 0 ? "" : std::to_string(i));
+  }
+  return table;
+}
+
+void add_phase_crossovers(Document& document, const AnalysedDevice& analysed) {
+  // A long delay has hundreds.
+  static constexpr std::size_t most = 20;
+  if (analysed.analysis.critical.trust.refused()) return;
+  const std::size_t count = analysed.analysis.critical.crossovers.size();
+  const std::string_view holder = words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody);
+  const std::string nyquist = quantity(0.5 / analysed.device.loop().sampling_period, "Hz");
+  const std::string heading = fmt::format(
+      "Phase crossovers with {} (a closed-loop pole on the unit circle), all up to Nyquist at {}", holder, nyquist);
+  document.part(count > 0 ? heading : "", fmt::format("Crossovers with {}", holder));
+  if (document.is_page()) {
+    document.paragraph(
+        fmt::format("Every wall stiffness that puts a closed-loop pole on the unit circle, up to the "
+                    "Nyquist frequency of {}, that frequency included.",
+                    nyquist));
+    document.paragraph(count > 0 ? "" : "There is none.");
+    document.table(numbered(crossover_table(analysed)));
+  } else if (count == 0) {
+    document.paragraph(heading + ": none");
+  } else {
+    document.table(crossover_table(count > most ? with_softest_crossovers(analysed, most) : analysed));
+    if (count > most) document.verbatim(fmt::format("  ... the {} softest of {}; --json gives all\n", most, count));
+  }
+}
+
+/// What the file says, so that a printed report can be traced.
+TextTable parameters(const AnalysedDevice& analysed) {
+  const DeviceParameters& device = analysed.device.parameters();
+  const Units units = units_of(device.motion);
+  TextTable table{{Align::left, Align::right}, {{"parameter", "value"}}};
+  const auto add = [&](std::string name, double value, std::string_view unit) {
+    table.rows.push_back({std::move(name), fmt::format("{:.9g} {}", value, unit)});
+  };
+  const auto add_if = [&](std::string name, double value, std::string_view unit) {
+    if (value != 0.0) add(std::move(name), value, unit);
+  };
+  for (const Body& body : device.bodies) {
+    add(body.name + ": mass", body.mass, units.mass);
+    add(body.name + ": damping to ground", body.damping, units.damping);
+    add_if(body.name + ": stiffness to ground", body.stiffness, units.stiffness);
+    add_if(body.name + ": Coulomb friction (not in the analysis)", body.coulomb, units.force);
+  }
+  for (const Link& link : device.links) {
+    const std::string name = fmt::format("{} to {}", device.bodies[link.first].name, device.bodies[link.second].name);
+    add(name + ": stiffness", link.stiffness, units.stiffness);
+    add(name + ": damping", link.damping, units.damping);
+  }
+  if (device.transfer_function) {
+    table.rows.push_back({"numerator, descending powers of s",
+                          fmt::format("{:.9g}", fmt::join(device.transfer_function->numerator, ", "))});
+    table.rows.push_back(
+        {"denominator", fmt::format("{:.9g}", fmt::join(device.transfer_function->denominator, ", "))});
+  } else {
+    table.rows.push_back({"actuated, sensed, held",
+                          fmt::format("{}, {}, {}", device.bodies[device.loop.actuated].name,
+                                      device.bodies[device.loop.sensed].name, device.bodies[device.loop.held].name)});
+  }
+  add("sampling period", device.loop.sampling_period, "s");
+  add("delay besides the hold", device.loop.delay, "s");
+  add_if("actuator time constant", device.actuator.time_constant, "s");
+  if (device.actuator.force_limit) add("actuator force limit", *device.actuator.force_limit, units.force);
+  add_if("encoder step", device.sensor.resolution, units.length);
+  add_if("operator: mass", device.user.mass, units.mass);
+  add_if("operator: damping", device.user.damping, units.damping);
+  add_if("operator: stiffness", device.user.stiffness, units.stiffness);
+  if (device.wall.stiffness) add("wall: stiffness", *device.wall.stiffness, units.stiffness);
+  add_if("wall: damping", device.wall.damping, units.damping);
+  add_if("wall: velocity filter", device.wall.velocity_filter_hz, "Hz");
+  for (const WallFilter& filter : device.wall.filters) table.rows.push_back({"wall: filter", filter_text(filter)});
+  return table;
+}
+
+/// `number` from 1, where there are several.
+void add_answer(Document& document, const AnalysedDevice& analysed, std::size_t number, bool is_alone) {
+  document.part();
+  if (document.is_page()) {
+    document.verbatim(answer_box(analysed));
+  } else {
+    document.verbatim((is_alone ? "" : fmt::format("{}. ", number)) + first_lines(analysed));
+  }
+  document.part("", "What it means");
+  document.paragraph(meaning(analysed));
+  if (document.is_page()) add_users(document, analysed);
+  add_wall(document, analysed);
+  const bool is_full = is_alone || document.is_page();
+  if (is_full) {
+    add_figures(document, analysed, number);
+    add_phase_crossovers(document, analysed);
+    document.part("Vibration modes");
+    document.table(mode_table(analysed));
+  }
+  document.part("", "What simpler models say");
+  document.paragraph(rigid_model_note(analysed));
+  if (!is_full) return;
+  document.part();
+  document.paragraph(q_criterion_note(analysed));
+  document.part("What these numbers leave out");
+  document.list(caveats(analysed));
+  document.part("The device as given");
+  if (document.is_page()) document.table(parameters(analysed));
+}
+
+/// The comparison with device names as long as a line allows.
+std::string fitted_comparison(std::span<const AnalysedDevice> devices) {
+  static constexpr std::size_t shortest_name = 6;
+  const std::size_t beside_names = width_of(layout(comparison_table(devices, shortest_name))) - shortest_name;
+  return layout(comparison_table(devices, std::max(shortest_name, line_width - std::min(line_width, beside_names))));
+}
+
+void add_comparison(Document& document, std::span<const AnalysedDevice> devices) {
+  if (!document.is_page()) {
+    document.verbatim(fitted_comparison(devices) + wrap(comparison_legend(devices), line_width, 2));
+    return;
+  }
+  document.table(comparison_table(devices, any_width));
+  document.paragraph(comparison_legend(devices));
+  const auto same_motion = [&](const AnalysedDevice& each) {
+    return each.device.parameters().motion == devices.front().device.parameters().motion;
+  };
+  if (devices.size() <= most_curves && std::ranges::all_of(devices, same_motion)) {
+    document.figure("comparison", "What the sampled wall sees of each device, every crossover marked.",
+                    [&] { return draw(device_bode_figure(devices), FigureFormat::svg); });
+  }
+}
+
+std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medium) {
+  Document document(medium);
+  const bool is_alone = devices.size() == 1;
+  if (!is_alone) add_comparison(document, devices);
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const bool is_section = document.is_page() && !is_alone;
+    document.part();
+    if (is_section) {
+      document.verbatim("<section class=\"device\">\n" +
+                        element("h1", fmt::format("{}. {}", i + 1, display_name(devices[i].device))));
+    }
+    add_answer(document, devices[i], i + 1, is_alone);
+    if (is_section) document.verbatim("</section>\n");
+  }
+  if (!is_alone && !document.is_page()) {
+    document.part();
+    document.paragraph(
+        "Each device alone (zwidth analyze FILE) gives its walls with a damper and with margins, its crossovers, modes "
+        "and what the numbers leave out.");
+  }
+  return std::move(document).str();
+}
+
+}  // namespace
+
+std::string analysis_text(std::span<const AnalysedDevice> devices) { return analysis_report(devices, Medium::text); }
+
+std::string html_report(std::span<const AnalysedDevice> devices) {
+  const std::string title = devices.size() == 1 ? display_name(devices.front().device)
+                                                : fmt::format("Critical stiffness of {} devices", devices.size());
+  constexpr std::string_view method =
+      "The device is sampled exactly behind its zero-order hold, with the delay as it is, neither rounded to samples "
+      "nor approximated. Every phase crossover up to and including the Nyquist frequency is found.";
+  return html_page(title, element("h1", title) + analysis_report(devices, Medium::page) +
+                              fmt::format("<footer>{} Written by zwidth {}.</footer>\n", method, ZWIDTH_VERSION));
+}
+
+}  // namespace zwidth::report
