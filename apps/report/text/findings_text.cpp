@@ -20,7 +20,6 @@ constexpr std::size_t most_shown = 3;
 std::string bullet_line(const std::string& line, bool is_warning) {
   return labelled(is_warning ? "  ! " : "  - ", line, 4);
 }
-}
 
 }  // namespace
 
