@@ -24,8 +24,8 @@ struct Problem : InputProblem {
   Problem(std::string place_in_request, std::string what_is_wrong, std::string what_is_allowed)
       : InputProblem{{}, std::move(what_is_wrong), std::move(what_is_allowed), {}},
         where(std::move(place_in_request)) {}
-  Problem(std::string place_in_request, InputProblem problem)
-      : InputProblem(std::move(problem)), where(std::move(place_in_request)) {}
+  Problem(std::string place_in_request, InputProblem why)
+      : InputProblem(std::move(why)), where(std::move(place_in_request)) {}
 
   std::string where;            ///< "options.points", "device.loop.delay"; empty where the work itself failed
   std::vector<Problem> others;  ///< of the same input

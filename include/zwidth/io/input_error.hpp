@@ -16,10 +16,10 @@ inline constexpr const char* override_source = "an override";
 /// Why an input was refused: the first problem, and the others of the same device file.
 struct InputError : InputProblem {
   /// A file's only problem.
-  InputError(InputPlace place, Problem problem, std::optional<std::string> suggestion = {})
-      : InputProblem(input_problem(std::move(place), std::move(problem), std::move(suggestion))) {}
+  InputError(InputPlace where, Problem why, std::optional<std::string> meant = {})
+      : InputProblem(input_problem(std::move(where), std::move(why), std::move(meant))) {}
   /// The same, as it is.
-  explicit InputError(InputProblem problem) : InputProblem(std::move(problem)) {}
+  explicit InputError(InputProblem only) : InputProblem(std::move(only)) {}
   /// All problems of one file, in the order in which it is read.
   [[nodiscard]] std::vector<InputProblem> problems() const;
 
