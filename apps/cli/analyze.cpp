@@ -105,7 +105,7 @@ AnalysisOptions options_for(const AnalyzeOptions& options, const std::string& fi
     if (!problem->member.starts_with(of_family)) refuse(*problem, options_of_analysis, file);
     // A number of the users, which is no key of the device.
     const std::string what = fmt::format("{}: {}", problem->member.substr(of_family.size()), problem->what);
-    refuse_input({file, 0, 0, "", what, problem->allowed}, "--users");
+    refuse_key(file, "", what, problem->allowed, "--users");
   }
   return asked;
 }
@@ -145,7 +145,7 @@ std::string holders_of_unstable(const Analysis& analysis) {
 }
 
 [[noreturn]] void refuse_without_wall(const std::string& file) {
-  refuse_input({file, 0, 0, "wall.stiffness", "is missing: there is no wall to judge", "set it"}, "--require-stable");
+  refuse_key(file, "wall.stiffness", "is missing: there is no wall to judge", "set it", "--require-stable");
 }
 
 /// For scripts: every wall given stands, and its verdict with it.

@@ -111,8 +111,8 @@ WallToRun released_wall(const ExportArguments& arguments) {
   const WallToRunOptions options{arguments.stiffness, arguments.safety_factor, arguments.accept_doubt};
   if (const auto problem = find_problem(options, device)) {
     if (!option_of(options_of_wall, problem->member).empty()) refuse(*problem, options_of_wall);
-    refuse_input({file, 0, 0, problem->member, problem->what,
-                  OptionText(problem->allowed) + CommandText(", or give --stiffness or --safety-factor")});
+    refuse_key(file, problem->member, problem->what,
+               OptionText(problem->allowed) + CommandText(", or give --stiffness or --safety-factor"));
   }
   WallToRun wall = worked(arguments.devices.files.front(), [&] { return wall_to_run(device, options); });
   if (wall.share) check_share(arguments, *wall.share);
@@ -145,7 +145,7 @@ std::string exported_for_drive(const ExportArguments& arguments) {
   const std::string& file = arguments.devices.files.front();
   const WallToRun wall = released_wall(arguments);
   if (const auto problem = find_problem(*arguments.units, wall.device)) {
-    refuse_input({file, 0, 0, problem->member, problem->what, problem->allowed});
+    refuse_key(file, problem->member, problem->what, problem->allowed);
   }
   DriveLoopOptions loop = arguments.drive_loop;
   if (const auto rate = arguments.drive_rate) {

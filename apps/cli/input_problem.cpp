@@ -46,4 +46,11 @@ void refuse_input(const InputError& error, std::string_view option) {
   throw BadInput(std::move(problems));
 }
 
+void refuse_key(const std::string& file, const std::string& key, std::string what, OptionText allowed,
+                std::string_view option) {
+  InputProblem problem{{.file = file, .key = key}, std::move(what), {}, {}};
+  problem.allow(std::move(allowed));
+  refuse_input(InputError(std::move(problem)), option);
+}
+
 }  // namespace zwidth::cli

@@ -112,9 +112,8 @@ void check_that_columns_differ(const Recording& recording, const ColumnRequest& 
   const auto motion_number = number_in(motion.column.name);
   const bool numbers_differ = force_number && motion_number && *force_number != *motion_number;
   if (name != recording.channels[1].name || numbers_differ) return;
-  refuse_input({recording.source, 0, 0, "", fmt::format("column '{}' is named as the force and as the motion", name),
-                "name two columns"},
-               motion.option);
+  refuse_key(recording.source, "", fmt::format("column '{}' is named as the force and as the motion", name),
+             "name two columns", motion.option);
 }
 
 }  // namespace

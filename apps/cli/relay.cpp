@@ -84,7 +84,7 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
     constexpr std::string_view of_device = "device.";
     if (!problem->member.starts_with(of_device)) refuse(*problem, options_of_relay);
     const std::string key = problem->member.substr(of_device.size());
-    refuse_input({arguments.devices.files.front(), 0, 0, key, problem->what, problem->allowed});
+    refuse_key(arguments.devices.files.front(), key, problem->what, problem->allowed);
   }
   ProgressLine line("predicting");
   return relay(std::move(motion.recording), options, line.progress());

@@ -287,8 +287,7 @@ Device rig_device(const RigArguments& arguments) {
 void check_wall(const RigArguments& arguments, const Device& device, const Analysis& analysis) {
   const std::string& file = arguments.devices.files.front();
   if (!device.parameters().wall.stiffness) {
-    refuse_input(
-        {file, 0, 0, "wall.stiffness", "is missing: there is no wall to render", "set it, or give --stiffness"});
+    refuse_key(file, "wall.stiffness", "is missing: there is no wall to render", "set it, or give --stiffness");
   }
   if (!analysis.wall_stable_for || arguments.accept_unstable) return;
   if (const std::string holders = unstable_with(*analysis.wall_stable_for); !holders.empty()) {
