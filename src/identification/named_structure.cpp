@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "model/option_beyond.hpp"
 #include "require_valid.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/device_key.hpp"
@@ -26,12 +27,8 @@ std::optional<OptionProblem> find_problem(const NamedStructureOptions& options) 
     return OptionProblem{member, "missing", "the table has none, and the loop to judge needs one, in seconds"};
   }
   for (const std::optional<double>& each : {options.sampling_period, options.record_period}) {
-    if (each && !positive_numbers.contains(*each)) {
-      return option_problem(
-          member, {.code = ProblemCode::not_between,
-                   .evidence = {
-                       {"value", *each, "s"}, {"least", positive_numbers.least}, {"most", positive_numbers.greatest}}});
-    }
+    if (!each) continue;
+    if (auto problem = internal::option_beyond(member, *each, positive_numbers, "s")) return problem;
   }
   return std::nullopt;
 }

@@ -15,6 +15,7 @@
 #include "identification/lateness.hpp"
 #include "identification/nonlinearity_of_equations.hpp"
 #include "identification/plausibility.hpp"
+#include "model/option_beyond.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
 #include "signal/clipping.hpp"
@@ -200,13 +201,8 @@ std::optional<OptionProblem> find_problem(const RigidBodyOptions& options) {
   if (inverse.decimation && *inverse.decimation < 1) {
     return OptionProblem{"inverse_dynamics.decimation", "is 0", "must be at least 1"};
   }
-  if (options.sampling_period && !positive_numbers.contains(*options.sampling_period)) {
-    return option_problem("sampling_period", {.code = ProblemCode::not_between,
-                                              .evidence = {{"value", *options.sampling_period, "s"},
-                                                           {"least", positive_numbers.least},
-                                                           {"most", positive_numbers.greatest}}});
-  }
-  return std::nullopt;
+  if (!options.sampling_period) return std::nullopt;
+  return option_beyond("sampling_period", *options.sampling_period, positive_numbers, "s");
 }
 
 RigidBodyIdentification identify_rigid_body(const Recording& recording, const RigidBodyOptions& options,

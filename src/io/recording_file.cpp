@@ -16,6 +16,7 @@
 #include "io/text_recording.hpp"
 #include "io/time_axis.hpp"
 #include "io/uff_recording.hpp"
+#include "model/option_beyond.hpp"
 #include "zwidth/model/device_key.hpp"
 
 namespace zwidth {
@@ -54,11 +55,8 @@ std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
     return !value || (std::isfinite(*value) && *value > 0.0);
   };
   if (!is_positive(options.rate)) return not_above_zero("rate", *options.rate, "Hz");
-  if (options.rate && !positive_numbers.contains(*options.rate)) {
-    return option_problem("rate", {.code = ProblemCode::not_between,
-                                   .evidence = {{"value", *options.rate, "Hz"},
-                                                {"least", positive_numbers.least},
-                                                {"most", positive_numbers.greatest}}});
+  if (options.rate) {
+    if (auto problem = option_beyond("rate", *options.rate, positive_numbers, "Hz")) return problem;
   }
   if (!is_positive(options.time_scale)) return not_above_zero("time_scale", *options.time_scale, "s");
   for (std::size_t i = 0; i < options.columns.size(); ++i) {

@@ -276,7 +276,7 @@ TEST_F(Hostile, NoOptionReachesADisk) {
   for (const char* name : {"frf", "device", "FILE", "force=2"}) {
     const json request{{"recording", {{"id", id}, {"name", name}}},
                        {"options", {{"force", "nothing"}, {"position", "position"}}}};
-    EXPECT_THAT(post("frf", request.dump()).body, HasSubstr("\"where\":\"recording\"")) << name;
+    EXPECT_THAT(post("frf", request.dump()).body, HasSubstr("\"where\":\"options.force\"")) << name;
   }
   EXPECT_TRUE(is_alive());
 }

@@ -83,7 +83,7 @@ TEST(WallToRun, IsNotThereWhereNoWallIsStable) {
 }
 
 TEST(WallToRun, FindsWhatCannotBeAsked) {
-  EXPECT_EQ(find_problem(WallToRunOptions{}, lhifam(std::nullopt))->member, "");
+  EXPECT_EQ(find_problem(WallToRunOptions{}, lhifam(std::nullopt))->member, "wall.stiffness");
   EXPECT_FALSE(find_problem(WallToRunOptions{}, lhifam(3000.0)));
   EXPECT_EQ(find_problem({.stiffness = -3.0}, lhifam(std::nullopt))->member, "stiffness");
   EXPECT_EQ(find_problem({.safety_factor = 1.0}, lhifam(std::nullopt))->member, "safety_factor");

@@ -80,7 +80,7 @@ struct DiagnosisChange {
     other_damper,         ///< the best of some virtual dampers
     notch,                ///< a notch at the frequency observed
   };
-  Kind kind = Kind::more_body_damping;
+  Kind kind = Kind::more_body_damping;   ///< which change
   std::optional<std::size_t> link = {};  ///< of stiffer_link: from 0
   std::string key = {};     ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
   double value_now = 0.0;   ///< SI units

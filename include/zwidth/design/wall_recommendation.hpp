@@ -81,7 +81,7 @@ struct RecommendedWall {
     widest,              ///< the greatest product of stiffness and damping
     critically_damped,   ///< the contact is critically damped
   };
-  Kind kind = Kind::recommended;
+  Kind kind = Kind::recommended;    ///< the one to run, or what was changed of it
   Wall wall;                        ///< with the filters that the device's wall has, and the notch behind them
   std::optional<WallFilter> notch;  ///< that of wall.filters which was added
   WallBounds bounded_by;            ///< what keeps each number from being larger
