@@ -268,7 +268,8 @@ tl::expected<void, InputError> Scanner::scan(std::vector<UffRecord>& records, st
       records.push_back(std::move(*record));
     } else {
       ++passed_over[*dataset];
-      if (!pass_to_boundary()) unclosed_ = line_;
+      const std::size_t begins = line_;
+      if (!pass_to_boundary()) unclosed_ = begins;
     }
   }
   std::vector<std::string> numbers;
