@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "identification/evidence/noise.hpp"
+#include "identification/fit/least_squares_problem.hpp"
+#include "identification/model/motion_model.hpp"
+
+namespace zwidth::internal {
+
+/// The records in segments as a problem of least squares, with what is believed of the numbers beforehand.
+///
+/// z: the numbers' coordinates, then each segment's state. Residuals: played less recorded, whitened; and (x - expected) / deviation.
+class TimeEvidence : public LeastSquaresProblem {
+ public:
+  TimeEvidence(const MotionModel& model, std::vector<Segment> segments, std::vector<double> encoder_steps, Eigen::Index noise_order);
+
+  [[nodiscard]] Eigen::VectorXd lowest() const override;
+  [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& z) const override;
+  [[nodiscard]] std::optional<Picture> picture(const Eigen::VectorXd& z) const override;
+
+  /// x with the states of the record.
+  [[nodiscard]] Eigen::VectorXd start(const Eigen::VectorXd& x) const;
+  [[nodiscard]] Eigen::Index numbers() const { return static_cast<Eigen::Index>(model_.numbers().size()); }
+  [[nodiscard]] const MotionModel& model() const noexcept { return model_; }
+  [[nodiscard]] const std::vector<Segment>& segments() const noexcept { return segments_; }
+  [[nodiscard]] const std::vector<Noise>& noise() const noexcept { return noise_; }
+  void set_noise(std::vector<Noise> noise) { noise_ = std::move(noise); }
+
+  /// Played less recorded, by segment.
+  [[nodiscard]] std::optional<std::vector<Eigen::VectorXd>> residuals(const Eigen::VectorXd& z) const;
+  /// The noise that the residuals at z have.
+  [[nodiscard]] std::optional<std::vector<Noise>> noise_at(const Eigen::VectorXd& z) const;
+
+ private:
+  [[nodiscard]] std::optional<std::vector<PlayedSegment>> play(const Eigen::VectorXd& z, bool with_slopes) const;
+  [[nodiscard]] Eigen::Map<const Eigen::VectorXd> recorded(const Segment& segment) const;
+
+  const MotionModel& model_;
+  std::vector<Segment> segments_;
+  std::vector<double> steps_;
+  Eigen::Index order_;
+  std::vector<Noise> noise_;
+};
+
+}  // namespace zwidth::internal
