@@ -1,33 +1,13 @@
 #include "identification/model/linear_step.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
-#include "identification/held_device.hpp"
 #include "model/device_matrices.hpp"
 #include "sampling/matrix_exponential.hpp"
-#include "zwidth/identification/parameter_fit.hpp"
-#include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
-namespace {
-
-Device in_experiment(const DeviceParameters& parameters, const std::vector<std::string>& locked) {
-  const Device device(parameters);
-  if (locked.empty()) return device;
-  std::vector<std::size_t> still;
-  for (const std::string& name : locked) still.push_back(device.body_index(name));
-  return locked_device(device, still);
-}
-
-/// What the key's mass moves with: the body's and, where it is held, its user's.
-double moved_mass(const DeviceParameters& parameters, const std::string& key) {
-  const Body& held = parameters.bodies[parameters.loop.held];
-  const bool is_held = key == "operator.mass" || key == "body." + held.name + ".mass";
-  return is_held ? held.mass + parameters.user.mass : *parameter(parameters, key);
-}
-
-}  // namespace
-
 Eigen::MatrixXd motion_columns(const Device& device) {
   const DeviceMatrices<double> matrices = device_matrices<double>(device);
   const auto bodies = static_cast<Eigen::Index>(device.bodies().size());
@@ -62,24 +42,25 @@ Eigen::MatrixXd motion_columns(const Device& device) {
   return columns;
 }
 
-Eigen::MatrixXd motion_columns_slope(const DeviceParameters& parameters, const std::string& key, double unit,
-                                     const std::vector<std::string>& locked) {
-  const Eigen::MatrixXd here = motion_columns(in_experiment(parameters, locked));
-  const double value = *parameter(parameters, key);
-  if (key == "loop.delay") return Eigen::MatrixXd::Zero(here.rows(), here.cols());
-  double step = std::max(value, unit);
-  double factor = 1.0 / step;
-  if (key.ends_with(".mass") || key.ends_with(".time_constant")) {
-    if (value == 0.0) return Eigen::MatrixXd::Zero(here.rows(), here.cols());
-    step = key.ends_with(".mass") ? moved_mass(parameters, key) : value;  // 1/p becomes 1/2p
-    factor = 2.0 / step;
+std::vector<Eigen::MatrixXd> motion_slopes(const DeviceFamily& family, const Eigen::VectorXd& x) {
+  constexpr double relative = 3e-6;
+  constexpr double least = 1e-4;  // of a unit
+  std::vector<Eigen::MatrixXd> slopes;
+  for (Eigen::Index i = 0; i < family.of_device(); ++i) {
+    const Number& number = family.numbers()[static_cast<std::size_t>(i)];
+    const double step = relative * std::max(std::abs(x(i)), number.scale == Number::Scale::logarithmic ? 1.0 : least);
+    Eigen::VectorXd above = x;
+    Eigen::VectorXd below = x;
+    above(i) += step;
+    below(i) = std::max(number.lowest(), x(i) - step);
+    slopes.emplace_back((motion_columns(family.recorded_device(above)) - motion_columns(family.recorded_device(below))) /
+                        (above(i) - below(i)));
   }
-  DeviceParameters moved = parameters;
-  set_parameter(moved, key, value + step);
-  return factor * (motion_columns(in_experiment(moved, locked)) - here);
+  return slopes;
 }
 
-LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::MatrixXd>& slopes, double length) {
+LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::MatrixXd>& slopes, double length,
+                       int count) {
   const Eigen::Index rows = columns.rows();
   const Eigen::Index size = columns.cols();
   const auto square = [&](const Eigen::MatrixXd& of) {
@@ -90,10 +71,15 @@ LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::
   std::vector<Eigen::MatrixXd> squares;
   squares.reserve(slopes.size());
   for (const Eigen::MatrixXd& each : slopes) squares.push_back(square(each));
+  const auto numbers = static_cast<Eigen::Index>(slopes.size());
   ExponentialWithDerivatives whole = exponential_with_derivatives(square(columns), squares);
   whole.minus_one.diagonal().array() += 1.0;
-  LinearStep step{whole.minus_one.topRows(rows), {}};
-  for (const Eigen::MatrixXd& each : whole.derivatives) step.slopes.emplace_back(each.topRows(rows));
+  LinearStep step{count, whole.minus_one.topRows(rows), {}};
+  for (Eigen::Index j = 0; j < size && numbers > 0; ++j) {
+    Eigen::MatrixXd by_number(rows, numbers);
+    for (Eigen::Index d = 0; d < numbers; ++d) by_number.col(d) = whole.derivatives[static_cast<std::size_t>(d)].col(j).head(rows);
+    step.slopes.push_back(std::move(by_number));
+  }
   return step;
 }
 

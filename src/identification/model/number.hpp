@@ -8,6 +8,7 @@ namespace zwidth::internal {
 
 /// A number of the fit: of the device, by its key, or of a rival, by a name of its own ("drag.motor").
 struct Number {
+  static constexpr double least_square = 1e-4;  ///< of what acts in the second order alone
   enum class Scale {
     logarithmic,   ///< value = unit exp(x): masses and stiffnesses of links
     not_negative,  ///< value = unit x, x >= 0: what may be 0
@@ -38,7 +39,6 @@ struct Number {
     if (scale == Scale::square) return least_square;
     return scale == Scale::not_negative ? 0.0 : -std::numeric_limits<double>::infinity();
   }
-  static constexpr double least_square = 1e-4;
 };
 
 }  // namespace zwidth::internal
