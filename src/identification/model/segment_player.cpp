@@ -10,9 +10,12 @@ namespace zwidth::internal {
 PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
                            std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
                            bool with_slopes_asked)
-    : with_slopes(with_slopes_asked), drive(terms.drive) {
+    : with_slopes(with_slopes_asked) {
   const std::vector<Number>& numbers = family.numbers();
-  const auto value = [&](std::size_t i) { return numbers[i].value(x(static_cast<Eigen::Index>(i))); };
+  const auto place = [&](const std::string& key) {
+    return static_cast<Eigen::Index>(std::ranges::find(numbers, key, &Number::key) - numbers.begin());
+  };
+  const auto value = [&](Eigen::Index i) { return numbers[static_cast<std::size_t>(i)].value(x(i)); };
   const auto index = [&](const std::string& name) { return std::ranges::find(bodies, name) - bodies.begin(); };
   number_slopes.resize(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -23,15 +26,21 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   }
   for (const ForceTerm& term : terms.forces) {
     if (term.record && *term.record != record) continue;
-    Force force{term.law.get(), index(term.body), term.against.empty() ? -1 : index(term.against), term.number, {}};
-    for (std::size_t i = 0; i < most_numbers_of_law && term.number + i < numbers.size(); ++i) force.values[i] = value(term.number + i);
+    Force force{.law = term.law.get(), .body = index(term.body)};
+    if (!term.against.empty()) force.against = index(term.against);
+    for (std::size_t i = 0; i < term.numbers.size(); ++i) {
+      force.numbers[i] = place(term.numbers[i]);
+      force.values[i] = value(force.numbers[i]);
+    }
     forces.push_back(force);
   }
   for (const FrictionTerm& term : terms.frictions) {
-    frictions.push_back({index(term.body), static_cast<Eigen::Index>(term.number), value(term.number)});
+    frictions.push_back({index(term.body), place(term.number), value(place(term.number))});
   }
-  limit = largest_force - (drive.saturation ? value(*drive.saturation) : 0.0);
-  dead_band = drive.dead_band ? value(*drive.dead_band) : 0.0;
+  if (terms.drive.dead_band) dead_band_number = place(*terms.drive.dead_band);
+  if (terms.drive.saturation) saturation_number = place(*terms.drive.saturation);
+  dead_band = dead_band_number ? value(*dead_band_number) : 0.0;
+  limit = largest_force - (saturation_number ? value(*saturation_number) : 0.0);
 
   const double samples = family.played_delay(x) / period;
   constexpr double least = 1e-9;
@@ -59,17 +68,12 @@ SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Ei
       force_slopes_(bodies, slopes.cols()) {}
 
 double SegmentPlayer::given(double command, Row& command_slopes) const {
-  const DriveTerm& drive = device_.drive;
-  if (!drive.dead_band && !drive.saturation) return command;
+  if (!device_.dead_band_number && !device_.saturation_number) return command;
   const double direction = command < 0.0 ? -1.0 : 1.0;
   const double through = std::max(0.0, std::abs(command) - device_.dead_band);
-  const bool saturates = through > device_.limit;
+  const std::optional<Eigen::Index>& number = through > device_.limit ? device_.saturation_number : device_.dead_band_number;
   command_slopes.setZero(slopes.cols());
-  const std::optional<std::size_t>& number = saturates ? drive.saturation : drive.dead_band;
-  if (command_slopes.size() > 0 && number && through > 0.0) {
-    const auto at = static_cast<Eigen::Index>(*number);
-    command_slopes(at) = -direction * device_.number_slopes(at);
-  }
+  if (command_slopes.size() > 0 && number && through > 0.0) command_slopes(*number) = -direction * device_.number_slopes(*number);
   return direction * std::min(through, device_.limit);
 }
 
@@ -137,7 +141,7 @@ void SegmentPlayer::add_forces(double share) {
         if (force.against >= 0) add_slopes(row, force.against, 1, -sign * now.by_velocity);
       }
       for (std::size_t i = 0; i < most_numbers_of_law; ++i) {
-        const auto at = static_cast<Eigen::Index>(force.number + i);
+        const Eigen::Index at = force.numbers[i];
         if (now.by_number[i] != 0.0) row(at) += sign * now.by_number[i] * device_.number_slopes(at);
       }
     };

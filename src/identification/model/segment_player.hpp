@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct PlayedDevice {
     const ForceLaw* law = nullptr;
     Eigen::Index body = 0;
     Eigen::Index against = -1;
-    std::size_t number = 0;
+    std::array<Eigen::Index, most_numbers_of_law> numbers = {};  // behind the law's own: not used
     std::array<double, most_numbers_of_law> values = {};
   };
   struct Friction {
@@ -38,9 +39,10 @@ struct PlayedDevice {
   Eigen::VectorXd number_slopes;     ///< d value / dx
   std::vector<Force> forces;
   std::vector<Friction> frictions;
-  DriveTerm drive;
-  double dead_band = 0.0;
-  double limit = 0.0;
+  std::optional<Eigen::Index> dead_band_number;
+  std::optional<Eigen::Index> saturation_number;
+  double dead_band = 0.0;  ///< N or N m
+  double limit = 0.0;      ///< N or N m
 };
 
 /// A motion and how it changes, moved part by part. Rows of a body are contiguous: a step is a few sums of rows.
