@@ -1,12 +1,11 @@
 // The simulator of the campaign's records, against motions that are known otherwise.
-#include "identification/independent_simulator.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "identification/campaign/simulator.hpp"
 #include "identification/friction_body.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/state_space.hpp"
@@ -50,7 +49,7 @@ void expect_equal_motion(const std::vector<double>& found, const std::vector<dou
   for (std::size_t k = 0; k < found.size(); ++k) ASSERT_NEAR(found[k], exact[k], share * largest) << "sample " << k;
 }
 
-TEST(IndependentSimulator, LinearMotionOfTwoBodiesIsTheExactDiscreteOne) {
+TEST(CampaignSimulator, LinearMotionOfTwoBodiesIsTheExactDiscreteOne) {
   for (const double delay : {0.0, 0.4e-3, 2.7e-3}) {
     for (const double lag : {0.0, 0.6e-3}) {
       for (const std::size_t sensed : {0U, 1U}) {
@@ -72,7 +71,7 @@ TEST(IndependentSimulator, LinearMotionOfTwoBodiesIsTheExactDiscreteOne) {
   }
 }
 
-TEST(IndependentSimulator, ARubbingBodyMovesAsInClosedForm) {
+TEST(CampaignSimulator, ARubbingBodyMovesAsInClosedForm) {
   simulated::Plant plant;
   plant.masses = {{.mass = 0.2, .damping = 0.5, .friction = {.coulomb = 0.3}}};
   FrictionBody body{.mass = 0.2, .viscous = 0.5, .coulomb = 0.3};
@@ -85,7 +84,7 @@ TEST(IndependentSimulator, ARubbingBodyMovesAsInClosedForm) {
   expect_equal_motion(played(plant, commands), exact, 1e-6);
 }
 
-TEST(IndependentSimulator, AStickingBodyDoesNotCreep) {
+TEST(CampaignSimulator, AStickingBodyDoesNotCreep) {
   simulated::Plant plant = two_bodies();
   plant.masses[0].friction.coulomb = 0.5;
   simulated::Motion motion(plant, simulated_period);
@@ -101,7 +100,7 @@ TEST(IndependentSimulator, AStickingBodyDoesNotCreep) {
   EXPECT_FALSE(motion.sticks(0));
 }
 
-TEST(IndependentSimulator, StictionHoldsUntilItIsExceeded) {
+TEST(CampaignSimulator, StictionHoldsUntilItIsExceeded) {
   simulated::Plant plant;
   plant.masses = {{.mass = 0.1, .friction = {.coulomb = 0.2, .stiction = 0.4, .stribeck_speed = 0.01}}};
   simulated::Motion motion(plant, simulated_period);
@@ -115,7 +114,7 @@ TEST(IndependentSimulator, StictionHoldsUntilItIsExceeded) {
 }
 
 /// With nothing that drives it a motion loses energy, whatever rubs, slips or has play.
-TEST(IndependentSimulator, EnergyDoesNotGrow) {
+TEST(CampaignSimulator, EnergyDoesNotGrow) {
   std::vector<simulated::Plant> plants(7, two_bodies());
   plants[1].masses[0].friction.coulomb = 0.3;
   plants[2].masses[1].friction = {.coulomb = 0.2, .stiction = 0.3, .stribeck_speed = 0.02, .asymmetry = 0.3};
@@ -144,7 +143,7 @@ TEST(IndependentSimulator, EnergyDoesNotGrow) {
   }
 }
 
-TEST(IndependentSimulator, AVoltageDrivesBackEmfIsADampingBehindItsLag) {
+TEST(CampaignSimulator, AVoltageDrivesBackEmfIsADampingBehindItsLag) {
   simulated::Plant plant;
   plant.masses = {{.mass = 0.1, .damping = 0.1}};
   plant.drive.lag = 1e-4;
