@@ -18,12 +18,7 @@
 namespace zwidth::test::campaign {
 namespace {
 
-Kind kind_named(const std::string& name) {
-  const auto all = kinds();
-  const auto found = std::ranges::find_if(all, [&](const Kind& kind) { return name == kind.name; });
-  EXPECT_NE(found, all.end()) << name;
-  return *found;
-}
+Case case_of(const char* name, std::uint64_t seed) { return drawn_case(*find_kind(name), seed); }
 
 TEST(CampaignKinds, AreAtLeastFortyAndEachIsDrawn) {
   std::set<std::string> names;
@@ -49,7 +44,7 @@ TEST(CampaignKinds, ALinearRecordIsThatOfItsTrueDevice) {
   for (const char* name : {"rigid_chirp", "two_body_multisine", "handle_sensed", "three_body", "delay_and_lag",
                            "spring_named", "mode_in_band", "coil_back_emf", "viscoelastic_link"}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      Case made = drawn_case(kind_named(name), seed);
+      Case made = case_of(name, seed);
       made.experiment.noise = 0.0;
       made.experiment.disturbance = 0.0;
       const Recording recording = recorded(made).front().recording;
@@ -72,9 +67,9 @@ TEST(CampaignKinds, ALinearRecordIsThatOfItsTrueDevice) {
 }
 
 TEST(CampaignKinds, ARecordIsThatOfItsSeeds) {
-  const Case made = drawn_case(kind_named("friction_1_to_5_twice"), 4);
+  const Case made = case_of("friction_1_to_5_twice", 4);
   const auto first = recorded(made, 1);
-  const auto same = recorded(drawn_case(kind_named("friction_1_to_5_twice"), 4), 1);
+  const auto same = recorded(case_of("friction_1_to_5_twice", 4), 1);
   const auto other = recorded(made, 2);
   ASSERT_EQ(first.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -87,7 +82,7 @@ TEST(CampaignKinds, ARecordIsThatOfItsSeeds) {
 }
 
 TEST(CampaignKinds, LostRowsKeepTheirTimes) {
-  const Case made = drawn_case(kind_named("lost_rows"), 1);
+  const Case made = case_of("lost_rows", 1);
   const Rows rows = recorded(made).front();
   ASSERT_EQ(rows.times.size(), rows.recording.channels[0].samples.size());
   const double whole = made.experiment.duration / made.experiment.period;

@@ -12,6 +12,7 @@
 
 #include "identification/campaign/simulator.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 /// A device of the identification campaign on its bench: drawn, its limit known, the experiment to suit it.
@@ -285,5 +286,10 @@ inline bool settle(Case& c, Draw& draw) {
 }
 
 }  // namespace detail
+
+/// The limit of the truth with any passive user; NaN where it has no body to hold.
+[[nodiscard]] inline double any_user_limit(const Case& c) {
+  return c.truth.bodies.empty() ? std::nan("") : absolute_stability_limit(Device(c.truth)).stiffness;
+}
 
 }  // namespace zwidth::test::campaign

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "identification/campaign/bench.hpp"
 #include "identification/campaign/simulator.hpp"
@@ -323,6 +324,13 @@ inline void late_rows(Case& c, Draw&) { c.experiment.late_rows = 1; }
       Kind{"late_rows", 0, false, Evidence::none, nothing, late_rows},
   };
   return all;
+}
+
+/// Nothing for a name that is none.
+[[nodiscard]] inline const Kind* find_kind(std::string_view name) {
+  const auto all = kinds();
+  const auto found = std::ranges::find_if(all, [&](const Kind& kind) { return name == kind.name; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 /// The device of this kind and seed, and how it is recorded.
