@@ -143,6 +143,19 @@ TEST(CampaignSimulator, EnergyDoesNotGrow) {
   }
 }
 
+TEST(CampaignSimulator, BristlesGiveTheirFrictionHoweverFastTheyBend) {
+  simulated::Plant plant;
+  plant.masses = {{.mass = 0.5, .friction = {.coulomb = 0.3, .bristles = 3e3}}};
+  simulated::Motion motion(plant, simulated_period);
+  motion.place(0, 0.0, 2.0);
+  motion.command(0.0);
+  motion.advance(1.0);
+  EXPECT_NEAR(motion.velocity(0), 2.0 - 0.3 / 0.5, 1e-3);
+  motion.advance(9.0);  // it comes to rest, and swings on bristles that do not slip
+  EXPECT_NEAR(motion.velocity(0), 0.0, 2e-3);
+  EXPECT_NEAR(motion.position(0), 0.5 * 2.0 * 2.0 * 0.5 / 0.3, 1e-3);
+}
+
 TEST(CampaignSimulator, AVoltageDrivesBackEmfIsADampingBehindItsLag) {
   simulated::Plant plant;
   plant.masses = {{.mass = 0.1, .damping = 0.1}};

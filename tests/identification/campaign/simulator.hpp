@@ -223,6 +223,21 @@ class Motion {
     return stiffness > 0.0 ? speed - std::abs(speed) * stiffness * bent / friction : 0.0;
   }
 
+  /// Bristles that bend fast settle fast.
+  [[nodiscard]] double longest_of_bristles() const {
+    double fastest = 1e-9;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const Friction& rough = plant_.masses[i].friction;
+      if (rough.bristles > 0.0) fastest = std::max(fastest, std::abs(state_[n_ + i]) * rough.bristles / rough.coulomb);
+    }
+    for (const Joint& joint : plant_.joints) {
+      const double speed = std::abs(state_[n_ + joint.first] - state_[n_ + joint.second]);
+      if (joint.bristles > 0.0) fastest = std::max(fastest, speed * joint.bristles / joint.friction);
+    }
+    constexpr double share_of_fastest = 0.2;
+    return share_of_fastest / fastest;
+  }
+
   [[nodiscard]] State slope(const State& s, double time) const {
     State d{};
     const Forces sum = forces(s, time);
@@ -301,7 +316,7 @@ class Motion {
     const auto steps = std::max(1.0, std::ceil(duration / longest_ - 1e-9));
     double left = duration;
     while (left > 1e-13) {
-      const double h = std::min(left, duration / steps);
+      const double h = std::min({left, duration / steps, longest_of_bristles()});
       const State next = stepped(state_, time, h);
       if (ended(next, time + h) == n_) {
         state_ = next;
