@@ -35,7 +35,7 @@ std::vector<double> played(const simulated::Plant& plant, const std::vector<doub
   return positions;
 }
 
-simulated::Plant two_bodies() {
+simulated::Plant driven_pair() {
   simulated::Plant plant;
   plant.masses = {{.mass = 0.3, .damping = 0.4}, {.mass = 0.2, .damping = 0.3, .stiffness = 40.0}};
   plant.joints = {{.first = 0, .second = 1, .stiffness = 2e4, .damping = 0.8}};
@@ -53,7 +53,7 @@ TEST(CampaignSimulator, LinearMotionOfTwoBodiesIsTheExactDiscreteOne) {
   for (const double delay : {0.0, 0.4e-3, 2.7e-3}) {
     for (const double lag : {0.0, 0.6e-3}) {
       for (const std::size_t sensed : {0U, 1U}) {
-        simulated::Plant plant = two_bodies();
+        simulated::Plant plant = driven_pair();
         plant.drive.delay = delay;
         plant.drive.lag = lag;
         plant.sensed = sensed;
@@ -85,7 +85,7 @@ TEST(CampaignSimulator, ARubbingBodyMovesAsInClosedForm) {
 }
 
 TEST(CampaignSimulator, AStickingBodyDoesNotCreep) {
-  simulated::Plant plant = two_bodies();
+  simulated::Plant plant = driven_pair();
   plant.masses[0].friction.coulomb = 0.5;
   simulated::Motion motion(plant, simulated_period);
   for (int k = 0; k < 5000; ++k) {
@@ -115,7 +115,7 @@ TEST(CampaignSimulator, StictionHoldsUntilItIsExceeded) {
 
 /// With nothing that drives it a motion loses energy, whatever rubs, slips or has play.
 TEST(CampaignSimulator, EnergyDoesNotGrow) {
-  std::vector<simulated::Plant> plants(7, two_bodies());
+  std::vector<simulated::Plant> plants(7, driven_pair());
   plants[1].masses[0].friction.coulomb = 0.3;
   plants[2].masses[1].friction = {.coulomb = 0.2, .stiction = 0.3, .stribeck_speed = 0.02, .asymmetry = 0.3};
   plants[3].masses[0].friction = {.coulomb = 0.3, .bristles = 3e3};
