@@ -28,6 +28,8 @@ class TimeEvidence : public LeastSquaresProblem {
   [[nodiscard]] const MotionModel& model() const noexcept { return model_; }
   [[nodiscard]] const std::vector<Segment>& segments() const noexcept { return segments_; }
   [[nodiscard]] const std::vector<Noise>& noise() const noexcept { return noise_; }
+  /// Of each record, m or rad.
+  [[nodiscard]] const std::vector<double>& encoder_steps() const noexcept { return steps_; }
   void set_noise(std::vector<Noise> noise) { noise_ = std::move(noise); }
 
   /// Played less recorded, by segment.

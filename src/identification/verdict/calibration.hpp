@@ -17,6 +17,9 @@ struct Calibration {
   /// Lags of the force whose correlation with the residuals is tested, samples; below 0 the force follows the motion. Dense
   /// where a response begins, a factor of about 1.4 apart later: neighbours there tell the same of a smooth force.
   static constexpr std::array<int, 16> force_lags = {-5, -2, -1, 0, 1, 2, 3, 5, 7, 10, 14, 20, 30, 45, 70, 100};
+  /// Rounding is noise where the record moves by so many encoder steps within so many samples.
+  static constexpr double least_steps = 3.5;
+  static constexpr Eigen::Index moving_within = 64;
   /// A direction that the fitted ones explain up to this share of its size says nothing of its own.
   static constexpr double least_share = 1e-3;
 };

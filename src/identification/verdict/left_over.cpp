@@ -44,6 +44,18 @@ Eigen::MatrixXd positions_under(const Device& device, double period, const Eigen
   return positions;
 }
 
+/// 1 where the samples about a row span enough steps of the encoder.
+Eigen::VectorXd moving_rows(const Eigen::Ref<const Eigen::VectorXd>& recorded, double step) {
+  Eigen::VectorXd moving = Eigen::VectorXd::Ones(recorded.size());
+  constexpr Eigen::Index half = Calibration::moving_within / 2;
+  for (Eigen::Index k = 0; k < recorded.size(); ++k) {
+    const Eigen::Index begin = std::max<Eigen::Index>(0, k - half);
+    const auto about = recorded.segment(begin, std::min(recorded.size(), k + half) - begin);
+    if (about.maxCoeff() - about.minCoeff() < Calibration::least_steps * step) moving(k) = 0.0;
+  }
+  return moving;
+}
+
 }  // namespace
 
 std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, const Eigen::VectorXd& z) {
@@ -85,10 +97,12 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
     const auto order = static_cast<Eigen::Index>(noise.filter.size()) - 1;
     const Eigen::MatrixXd slopes = whitened(noise, (*played)[i].slopes);
     const Eigen::Map<const Eigen::VectorXd> recorded(record.position.data() + segment.first, count);
+    const Eigen::VectorXd counts = moving_rows(recorded, evidence.encoder_steps()[segment.record]).tail(count - order);
+    const auto counted = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd { return counts.asDiagonal() * columns; };
     left.push_back({segment.record, segment.first + static_cast<std::size_t>(order), repeat_of(record.force), order,
-                    whitened(noise, position - recorded), slopes.leftCols(numbers), slopes.rightCols(model.states()),
-                    whitened(noise, lagged), whitened(noise, positions_under(device, record.sampling_period, forces)),
-                    speed.tail(count - order)});
+                    counted(whitened(noise, position - recorded)), counted(slopes.leftCols(numbers)), counted(slopes.rightCols(model.states())),
+                    counted(whitened(noise, lagged)), counted(whitened(noise, positions_under(device, record.sampling_period, forces))),
+                    counts.cwiseProduct(speed.tail(count - order)), counts});
   }
   return left;
 }

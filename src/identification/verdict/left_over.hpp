@@ -21,6 +21,8 @@ struct LeftOver {
   Eigen::MatrixXd lagged;     ///< the force at the lags of Calibration::force_lags
   Eigen::MatrixXd forces;     ///< what nonlinear forces would add to the position
   Eigen::VectorXd speed;      ///< |velocity|, not filtered
+  /// 1, and 0 where the encoder hardly moves: rounding is no noise there (Widrow & Kollar 2008, ch. 5). All else is 0 there too.
+  Eigen::VectorXd counts;
 };
 
 /// What the numbers and states z leave of the records; nothing where they cannot be played.

@@ -184,12 +184,16 @@ Omnibus omnibus(const std::vector<LeftOver>& left) {
   const Fitted fitted(left);
   Eigen::VectorXd residuals(rows_of(left));
   Columns speed(residuals.size(), 1);
+  Eigen::VectorXd counts(residuals.size());
   Eigen::Index at = 0;
   for (const LeftOver& each : left) {
     residuals.segment(at, each.residuals.size()) = each.residuals;
-    speed.col(0).segment(at, each.residuals.size()) = each.speed.array() - each.speed.mean();
+    const double mean = each.speed.sum() / std::max(1.0, each.counts.sum());
+    speed.col(0).segment(at, each.residuals.size()) = each.speed - mean * each.counts;
+    counts.segment(at, each.residuals.size()) = each.counts;
     at += each.residuals.size();
   }
+  if (counts.sum() < 1.0) return found;
   residuals = fitted.without(residuals);
   std::optional<Tested> clearest;
   const auto add = [&](std::optional<Tested> test) {
@@ -208,7 +212,7 @@ Omnibus omnibus(const std::vector<LeftOver>& left) {
   };
   add_score(Omnibus::Kind::follows_force, stacked(left, &LeftOver::lagged));
   add_score(Omnibus::Kind::nonlinear, stacked(left, &LeftOver::forces));
-  const Eigen::VectorXd squares = residuals.array().square() - residuals.squaredNorm() / static_cast<double>(residuals.size());
+  const Eigen::VectorXd squares = residuals.array().square() - residuals.squaredNorm() / counts.sum();
   add(tested(Omnibus::Kind::varies_with_speed, squares.asDiagonal() * speed, left, 1));
   if (!clearest) return found;
   found.clearest = clearest->part.kind;
