@@ -82,26 +82,31 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
     const double mean = position.mean();
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto at = static_cast<std::ptrdiff_t>(segment.first) + k;
-      for (Eigen::Index j = 0; j < lags; ++j) lagged(k, j) = sample_at(record.force, at - Calibration::force_lags[static_cast<std::size_t>(j)]);
+      for (Eigen::Index j = 0; j < lags; ++j)
+        lagged(k, j) = sample_at(record.force, at - Calibration::force_lags[static_cast<std::size_t>(j)]);
       const Eigen::Index next = std::min(k + 1, count - 1);
       const Eigen::Index last = std::max<Eigen::Index>(k - 1, 0);
-      const double velocity = (position(next) - position(last)) / (static_cast<double>(next - last) * record.sampling_period);
+      const double velocity =
+          (position(next) - position(last)) / (static_cast<double>(next - last) * record.sampling_period);
       const double force = sample_at(record.force, at);
       const double place = position(k) - mean;
       const double share = static_cast<double>(at) / static_cast<double>(record.position.size()) - 0.5;
       speed(k) = std::abs(velocity);
-      forces.row(k) << force * force, force * force * force, velocity > 0.0 ? 1.0 : -1.0, speed(k), velocity * speed(k), place * place,
-          place * place * place, share * velocity;
+      forces.row(k) << force * force, force * force * force, velocity > 0.0 ? 1.0 : -1.0, speed(k), velocity * speed(k),
+          place * place, place * place * place, share * velocity;
     }
     forces.colwise().normalize();
     const auto order = static_cast<Eigen::Index>(noise.filter.size()) - 1;
     const Eigen::MatrixXd slopes = whitened(noise, (*played)[i].slopes);
     const Eigen::Map<const Eigen::VectorXd> recorded(record.position.data() + segment.first, count);
     const Eigen::VectorXd counts = moving_rows(recorded, evidence.encoder_steps()[segment.record]).tail(count - order);
-    const auto counted = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd { return counts.asDiagonal() * columns; };
+    const auto counted = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
+      return counts.asDiagonal() * columns;
+    };
     left.push_back({segment.record, segment.first + static_cast<std::size_t>(order), repeat_of(record.force), order,
-                    counted(whitened(noise, position - recorded)), counted(slopes.leftCols(numbers)), counted(slopes.rightCols(model.states())),
-                    counted(whitened(noise, lagged)), counted(whitened(noise, positions_under(device, record.sampling_period, forces))),
+                    counted(whitened(noise, position - recorded)), counted(slopes.leftCols(numbers)),
+                    counted(slopes.rightCols(model.states())), counted(whitened(noise, lagged)),
+                    counted(whitened(noise, positions_under(device, record.sampling_period, forces))),
                     counts.cwiseProduct(speed.tail(count - order)), counts});
   }
   return left;

@@ -90,12 +90,14 @@ Score score_of(const Columns& terms, const std::vector<LeftOver>& left) {
       Eigen::Index row = at;
       for (std::size_t s = i; s < end; ++s) {
         for (Eigen::Index k = 0; k < left[s].residuals.size(); ++k) {
-          folded.row(static_cast<Eigen::Index>((left[s].first + static_cast<std::size_t>(k)) % period)) += terms.row(row++);
+          folded.row(static_cast<Eigen::Index>((left[s].first + static_cast<std::size_t>(k)) % period)) +=
+              terms.row(row++);
         }
       }
     }
     // Newey & West 1994: the bandwidth 4 (N / 100)^(2/9).
-    const auto bandwidth = std::min<Eigen::Index>(folded.rows() - 1, std::lround(4.0 * std::pow(static_cast<double>(folded.rows()) / 100.0, 2.0 / 9.0)));
+    const auto bandwidth = std::min<Eigen::Index>(
+        folded.rows() - 1, std::lround(4.0 * std::pow(static_cast<double>(folded.rows()) / 100.0, 2.0 / 9.0)));
     score.covariance += folded.transpose() * folded;
     for (Eigen::Index lag = 1; lag <= bandwidth; ++lag) {
       const double weight = 1.0 - static_cast<double>(lag) / static_cast<double>(bandwidth + 1);
@@ -136,7 +138,8 @@ Columns lagged_products(const Eigen::VectorXd& residuals, const std::vector<Left
     const Eigen::Index rows = each.residuals.size();
     for (Eigen::Index j = 0; j < products.cols() && first + j < rows; ++j) {
       const Eigen::Index lag = first + j;
-      products.col(j).segment(at + lag, rows - lag) = residuals.segment(at + lag, rows - lag).cwiseProduct(residuals.segment(at, rows - lag));
+      products.col(j).segment(at + lag, rows - lag) =
+          residuals.segment(at + lag, rows - lag).cwiseProduct(residuals.segment(at, rows - lag));
     }
     at += rows;
   }
@@ -171,7 +174,8 @@ double combined(const std::vector<Omnibus::Part>& parts) {
   double mean = 0.0;
   for (const Omnibus::Part& each : parts) {
     const double p = std::max(each.p, least);
-    mean += (p < small ? 1.0 / (p * std::numbers::pi) : std::tan((0.5 - std::min(p, 1.0 - small)) * std::numbers::pi)) / static_cast<double>(parts.size());
+    mean += (p < small ? 1.0 / (p * std::numbers::pi) : std::tan((0.5 - std::min(p, 1.0 - small)) * std::numbers::pi)) /
+            static_cast<double>(parts.size());
   }
   return mean > 1.0 / small ? 1.0 / (mean * std::numbers::pi) : 0.5 - std::atan(mean) / std::numbers::pi;
 }
