@@ -5,25 +5,25 @@
 #include <optional>
 #include <vector>
 
+#include "identification/evidence/evidence.hpp"
 #include "identification/evidence/noise.hpp"
-#include "identification/fit/least_squares_problem.hpp"
 #include "identification/model/motion_model.hpp"
 
 namespace zwidth::internal {
 
-/// The records in segments as a problem of least squares, with what is believed of the numbers beforehand.
-///
-/// z: the numbers' coordinates, then each segment's state. Residuals: played less recorded, whitened; and (x - expected) / deviation.
-class TimeEvidence : public LeastSquaresProblem {
+/// The records in segments. Its own elements: each segment's state. Residuals: played less recorded, whitened.
+class TimeEvidence : public Evidence {
  public:
-  TimeEvidence(const MotionModel& model, std::vector<Segment> segments, std::vector<double> encoder_steps, Eigen::Index noise_order);
+  TimeEvidence(const MotionModel& model, std::vector<Segment> segments, std::vector<double> encoder_steps,
+               Eigen::Index noise_order);
 
-  [[nodiscard]] Eigen::VectorXd lowest() const override;
-  [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& z) const override;
-  [[nodiscard]] std::optional<Picture> picture(const Eigen::VectorXd& z) const override;
+  [[nodiscard]] Eigen::VectorXd own_lowest() const override;
+  /// The states of the record.
+  [[nodiscard]] Eigen::VectorXd own_start(const Eigen::VectorXd& x) const override;
+  [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& x, const Eigen::VectorXd& own) const override;
+  [[nodiscard]] bool add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& own, Eigen::Index at,
+                                 Picture& sum) const override;
 
-  /// x with the states of the record.
-  [[nodiscard]] Eigen::VectorXd start(const Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::Index numbers() const { return static_cast<Eigen::Index>(model_.numbers().size()); }
   [[nodiscard]] const MotionModel& model() const noexcept { return model_; }
   [[nodiscard]] const std::vector<Segment>& segments() const noexcept { return segments_; }
@@ -33,12 +33,14 @@ class TimeEvidence : public LeastSquaresProblem {
   void set_noise(std::vector<Noise> noise) { noise_ = std::move(noise); }
 
   /// Played less recorded, by segment.
-  [[nodiscard]] std::optional<std::vector<Eigen::VectorXd>> residuals(const Eigen::VectorXd& z) const;
-  /// The noise that the residuals at z have.
-  [[nodiscard]] std::optional<std::vector<Noise>> noise_at(const Eigen::VectorXd& z) const;
+  [[nodiscard]] std::optional<std::vector<Eigen::VectorXd>> residuals(const Eigen::VectorXd& x,
+                                                                      const Eigen::VectorXd& own) const;
+  /// The noise that the residuals there have.
+  [[nodiscard]] std::optional<std::vector<Noise>> noise_at(const Eigen::VectorXd& x, const Eigen::VectorXd& own) const;
 
  private:
-  [[nodiscard]] std::optional<std::vector<PlayedSegment>> play(const Eigen::VectorXd& z, bool with_slopes) const;
+  [[nodiscard]] std::optional<std::vector<PlayedSegment>> play(const Eigen::VectorXd& x, const Eigen::VectorXd& own,
+                                                               bool with_slopes) const;
   [[nodiscard]] Eigen::Map<const Eigen::VectorXd> recorded(const Segment& segment) const;
 
   const MotionModel& model_;
