@@ -12,7 +12,8 @@ Eigen::MatrixXd whitened(const Noise& noise, const Eigen::Ref<const Eigen::Matri
   Eigen::MatrixXd white = Eigen::MatrixXd::Zero(rows, columns.cols());
   for (Eigen::Index column = 0; column < columns.cols(); ++column) {
     for (Eigen::Index j = 0; j <= order; ++j) {
-      white.col(column) += noise.filter[static_cast<std::size_t>(j)] / noise.deviation * columns.col(column).segment(order - j, rows);
+      white.col(column) +=
+          noise.filter[static_cast<std::size_t>(j)] / noise.deviation * columns.col(column).segment(order - j, rows);
     }
   }
   return white;

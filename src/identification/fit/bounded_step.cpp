@@ -19,7 +19,8 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gr
   Eigen::MatrixXd own = hessian(free, free);
   Eigen::VectorXd right = -gradient(free);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
-    if (fixed[i] && at(static_cast<Eigen::Index>(i)) != 0.0) right -= hessian(free, static_cast<Eigen::Index>(i)) * at(static_cast<Eigen::Index>(i));
+    if (fixed[i] && at(static_cast<Eigen::Index>(i)) != 0.0)
+      right -= hessian(free, static_cast<Eigen::Index>(i)) * at(static_cast<Eigen::Index>(i));
   }
   // In units in which the diagonal is 1: numbers that the data hardly tell stay apart from rounding.
   constexpr double least = 1e-13;
@@ -32,8 +33,8 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gr
 
 }  // namespace
 
-Eigen::VectorXd bounded_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient, const Eigen::VectorXd& lowest,
-                             const std::vector<bool>& held) {
+Eigen::VectorXd bounded_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
+                             const Eigen::VectorXd& lowest, const std::vector<bool>& held) {
   const Eigen::Index size = gradient.size();
   std::vector<bool> fixed(static_cast<std::size_t>(size), false);
   Eigen::VectorXd at = Eigen::VectorXd::Zero(size);

@@ -8,7 +8,8 @@
 
 namespace zwidth::internal {
 
-std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start, const MinimiseOptions& options) {
+std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start,
+                                const MinimiseOptions& options) {
   std::optional<Picture> here = problem.picture(start);
   if (!here) return std::nullopt;
   Minimum found{std::move(start), *std::move(here), false};

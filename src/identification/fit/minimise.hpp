@@ -19,6 +19,7 @@ struct Minimum {
 };
 
 /// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.
-[[nodiscard]] std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start, const MinimiseOptions& options = {});
+[[nodiscard]] std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start,
+                                              const MinimiseOptions& options = {});
 
 }  // namespace zwidth::internal

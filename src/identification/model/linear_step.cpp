@@ -53,8 +53,9 @@ std::vector<Eigen::MatrixXd> motion_slopes(const DeviceFamily& family, const Eig
     Eigen::VectorXd below = x;
     above(i) += step;
     below(i) = std::max(number.lowest(), x(i) - step);
-    slopes.emplace_back((motion_columns(family.recorded_device(above)) - motion_columns(family.recorded_device(below))) /
-                        (above(i) - below(i)));
+    slopes.emplace_back(
+        (motion_columns(family.recorded_device(above)) - motion_columns(family.recorded_device(below))) /
+        (above(i) - below(i)));
   }
   return slopes;
 }
@@ -77,7 +78,8 @@ LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::
   LinearStep step{count, whole.minus_one.topRows(rows), {}};
   for (Eigen::Index j = 0; j < size && numbers > 0; ++j) {
     Eigen::MatrixXd by_number(rows, numbers);
-    for (Eigen::Index d = 0; d < numbers; ++d) by_number.col(d) = whole.derivatives[static_cast<std::size_t>(d)].col(j).head(rows);
+    for (Eigen::Index d = 0; d < numbers; ++d)
+      by_number.col(d) = whole.derivatives[static_cast<std::size_t>(d)].col(j).head(rows);
     step.slopes.push_back(std::move(by_number));
   }
   return step;

@@ -21,7 +21,8 @@ MotionModel::MotionModel(DeviceFamily family, MotionTerms terms, std::vector<For
     : family_(std::move(family)), terms_(std::move(terms)), records_(std::move(records)), parts_(parts) {
   for (const ForceMotionRecord& record : records_) {
     double squares = 0.0;
-    for (std::size_t k = 1; k < record.position.size(); ++k) squares += std::pow(record.position[k] - record.position[k - 1], 2);
+    for (std::size_t k = 1; k < record.position.size(); ++k)
+      squares += std::pow(record.position[k] - record.position[k - 1], 2);
     const double change = std::sqrt(squares / static_cast<double>(record.position.size()));
     double largest = 0.0;
     for (const double each : record.force) largest = std::max(largest, std::abs(each));
@@ -56,7 +57,8 @@ Eigen::VectorXd MotionModel::recorded_state(const Segment& segment) const {
   return state;
 }
 
-std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorXd& x, const std::vector<Segment>& segments,
+std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorXd& x,
+                                                            const std::vector<Segment>& segments,
                                                             const std::vector<Eigen::VectorXd>& states,
                                                             bool with_slopes) const {
   if (find_problem(family_.device_at(x))) return std::nullopt;
@@ -69,7 +71,8 @@ std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorX
     const ForceMotionRecord& record = records_[segment.record];
     const Units& units = units_[segment.record];
     if (!device || segments[s - 1].record != segment.record) {
-      device.emplace(family_, terms_, names_, segment.record, units.largest_force, record.sampling_period, parts_, x, with_slopes);
+      device.emplace(family_, terms_, names_, segment.record, units.largest_force, record.sampling_period, parts_, x,
+                     with_slopes);
     }
     SegmentPlayer player(*device, bodies_, columns);
     Eigen::VectorXd unit(this->states());

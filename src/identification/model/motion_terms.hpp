@@ -14,9 +14,9 @@ namespace zwidth::internal {
 struct ForceTerm {
   std::shared_ptr<const ForceLaw> law;
   std::string body;
-  std::string against = {};                   ///< another body, which feels the opposite; empty: the ground
-  std::vector<std::string> numbers = {};      ///< of the law, by their keys, in its order
-  std::optional<std::size_t> record = {};     ///< it acts in; absent: all
+  std::string against = {};                ///< another body, which feels the opposite; empty: the ground
+  std::vector<std::string> numbers = {};   ///< of the law, by their keys, in its order
+  std::optional<std::size_t> record = {};  ///< it acts in; absent: all
 };
 
 /// Dry friction of a body, which sticks.
@@ -27,8 +27,9 @@ struct FrictionTerm {
 
 /// A drive that gives less than it is told: none within the dead band, no more than its limit.
 struct DriveTerm {
-  std::optional<std::string> dead_band = {};   ///< key of a number, N or N m
-  std::optional<std::string> saturation = {};  ///< key of a number, N or N m: how far the limit is below the largest command
+  std::optional<std::string> dead_band = {};  ///< key of a number, N or N m
+  std::optional<std::string> saturation =
+      {};  ///< key of a number, N or N m: how far the limit is below the largest command
 };
 
 /// What moves the device beside its linear equations.

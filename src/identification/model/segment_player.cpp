@@ -71,9 +71,11 @@ double SegmentPlayer::given(double command, Row& command_slopes) const {
   if (!device_.dead_band_number && !device_.saturation_number) return command;
   const double direction = command < 0.0 ? -1.0 : 1.0;
   const double through = std::max(0.0, std::abs(command) - device_.dead_band);
-  const std::optional<Eigen::Index>& number = through > device_.limit ? device_.saturation_number : device_.dead_band_number;
+  const std::optional<Eigen::Index>& number =
+      through > device_.limit ? device_.saturation_number : device_.dead_band_number;
   command_slopes.setZero(slopes.cols());
-  if (command_slopes.size() > 0 && number && through > 0.0) command_slopes(*number) = -direction * device_.number_slopes(*number);
+  if (command_slopes.size() > 0 && number && through > 0.0)
+    command_slopes(*number) = -direction * device_.number_slopes(*number);
   return direction * std::min(through, device_.limit);
 }
 
@@ -157,7 +159,9 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
   const Eigen::Index first = x.size() + 1;
   std::array<FrictionStep, most_bodies> steps = {};
   const auto body = [&](std::size_t i) { return device_.frictions[i].body; };
-  const auto compliance = [&](std::size_t on, std::size_t of) { return step.columns(bodies_ + body(on), first + body(of)); };
+  const auto compliance = [&](std::size_t on, std::size_t of) {
+    return step.columns(bodies_ + body(on), first + body(of));
+  };
   forces_.setZero();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -200,9 +204,11 @@ void SegmentPlayer::apply(const LinearStep& step) {
     x += step.columns.col(first + body) * force;
     if (slopes.cols() == 0) continue;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if (step.columns(i, first + body) != 0.0) slopes.row(i) += step.columns(i, first + body) * force_slopes_.row(body);
+      if (step.columns(i, first + body) != 0.0)
+        slopes.row(i) += step.columns(i, first + body) * force_slopes_.row(body);
     }
-    if (force != 0.0) slopes.leftCols(step.slopes.front().cols()) += step.slopes[static_cast<std::size_t>(first + body)] * force;
+    if (force != 0.0)
+      slopes.leftCols(step.slopes.front().cols()) += step.slopes[static_cast<std::size_t>(first + body)] * force;
   }
 }
 

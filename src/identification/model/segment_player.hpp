@@ -16,7 +16,8 @@ namespace zwidth::internal {
 struct PlayedDevice {
   /// The device at x.
   PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
-               std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x, bool with_slopes);
+               std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
+               bool with_slopes);
 
   struct Force {
     const ForceLaw* law = nullptr;
@@ -35,8 +36,9 @@ struct PlayedDevice {
   LinearStep after;                  ///< from then on
   std::ptrdiff_t delay_samples = 0;  ///< of the command from then on
   Eigen::VectorXd input;             ///< b
-  std::vector<std::pair<Eigen::Index, double>> instants;  ///< numbers that move the change of the command, s per unit of x
-  Eigen::VectorXd number_slopes;     ///< d value / dx
+  std::vector<std::pair<Eigen::Index, double>>
+      instants;                   ///< numbers that move the change of the command, s per unit of x
+  Eigen::VectorXd number_slopes;  ///< d value / dx
   std::vector<Force> forces;
   std::vector<Friction> frictions;
   std::optional<Eigen::Index> dead_band_number;

@@ -10,7 +10,8 @@ namespace zwidth::internal {
 namespace {
 
 /// By differences within a share of each coordinate's deviation.
-Eigen::VectorXd gradient_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied, const Eigen::VectorXd& lowest) {
+Eigen::VectorXd gradient_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied,
+                            const Eigen::VectorXd& lowest) {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(z.size());
   for (Eigen::Index i = 0; i < varied; ++i) {
     const double step = 1e-4 * std::max(1e-2, std::abs(z(i)));
@@ -27,11 +28,12 @@ Eigen::VectorXd gradient_of(const LogOf& number, const Eigen::VectorXd& z, Eigen
 
 }  // namespace
 
-ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number, Eigen::Index varied, double direction, double rise) {
+ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
+                       Eigen::Index varied, double direction, double rise) {
   constexpr int most_steps = 12;
-  constexpr double enough = 0.05;    // of the rise
-  constexpr double better = 0.15;    // of the rise
-  constexpr double still = 2e-4;     // of the logarithm
+  constexpr double enough = 0.05;  // of the rise
+  constexpr double better = 0.15;  // of the rise
+  constexpr double still = 2e-4;   // of the logarithm
   const Eigen::VectorXd lowest = problem.lowest();
   ProfileEnd end{number(minimum.z).value_or(0.0), minimum.z, false, false};
   Eigen::VectorXd z = minimum.z;
@@ -40,8 +42,12 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   for (int step = 0; step < most_steps; ++step) {
     const Eigen::VectorXd slope = -direction * gradient_of(number, z, varied, lowest);
     // min slope'd + w (g'd + d'H d / 2): w by bisection so that the promised cost is what is allowed.
-    const auto move_at = [&](double weight) { return bounded_step(here.hessian, here.gradient + slope * weight, lowest - z); };
-    const auto promised = [&](const Eigen::VectorXd& move) { return here.cost + here.gradient.dot(move) + 0.5 * move.dot(here.hessian * move); };
+    const auto move_at = [&](double weight) {
+      return bounded_step(here.hessian, here.gradient + slope * weight, lowest - z);
+    };
+    const auto promised = [&](const Eigen::VectorXd& move) {
+      return here.cost + here.gradient.dot(move) + 0.5 * move.dot(here.hessian * move);
+    };
     double low = 0.0;
     double high = 1.0;
     while (promised(move_at(high)) < allowed && high < 1e12) high *= 4.0;
@@ -75,7 +81,8 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
       end.value = *value;
       end.z = z;
     }
-    if (is_within && std::abs(*value - before) < still + 0.01 * std::abs(*value - number(minimum.z).value_or(0.0)) && share == 1.0) {
+    if (is_within && std::abs(*value - before) < still + 0.01 * std::abs(*value - number(minimum.z).value_or(0.0)) &&
+        share == 1.0) {
       end.settled = true;
       break;
     }

@@ -25,6 +25,7 @@ struct ProfileEnd {
 /// else refitted along the way: steps of Gauss and Newton on the boundary (Venzon & Moolgavkar 1988).
 ///
 /// `varied`: how many leading elements of z the number hangs on.
-[[nodiscard]] ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number, Eigen::Index varied, double direction, double rise);
+[[nodiscard]] ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
+                                     Eigen::Index varied, double direction, double rise);
 
 }  // namespace zwidth::internal
