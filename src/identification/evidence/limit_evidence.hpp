@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "identification/evidence/evidence.hpp"
+#include "identification/evidence/part_of_evidence.hpp"
 #include "identification/model/device_family.hpp"
 #include "zwidth/identification/measured_limit.hpp"
 
@@ -14,7 +14,7 @@ namespace zwidth::internal {
 ///
 /// of the crossover (K_c, w_c), with the wall's B closed, at which poles leave the unit circle: the one nearest to f, or the one
 /// that limits where no f was measured. It cannot be computed where a device has no such crossover.
-class LimitEvidence : public Evidence {
+class LimitEvidence : public PartOfEvidence {
  public:
   /// Requires limits without a find_problem().
   LimitEvidence(const DeviceFamily& family, std::vector<MeasuredLimit> limits);

@@ -5,7 +5,7 @@
 
 namespace zwidth::internal {
 
-SumOfEvidence::SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const Evidence>> parts)
+SumOfEvidence::SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts)
     : numbers_(std::move(numbers)), parts_(std::move(parts)) {}
 
 Eigen::VectorXd SumOfEvidence::lowest() const {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "identification/evidence/evidence.hpp"
+#include "identification/evidence/part_of_evidence.hpp"
 #include "identification/model/number.hpp"
 
 namespace zwidth::internal {
@@ -15,7 +15,7 @@ namespace zwidth::internal {
 ///     cost(z) = sum_i ((x_i - expected_i) / deviation_i)^2 / 2 + sum of the evidences' costs
 class SumOfEvidence : public LeastSquaresProblem {
  public:
-  SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const Evidence>> parts);
+  SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts);
 
   [[nodiscard]] Eigen::VectorXd lowest() const override;
   [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& z) const override;
@@ -27,7 +27,7 @@ class SumOfEvidence : public LeastSquaresProblem {
   [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(numbers_.size()); }
 
   std::vector<Number> numbers_;
-  std::vector<std::shared_ptr<const Evidence>> parts_;
+  std::vector<std::shared_ptr<const PartOfEvidence>> parts_;
 };
 
 }  // namespace zwidth::internal

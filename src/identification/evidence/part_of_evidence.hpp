@@ -8,12 +8,12 @@
 namespace zwidth::internal {
 
 /// A part of the likelihood: what one kind of measurement says of the numbers of a fit, with elements that only it has.
-class Evidence {
+class PartOfEvidence {
  public:
-  Evidence() = default;
-  Evidence(const Evidence&) = delete;
-  Evidence& operator=(const Evidence&) = delete;
-  virtual ~Evidence() = default;
+  PartOfEvidence() = default;
+  PartOfEvidence(const PartOfEvidence&) = delete;
+  PartOfEvidence& operator=(const PartOfEvidence&) = delete;
+  virtual ~PartOfEvidence() = default;
 
   /// Bounds of its own elements, one each; minus infinity where there is none.
   [[nodiscard]] virtual Eigen::VectorXd own_lowest() const = 0;
