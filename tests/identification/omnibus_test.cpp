@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
 #include "identification/fit/minimise.hpp"
 #include "identification/verdict/calibration.hpp"
@@ -81,17 +82,20 @@ std::optional<Omnibus> left_by_rigid_body(const RecordedBody& body, unsigned see
                                        {"loop.delay", Scale::not_negative, period}};
   const MotionModel model(DeviceFamily(start, numbers, {}), {}, {{force, position, period}}, 1);
   constexpr Eigen::Index order = 24;
-  TimeEvidence evidence(model, {{0, 20, force.size() - 20}}, {0.0}, order);
-  evidence.set_noise({Noise{.filter = {1.0}, .deviation = 1e-4}});
-  auto best = minimise(evidence, evidence.start(model.family().coordinates_of(start)), {.most_steps = 20});
+  const auto evidence =
+      std::make_shared<TimeEvidence>(model, std::vector<Segment>{{0, 20, force.size() - 20}}, std::vector{0.0}, order);
+  const SumOfEvidence all(numbers, {evidence});
+  evidence->set_noise({Noise{.filter = {1.0}, .deviation = 1e-4}});
+  auto best = minimise(all, all.start(model.family().coordinates_of(start)), {.most_steps = 20});
   for (int round = 0; best && round < 4; ++round) {
-    const auto noise = evidence.noise_at(best->z);
+    const Eigen::Index count = evidence->numbers();
+    const auto noise = evidence->noise_at(best->z.head(count), best->z.tail(best->z.size() - count));
     if (!noise) return std::nullopt;
-    evidence.set_noise(*noise);
-    best = minimise(evidence, best->z, {.most_steps = 15});
+    evidence->set_noise(*noise);
+    best = minimise(all, best->z, {.most_steps = 15});
   }
   if (!best) return std::nullopt;
-  const auto left = left_over(evidence, best->z);
+  const auto left = left_over(*evidence, best->z);
   if (!left) return std::nullopt;
   return omnibus(*left);
 }
