@@ -26,6 +26,7 @@ set(slow
   "^InverseDynamics\\.Intervals"
   "^OpenInterval\\.WhereThere"
   "^EncoderRounding\\.IsTaken"
+  "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
   # the library
   "^AlikeBranches\\.(Nearly|Six)"

@@ -409,6 +409,7 @@ enum class FindingCode : std::uint16_t {
   noise_hides_limit,             ///< noise hides the response at the limit
   residual_beyond_noise,         ///< the structure leaves a share of the response beyond the noise
   residual_largest,              ///< the same, with where it is largest
+  residual_stands_out,           ///< what the best fit leaves of a record is more than its noise
   residual_above_noise,          ///< the normalised residual is too large
   residual_above_noise_in_band,    ///< the normalised residual is too large in a part of the band
   residual_in_time_beyond_noise,   ///< the fitted device leaves a share of a recording's response beyond the noise

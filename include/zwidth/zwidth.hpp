@@ -32,6 +32,7 @@
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/inverse_dynamics.hpp"
+#include "zwidth/identification/measured_limit.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/identification/parameter_fit.hpp"

@@ -1,0 +1,47 @@
+#include "identification/fit/minimise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "identification/fit/bounded_step.hpp"
+
+namespace zwidth::internal {
+
+std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start,
+                                const MinimiseOptions& options) {
+  std::optional<Picture> here = problem.picture(start);
+  if (!here) return std::nullopt;
+  Minimum found{std::move(start), *std::move(here), false};
+  double damping = 1e-4;
+  double growth = 2.0;
+  constexpr double most_damping = 1e10;
+  for (int step = 0; step < options.most_steps && damping < most_damping;) {
+    Eigen::MatrixXd damped = found.picture.hessian;
+    damped.diagonal() *= 1.0 + damping;
+    const Eigen::VectorXd move = bounded_step(damped, found.picture.gradient, problem.lowest() - found.z);
+    const double promised = -found.picture.gradient.dot(move) - 0.5 * move.dot(found.picture.hessian * move);
+    if (!(promised > options.least_gain)) {
+      found.settled = true;
+      break;
+    }
+    const Eigen::VectorXd there = found.z + move;
+    const std::optional<double> cost = problem.cost(there);
+    const double kept = cost ? (found.picture.cost - *cost) / promised : -1.0;
+    if (kept > 1e-3) {
+      std::optional<Picture> picture = problem.picture(there);
+      if (!picture) return std::nullopt;
+      found.z = there;
+      found.picture = *std::move(picture);
+      damping = std::max(1e-10, damping * std::max(0.1, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
+      growth = 2.0;
+      ++step;
+    } else {
+      damping *= growth;
+      growth *= 2.0;
+    }
+  }
+  return found;
+}
+
+}  // namespace zwidth::internal

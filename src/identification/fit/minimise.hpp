@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "identification/fit/least_squares_problem.hpp"
+
+namespace zwidth::internal {
+
+struct MinimiseOptions {
+  int most_steps = 40;
+  double least_gain = 1e-3;  ///< of the log-likelihood that a step promises: below, the search is at rest
+};
+
+struct Minimum {
+  Eigen::VectorXd z;
+  Picture picture;  ///< there
+  bool settled = false;
+};
+
+/// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.
+[[nodiscard]] std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start,
+                                              const MinimiseOptions& options = {});
+
+}  // namespace zwidth::internal

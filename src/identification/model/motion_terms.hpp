@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/model/force_law.hpp"
+
+namespace zwidth::internal {
+
+/// A smooth force beside the linear device.
+struct ForceTerm {
+  std::shared_ptr<const ForceLaw> law;
+  std::string body;
+  std::string against = {};                ///< another body, which feels the opposite; empty: the ground
+  std::vector<std::string> numbers = {};   ///< of the law, by their keys, in its order
+  std::optional<std::size_t> record = {};  ///< it acts in; absent: all
+};
+
+/// Dry friction of a body, which sticks.
+struct FrictionTerm {
+  std::string body;
+  std::string number;  ///< N or N m, by its key
+};
+
+/// A drive that gives less than it is told: none within the dead band, no more than its limit.
+struct DriveTerm {
+  std::optional<std::string> dead_band = {};  ///< key of a number, N or N m
+  std::optional<std::string> saturation =
+      {};  ///< key of a number, N or N m: how far the limit is below the largest command
+};
+
+/// What moves the device beside its linear equations.
+struct MotionTerms {
+  std::vector<ForceTerm> forces = {};
+  std::vector<FrictionTerm> frictions = {};
+  DriveTerm drive = {};
+};
+
+}  // namespace zwidth::internal
