@@ -12,16 +12,16 @@ namespace zwidth::internal {
 
 /// What a record says of its own size, and who moves: what the priors are stated in.
 struct RivalSetting {
-  DeviceParameters start;           ///< as a linear fit has it
-  std::vector<std::string> moving;  ///< bodies that are not locked, by name
-  std::size_t records = 0;          ///< how many
-  double sampling_period = 0.0;     ///< s
-  double force = 0.0;               ///< N or N m, root mean square
-  double speed = 0.0;               ///< m/s or rad/s, the largest
-  double position = 0.0;            ///< m or rad, root mean square about its mean
-  double damping = 0.0;             ///< N s/m or N m s/rad, of all bodies to the ground
-  bool frees_lag = false;           ///< a lag may hide beside the delay
-  bool frees_ground = false;        ///< the held body may be tied to the ground
+  DeviceParameters start = {};           ///< as a linear fit has it
+  std::vector<std::string> moving = {};  ///< bodies that are not locked, by name
+  std::size_t records = 0;               ///< how many
+  double sampling_period = 0.0;          ///< s
+  double force = 0.0;                    ///< N or N m, root mean square
+  double speed = 0.0;                    ///< m/s or rad/s, the largest
+  double position = 0.0;                 ///< m or rad, root mean square about its mean
+  double damping = 0.0;                  ///< N s/m or N m s/rad, of all bodies to the ground
+  bool frees_lag = false;                ///< a lag may hide beside the delay
+  bool frees_ground = false;             ///< the held body may be tied to the ground
 };
 
 /// Numbers of a fit and what they do.
