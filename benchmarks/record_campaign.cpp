@@ -9,7 +9,7 @@
 // that stand there, and counts them all: files of several runs may be joined, and `--seeds 1:0` only counts. No record
 // begins after the time limit (processor seconds of all); one that takes longer than its budget is `late`. `--require`: exit
 // status 1 where a figure is missed. `--method frf`: the limit that the response shows without a structure, of devices that
-// nothing holds still; `time`: identify_in_time().
+// nothing holds still; `time`: identify_in_time(); `likelihood`: fit_by_likelihood().
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -70,6 +70,7 @@ Options options_of(int argc, char** argv) {
       const std::string method = value();
       if (method == "time") options.judge.method = Method::in_time;
       if (method == "frf") options.judge.method = Method::response;
+      if (method == "likelihood") options.judge.method = Method::likelihood;
     } else if (name == "--reasons") {
       options.judge.reasons = true;
     } else if (name == "--require") {

@@ -15,6 +15,7 @@
 
 #include "identification/campaign/bench.hpp"
 #include "identification/campaign/recording.hpp"
+#include "identification/likelihood_fit.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/measured_response.hpp"
@@ -26,7 +27,7 @@
 /// What identify() makes of a record of the campaign.
 namespace zwidth::test::campaign {
 
-enum class Method { identify, in_time, response };
+enum class Method { identify, in_time, response, likelihood };
 
 struct JudgeOptions {
   Method method = Method::identify;
@@ -181,6 +182,16 @@ inline Line judged(const Case& made, std::uint64_t noise, const JudgeOptions& op
     const Device structure(made.structure);
     if (options.method == Method::response) {
       detail::take(line, reasons, frequency_response(recordings, {}, in_budget));
+    } else if (options.method == Method::likelihood) {
+      const auto found = internal::fit_by_likelihood(recordings, structure,
+                                                     {.free = made.free, .locked = made.locked, .known = made.known});
+      constexpr double widest = 1.5;  // of a sound interval
+      if (found) {
+        line.verdict = found->upper <= widest * found->lower ? "sound" : "doubtful";
+        line.value = found->stiffness;
+        line.lower = found->lower;
+        line.upper = found->upper;
+      }
     } else if (options.method == Method::in_time) {
       TimeDomainOptions how;
       how.structure_values = values;
