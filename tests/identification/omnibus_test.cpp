@@ -24,7 +24,7 @@ struct RecordedBody {
   double tip_mass = 0.0;      ///< kg, on a spring that lets it swing at 60 Hz
 };
 
-constexpr double period = 1e-3;  // s
+constexpr double record_period = 1e-3;  // s
 
 /// A sweep of 2 N from 1 to 200 Hz in 3 s.
 std::vector<double> sweep() {
@@ -32,7 +32,7 @@ std::vector<double> sweep() {
   double phase = 0.0;
   constexpr int samples = 3000;
   for (int k = 0; k < samples; ++k) {
-    phase += 2.0 * std::numbers::pi * period * std::pow(200.0, static_cast<double>(k) / samples);
+    phase += 2.0 * std::numbers::pi * record_period * std::pow(200.0, static_cast<double>(k) / samples);
     force.push_back(2.0 * std::sin(phase));
   }
   return force;
@@ -43,7 +43,7 @@ std::vector<double> positions_of(const RecordedBody& body, const std::vector<dou
   std::mt19937_64 random(seed);
   std::normal_distribution<double> noise(0.0, 1e-5);
   constexpr int parts = 100;
-  constexpr double step = period / parts;
+  constexpr double step = record_period / parts;
   constexpr double mass = 0.2;
   const double stiffness = body.tip_mass * std::pow(2.0 * std::numbers::pi * 60.0, 2);
   const double link_damping = 0.05 * std::sqrt(stiffness * body.tip_mass);
@@ -74,13 +74,13 @@ std::optional<Omnibus> left_by_rigid_body(const RecordedBody& body, unsigned see
   DeviceParameters start;
   start.name = "rigid";
   start.bodies = {{.name = "motor", .mass = 0.22, .damping = 1.1}};
-  start.loop.sampling_period = period;
-  start.loop.delay = 0.1 * period;
+  start.loop.sampling_period = record_period;
+  start.loop.delay = 0.1 * record_period;
   using Scale = Number::Scale;
   const std::vector<Number> numbers = {{"body.motor.mass", Scale::logarithmic, 0.22},
                                        {"body.motor.damping", Scale::not_negative, 1.0},
-                                       {"loop.delay", Scale::not_negative, period}};
-  const MotionModel model(DeviceFamily(start, numbers, {}), {}, {{force, position, period}}, 1);
+                                       {"loop.delay", Scale::not_negative, record_period}};
+  const MotionModel model(DeviceFamily(start, numbers, {}), {}, {{force, position, record_period}}, 1);
   constexpr Eigen::Index order = 24;
   const auto evidence =
       std::make_shared<TimeEvidence>(model, std::vector<Segment>{{0, 20, force.size() - 20}}, std::vector{0.0}, order);
@@ -126,7 +126,7 @@ TEST(Omnibus, FindsAMissingModeWhereItRings) {
 }
 
 TEST(Verdict, IsOfWidthAndOmnibusTest) {
-  const std::vector<NamedRecord> records = {{"sweep.csv", period}};
+  const std::vector<NamedRecord> records = {{"sweep.csv", record_period}};
   EXPECT_TRUE(
       verdict_of(
           {.limit = LimitRange{100.0, 150.0}, .left = Omnibus{.p = 0.2}, .records = records, .contradictions = {}})
@@ -148,7 +148,7 @@ TEST(Verdict, IsOfWidthAndOmnibusTest) {
 
 TEST(Verdict, RefusesWhatNothingDetermines) {
   const Trust refused = verdict_of(
-      {.limit = std::nullopt, .left = Omnibus{.p = 1e-9}, .records = {{"sweep.csv", period}}, .contradictions = {}});
+      {.limit = std::nullopt, .left = Omnibus{.p = 1e-9}, .records = {{"sweep.csv", record_period}}, .contradictions = {}});
   EXPECT_TRUE(refused.refused());
   ASSERT_EQ(refused.findings.size(), 1U);
   EXPECT_EQ(refused.findings[0].code, FindingCode::nothing_determined);
