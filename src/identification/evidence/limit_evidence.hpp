@@ -19,8 +19,8 @@ class LimitEvidence : public PartOfEvidence {
   /// Requires limits without a find_problem().
   LimitEvidence(const DeviceFamily& family, std::vector<MeasuredLimit> limits);
 
-  [[nodiscard]] Eigen::VectorXd own_lowest() const override { return {}; }
-  [[nodiscard]] Eigen::VectorXd own_start(const Eigen::VectorXd& /*x*/) const override { return {}; }
+  [[nodiscard]] Eigen::VectorXd own_lowest() const override { return Eigen::VectorXd(0); }
+  [[nodiscard]] Eigen::VectorXd own_start(const Eigen::VectorXd& /*x*/) const override { return Eigen::VectorXd(0); }
   [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& x, const Eigen::VectorXd& own) const override;
   [[nodiscard]] bool add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& own, Eigen::Index at,
                                  Picture& sum) const override;
