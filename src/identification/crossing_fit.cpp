@@ -173,7 +173,7 @@ class Crossing {
     double nearest = std::numeric_limits<double>::infinity();
     const double middle = 0.5 * (lines_[meeting_.before].frequency + lines_[meeting_.after].frequency);
     const std::size_t first = first_open_ > 0 ? first_open_ - 1 : 0;
-    for (std::size_t i = first, next; i < end_open_; i = next) {
+    for (std::size_t i = first, next = first; i < end_open_; i = next) {
       next = i + 1;
       while (next < lines_.size() && !lines_[next].measured) ++next;
       if (next >= lines_.size() || !lines_[i].measured) continue;

@@ -134,8 +134,9 @@ class Search {
   [[nodiscard]] bool take_noise(const Eigen::VectorXd& z) {
     const Eigen::Index numbers = evidence_->numbers();
     auto noise = evidence_->noise_at(z.head(numbers), z.tail(z.size() - numbers));
-    if (noise) evidence_->set_noise(*std::move(noise));
-    return noise.has_value();
+    if (!noise) return false;
+    evidence_->set_noise(*std::move(noise));
+    return true;
   }
   /// Of all samples: the logarithm of what one has that those before do not. Maximum likelihood makes it small.
   [[nodiscard]] double innovations() const {

@@ -38,6 +38,6 @@ struct AbsoluteStabilityRegionOptions {
 /// deviation outside (0, 1).
 [[nodiscard]] AbsoluteStabilityRegion absolute_stability_region(const Device& device, const StableWalls& walls,
                                                                 double largest_damping,
-                                                                AbsoluteStabilityRegionOptions options = {});
+                                                                const AbsoluteStabilityRegionOptions& options = {});
 
 }  // namespace zwidth

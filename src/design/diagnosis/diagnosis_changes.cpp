@@ -163,8 +163,8 @@ class Changes {
   }
 
   template <typename Change>
-  void add(Kind kind, std::string key, double now, double then, const Change& change) {
-    add({.kind = kind, .key = std::move(key), .value_now = now, .value_then = then}, change);
+  void add(Kind kind, const std::string& key, double now, double then, const Change& change) {
+    add({.kind = kind, .key = key, .value_now = now, .value_then = then}, change);
   }
 
   template <typename Change>

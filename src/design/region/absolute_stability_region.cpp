@@ -124,7 +124,8 @@ std::vector<std::vector<AbsoluteStabilityPoint>> ranges_of(Sampler& sampler,
 }  // namespace
 
 AbsoluteStabilityRegion absolute_stability_region(const Device& device, const StableWalls& walls,
-                                                  double largest_damping, AbsoluteStabilityRegionOptions options) {
+                                                  double largest_damping,
+                                                  const AbsoluteStabilityRegionOptions& options) {
   require_positive({"largest damping", largest_damping});
   require_fraction({"deviation", options.deviation});
   StagedProgress stages(options.progress);

@@ -66,6 +66,7 @@ StiffestDampedWall stiffest_up_to(LimitOverDamping& limits, double largest) {
   const double begin = std::log(first_share * largest);
   const double end = std::log(last_share * largest);
   std::vector<StiffestDampedWall> walls;
+  walls.reserve(samples_of_damping);
   for (int i = 0; i < samples_of_damping; ++i) {
     walls.push_back(limits.at(std::exp(std::lerp(begin, end, double(i) / (samples_of_damping - 1)))));
   }

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "identification/evidence/part_of_evidence.hpp"
 #include "identification/evidence/noise.hpp"
+#include "identification/evidence/part_of_evidence.hpp"
 #include "identification/model/motion_model.hpp"
 
 namespace zwidth::internal {
@@ -21,7 +21,7 @@ class TimeEvidence : public PartOfEvidence {
   /// The states of the record.
   [[nodiscard]] Eigen::VectorXd own_start(const Eigen::VectorXd& x) const override;
   [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& x, const Eigen::VectorXd& own) const override;
-  [[nodiscard]] bool add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& own, Eigen::Index at,
+  [[nodiscard]] bool add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& own, Eigen::Index first,
                                  Picture& sum) const override;
 
   [[nodiscard]] Eigen::Index numbers() const { return static_cast<Eigen::Index>(model_.numbers().size()); }
