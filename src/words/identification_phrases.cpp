@@ -105,12 +105,14 @@ std::span<const Phrase> identification_phrases() {
              "{from:.4g} to {to:.4g} Hz}{!to|near {from:.4g} Hz}",
              "friction, backlash or a mode that the structure lacks; the intervals are widened for it, the values may "
              "be off by more"},
-      Phrase{residual_stands_out, "residual_stands_out", doubt,
-             "the fitted device leaves more than the noise of {source}, most from {from:.4g} to {to:.4g} s: what is left "
-             "{?kind=correlated|is correlated with itself}{?kind=follows_force|follows the force, as a missing body or mode "
-             "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}{?kind=varies_with_speed|grows or falls "
-             "with the speed}",
-             "", "name a structure with what is missing, or excite less of it"},
+      Phrase{
+          residual_stands_out, "residual_stands_out", doubt,
+          "the fitted device leaves more than the noise of {source}, most from {from:.4g} to {to:.4g} s: what is left "
+          "{?kind=correlated|is correlated with itself}{?kind=follows_force|follows the force, as a missing body or "
+          "mode "
+          "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}{?kind=varies_with_speed|grows or falls "
+          "with the speed}",
+          "", "name a structure with what is missing, or excite less of it"},
       Phrase{residual_above_noise, "residual_above_noise", doubt,
              "what the structure leaves of the response is {residual:.2g} times its noise: friction, backlash, or a "
              "body that it lacks"},

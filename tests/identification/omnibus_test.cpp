@@ -147,8 +147,10 @@ TEST(Verdict, IsOfWidthAndOmnibusTest) {
 }
 
 TEST(Verdict, RefusesWhatNothingDetermines) {
-  const Trust refused = verdict_of(
-      {.limit = std::nullopt, .left = Omnibus{.p = 1e-9}, .records = {{"sweep.csv", record_period}}, .contradictions = {}});
+  const Trust refused = verdict_of({.limit = std::nullopt,
+                                    .left = Omnibus{.p = 1e-9},
+                                    .records = {{"sweep.csv", record_period}},
+                                    .contradictions = {}});
   EXPECT_TRUE(refused.refused());
   ASSERT_EQ(refused.findings.size(), 1U);
   EXPECT_EQ(refused.findings[0].code, FindingCode::nothing_determined);
