@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "results/json.hpp"
+#include "zwidth/words/problem_text.hpp"
 
 namespace zwidth::python {
 namespace py = pybind11;
@@ -22,9 +23,11 @@ py::object python_problem(const server::Problem& problem) {
   const auto text = [](const std::string& given) { return given.empty() ? py::object(py::none()) : py::str(given); };
   const auto number = [](std::size_t given) { return given == 0 ? py::object(py::none()) : py::int_(given); };
   const InputPlace& place = problem.place;
-  return error_class("Problem")(problem.where, problem.what, problem.allowed, problem.suggestion,
-                                error_class("Place")(text(place.file), number(place.line), number(place.column),
-                                                     text(place.key), text(place.option)));
+  return error_class("Problem")(
+      problem.where, problem.what, problem.allowed, problem.suggestion,
+      error_class("Place")(text(place.file), number(place.line), number(place.column), text(place.key),
+                           text(place.option)),
+      problem.problem ? py::object(py::str(std::string(name_of(problem.problem->code)))) : py::object(py::none()));
 }
 
 /// Where is "FILE:LINE:COLUMN: KEY", as far as there is each, or "device.KEY" of an override.

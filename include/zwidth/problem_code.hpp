@@ -4,8 +4,8 @@
 
 namespace zwidth {
 
-/// What may be wrong with an option or an argument, and what a computation fails of, in one list. words_of() of
-/// words/problem_text.hpp makes the sentence.
+/// What may be wrong with an option, an argument, a file or a model, and what a computation fails of, in one list. words_of()
+/// of words/problem_text.hpp makes the sentence.
 enum class ProblemCode : std::uint16_t {
   // bounds
   not_above,                   ///< a quantity is not above its bound

@@ -52,7 +52,7 @@ UffPoint point_of(std::string_view line, std::size_t column) {
           whole_number<int>(field(line, column + 20, 4)).value_or(0)};
 }
 
-/// The six fields of a record's seventh line.
+/// The fields of a function's seventh line, but for the sixth (z), which is not read.
 struct DataForm {
   long type = 0;
   long points = 0;
@@ -268,7 +268,8 @@ tl::expected<void, InputError> Scanner::scan(std::vector<UffRecord>& records, st
       records.push_back(std::move(*record));
     } else {
       ++passed_over[*dataset];
-      if (!pass_to_boundary()) unclosed_ = line_;
+      const std::size_t begins = line_;
+      if (!pass_to_boundary()) unclosed_ = begins;
     }
   }
   std::vector<std::string> numbers;

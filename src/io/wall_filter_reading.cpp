@@ -52,8 +52,9 @@ std::optional<WallFilter::Kind> read_kind(TableReader& reader) {
 void refuse_keys_of_other_types(TableReader& reader, WallFilter::Kind kind) {
   for (const std::string& key : keys_of(DeviceTable::filter)) {
     if (!reader.has(key) || is_key_of(kind, key)) continue;
-    reader.refuse(key, {.code = ProblemCode::key_of_other_filters,
-                        .subjects = {{"type", std::string(wall_filter_type(kind))}, {"keys", listed(keys_of_type(kind))}}});
+    reader.refuse(key,
+                  {.code = ProblemCode::key_of_other_filters,
+                   .subjects = {{"type", std::string(wall_filter_type(kind))}, {"keys", listed(keys_of_type(kind))}}});
   }
 }
 

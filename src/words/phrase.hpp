@@ -18,6 +18,7 @@ namespace zwidth::internal {
 //     {share:%}           100 times it, whole, without the sign; {share:%.1f} as fmt prints 100 times it
 //     {promised:limit}    as {promised}; "every stiffness" where it is no number
 //     {value:exact}       as it is, with all its digits
+//     {key}               the finding's key, where no evidence or subject is called so; {?key|...} does not see it
 //     {measure:of}        of a subject "force": "a force in N or N m"
 //     {gain:gain}         as {gain}; of a damping without a prefix
 //     {?cells|of {cells:n}}  the text behind the bar where the finding holds `cells`; {!cells|...} where it does not

@@ -29,7 +29,7 @@ struct ProblemPhrase {
 // Of models and designs.
 [[nodiscard]] std::span<const ProblemPhrase> model_problem_phrases();
 
-// All of them, as lists by what is asked for.
+// All lists: these, and that of options, calls and computations, which stands beside this function.
 [[nodiscard]] std::span<const std::span<const ProblemPhrase>> problem_phrases();
 
 }  // namespace zwidth::internal

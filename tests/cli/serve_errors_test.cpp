@@ -187,7 +187,10 @@ TEST_F(ServedErrors, AnErrorHasItsPlaceAndAllProblemsAsFields) {
   EXPECT_EQ(field(2, "place"), place(3, 8, "body.a.mass"));
   EXPECT_EQ(field(2, "suggestion"), nullptr);
   EXPECT_EQ(field(2, "where"), "device.body.a.mass");
-  for (const char* name : {"where", "what", "allowed", "place", "suggestion"})
+  EXPECT_EQ(field(0, "code"), "unknown_unit");
+  EXPECT_EQ(field(1, "code"), "unit_of_other_measure");
+  EXPECT_EQ(field(2, "code"), "no_finite_number");
+  for (const char* name : {"where", "what", "allowed", "place", "suggestion", "code"})
     EXPECT_EQ(error.at(name), field(0, name));
   // Of an option, and of a key that is overridden: there is no line.
   const std::string device = contents("devices/lhifam.toml");
@@ -200,9 +203,11 @@ TEST_F(ServedErrors, AnErrorHasItsPlaceAndAllProblemsAsFields) {
       other.at("place"),
       (json{{"file", "device"}, {"line", nullptr}, {"column", nullptr}, {"key", "loop.delay"}, {"option", nullptr}}));
   EXPECT_EQ(other.at("suggestion"), "0.5 ms") << other;
+  EXPECT_EQ(other.at("code"), "unit_of_other_measure") << other;
   other = error_of("relay", {{"amplitude", 5}, {"variation", "0,25"}}, device);
   EXPECT_EQ(other.at("place").at("option"), "variation") << other;
   EXPECT_EQ(other.at("suggestion"), "0.25") << other;
+  EXPECT_EQ(other.at("code"), nullptr) << other;  // it has words alone
 }
 
 // Another reader may take the first of two, ours would take the last.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -156,6 +157,18 @@ TEST_F(UffRecording, WarnsOfARecordThatIsCutShort) {
   EXPECT_TRUE(mentions(recording->remarks, "has 4 of the 6 points"));
   EXPECT_TRUE(mentions(recording->remarks, "no closing line -1"));
   EXPECT_EQ(warnings_in(recording->remarks), 2U);
+}
+
+TEST_F(UffRecording, NamesTheLineAtWhichADatasetThatIsNotClosedBegins) {
+  const std::string whole = uff_text(named("x", {1.0, 2.0}));
+  const auto recording = read(whole + "    -1\n   151\none line\nanother\n", columns_named({"x"}));
+  ASSERT_TRUE(recording.has_value()) << recording.error().str();
+  const auto found = std::ranges::find_if(recording->remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::dataset_not_closed;
+  });
+  ASSERT_NE(found, recording->remarks.end());
+  const auto lines = static_cast<double>(std::ranges::count(whole, '\n'));
+  EXPECT_EQ(found->finding->evidence.front().value, lines + 2.0);
 }
 
 TEST_F(UffRecording, RefusesBinaryDataOfAnotherLength) {

@@ -41,6 +41,7 @@ def test_all_problems_of_a_device_with_what_to_write(lhifam):
     assert damping.place == zwidth.Place("device", 4, 11, "body.a.damping") and damping.suggestion == "5 N s/m"
     assert period.place == zwidth.Place("device", 6, 19, "loop.sampling_period") and period.suggestion == "0.5 ms"
     assert mass.place == zwidth.Place("device", 3, 8, "body.a.mass") and mass.suggestion is None
+    assert [each.code for each in error.problems] == ["unknown_unit", "unit_of_other_measure", "no_finite_number"]
     assert (error.where, error.what, error.allowed) == (damping.where, damping.what, damping.allowed)
     assert len(str(error).splitlines()) == 3
     assert pickle.loads(pickle.dumps(error)).problems == error.problems

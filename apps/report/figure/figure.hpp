@@ -10,9 +10,9 @@
 
 namespace zwidth::report {
 
-/// What is drawn in a panel. Without rows to draw it is left out.
+/// What is drawn in a panel. Left out where its rows are empty or blank lines alone, and with it those that share them.
 struct Series {
-  /// Numbers, a line for each point; an empty line breaks a curve. Absent: those of the series before.
+  /// Numbers, a line for each point; an empty line breaks a curve. Absent: the rows of the series before, drawn once more.
   std::optional<std::string> rows;
   std::string with;             ///< a style of gnuplot: as_lines(), as_points(), as_area()
   std::string columns = "1:2";  ///< of the rows; empty: `rows` is a function of x

@@ -12,6 +12,7 @@
 #include "server/api/request_document.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/words/problem_text.hpp"
 
 namespace zwidth::server {
 namespace {
@@ -64,7 +65,8 @@ Json problem_json(const Problem& problem) {
             {"column", number(place.column)},
             {"key", text(place.key)},
             {"option", text(place.option)}}},
-          {"suggestion", problem.suggestion ? Json(*problem.suggestion) : Json()}};
+          {"suggestion", problem.suggestion ? Json(*problem.suggestion) : Json()},
+          {"code", problem.problem ? Json(std::string(name_of(problem.problem->code))) : Json()}};
 }
 
 }  // namespace

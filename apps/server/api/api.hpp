@@ -23,8 +23,8 @@ struct ApiAnswer {
   std::string document;  ///< one line of JSON
 };
 
-/// {"error": {"where", "what", "allowed", "place": {"file", "line", "column", "key", "option"}, "suggestion", "problems"}}:
-/// the first problem, and all of them; with "line" and "column" beside it where they are known.
+/// {"error": {"where", "what", "allowed", "place": {"file", "line", "column", "key", "option"}, "suggestion", "code",
+/// "problems"}}: the first problem, and all of them; with "line" and "column" beside it where they are known.
 [[nodiscard]] std::string error_document(const Problem& problem);
 
 /// A device to begin with.

@@ -35,6 +35,7 @@ class Problem:
     allowed: str = ""
     suggestion: Optional[str] = None  #: a value to put there, as `set` takes it
     place: Place = Place()
+    code: Optional[str] = None  #: the kind of problem, "unknown_key"; None where it has words alone
 
     def __str__(self) -> str:
         text = f"{self.where}: {self.what}" if self.where else self.what

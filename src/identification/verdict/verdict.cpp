@@ -51,7 +51,7 @@ Finding outstanding(const Omnibus& left, const std::vector<NamedRecord>& records
 
 }  // namespace
 
-Trust verdict_of(const JudgedFit& fit) {
+Trust verdict_of(const FittedLikelihood& fit) {
   Trust trust;
   for (const Finding& each : fit.contradictions) trust.refuse(each);
   if (!fit.limit)

@@ -23,7 +23,7 @@ struct NamedRecord {
 };
 
 /// What is known of a fit when it is judged.
-struct JudgedFit {
+struct FittedLikelihood {
   std::optional<LimitRange> limit;      ///< all within 1.92 of the best log-likelihood; absent: nothing is determined
   std::optional<Omnibus> left;          ///< of what it leaves in time; absent: lines of a response alone
   std::vector<NamedRecord> records;     ///< those that `left` counts
@@ -32,6 +32,6 @@ struct JudgedFit {
 
 /// Sound where the interval is within Calibration::widest_interval and what is left does not stand out; doubtful where it is
 /// wider, or stands out; refused where nothing is determined, or the data contradict themselves.
-[[nodiscard]] Trust verdict_of(const JudgedFit& fit);
+[[nodiscard]] Trust verdict_of(const FittedLikelihood& fit);
 
 }  // namespace zwidth::internal

@@ -15,6 +15,7 @@ export interface Told {
   allowed: string
   place: Place
   suggestion: string | null
+  code: string | null // the kind of problem, whatever its words
 }
 const nowhere: Place = { file: null, line: null, column: null, key: null, option: null }
 const isOfDevice = (place: Place): boolean => place.file === 'device'
@@ -34,7 +35,7 @@ export class Problem extends Error {
     readonly what: string,
     readonly allowed: string,
     readonly status: number,
-    readonly problems: Told[] = [{ where, what, allowed, place: nowhere, suggestion: null }],
+    readonly problems: Told[] = [{ where, what, allowed, place: nowhere, suggestion: null, code: null }],
   ) {
     const more = problems.length - 1
     super(messageOf(problems[0]!) + (more > 0 ? `. And ${more} more` : ''))

@@ -7,6 +7,7 @@ const told = (where: string, place: Partial<Place>, more: Partial<Told> = {}): T
   what: 'has 1 cell',
   allowed: '',
   suggestion: null,
+  code: null,
   place: { ...nowhere, ...place },
   ...more,
 })
