@@ -73,6 +73,15 @@ DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x) const {
   return values;
 }
 
+bool DeviceFamily::has_device_at(const Eigen::VectorXd& x) const {
+  DeviceParameters values = device_at(x);
+  if (find_problem(values)) return false;
+  values = values_at(x);
+  values.loop.delay = 0.0;
+  if (further_body_) add_further_body(values, x);
+  return !find_problem(values);
+}
+
 double DeviceFamily::played_delay(const Eigen::VectorXd& x) const {
   const DeviceParameters values = values_at(x);
   return values.loop.delay - (has_lag_ ? values.actuator.time_constant : 0.0);

@@ -38,6 +38,8 @@ class DeviceFamily {
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
   /// As a device file has it, nothing locked: no delay below 0, no further body that is next to none.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;
+  /// Whether the numbers make a device, with its further body too: recorded_device() throws where not.
+  [[nodiscard]] bool has_device_at(const Eigen::VectorXd& x) const;
   /// As it was recorded: bodies locked, the delay left out (played_delay()).
   [[nodiscard]] Device recorded_device(const Eigen::VectorXd& x) const;
   /// s; below 0 where a lag is longer than the sum of both.

@@ -1,6 +1,4 @@
 #include "identification/model/rivals/catalogue.hpp"
-#include "zwidth/model/parameter.hpp"
-
 namespace zwidth::internal {
 namespace {
 
@@ -10,8 +8,7 @@ constexpr double lag_deviation = 1.0;  // of (lag / 2 ms)^2
 /// 1 / (tau s + 1) beside the delay, where that is free: the record tells delay + lag in the first order, each in the second.
 void add_actuator_lag(const RivalSetting& setting, ModelParts& parts) {
   constexpr const char* key = "actuator.time_constant";
-  if (!parts.has("loop.delay") || parts.has(key) || setting.device.actuator.time_constant > 0.0) return;
-  parts.add({key, Number::Scale::square, lag_typical, 0.0, lag_deviation});
+  if (setting.frees_lag && !parts.has(key)) parts.add({key, Number::Scale::square, lag_typical, 0.0, lag_deviation});
 }
 
 }  // namespace

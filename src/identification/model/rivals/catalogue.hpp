@@ -22,7 +22,7 @@ namespace zwidth::internal {
 [[nodiscard]] Rival drive_dead_band();
 [[nodiscard]] Rival cogging();
 
-/// All of them, in the order in which they are added.
+/// All that a fit has, in the order in which they are added. further_body() is not among them: the search does not settle with it.
 [[nodiscard]] std::span<const Rival> rivals();
 
 /// A rival that is part of a fit.

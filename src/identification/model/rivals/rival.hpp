@@ -28,6 +28,7 @@ struct RivalSetting {
   double sampling_period = 0.0;     ///< s
   double highest_frequency = 0.0;   ///< Hz, that the records tell of; > 0
   std::size_t records = 1;
+  bool frees_lag = false;                       ///< a lag may hide beside the delay
   std::optional<double> cogging_per_turn = {};  ///< slots that a turn of a rotary device passes, where they are known
 };
 
