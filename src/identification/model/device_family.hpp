@@ -36,6 +36,8 @@ class DeviceFamily {
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return numbers_; }
   /// How many are the device's.
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
+  /// It is the last body of recorded_device().
+  [[nodiscard]] bool has_further_body() const noexcept { return further_body_.has_value(); }
   /// As a device file has it, nothing locked: no delay below 0, no further body that is next to none.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;
   /// Whether the numbers make a device, with its further body too: recorded_device() throws where not.
