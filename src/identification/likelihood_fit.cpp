@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -10,7 +11,7 @@
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
 #include "identification/fit/minimise.hpp"
-#include "identification/model/rivals.hpp"
+#include "identification/model/rivals/catalogue.hpp"
 #include "identification/verdict/profile.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
@@ -31,42 +32,23 @@ double rms(std::span<const double> samples) {
   return std::sqrt(squares / static_cast<double>(samples.size()));
 }
 
-/// How large the records' force, speed and position are: the largest of each.
-void measure(RivalSetting& setting, std::span<const Recording> recordings) {
-  constexpr std::size_t reach = 5;  // samples of a speed: an encoder's steps are no motion
-  for (const Recording& recording : recordings) {
-    const std::vector<double>& position = recording.channels[1].samples;
-    double mean = 0.0;
-    for (const double each : position) mean += each / static_cast<double>(position.size());
-    std::vector<double> about = position;
-    for (double& each : about) each -= mean;
-    setting.force = std::max(setting.force, rms(recording.channels[0].samples));
-    setting.position = std::max(setting.position, rms(about));
-    for (std::size_t k = reach; k < position.size(); ++k) {
-      const double change = std::abs(position[k] - position[k - reach]);
-      setting.speed = std::max(setting.speed, change / (static_cast<double>(reach) * recording.sampling_period));
-    }
-  }
-}
-
-/// The device's own numbers: masses and link stiffnesses known to a factor of 28 beforehand, dampings not at all.
+/// The device's own numbers: masses and link stiffnesses hardly known beforehand, dampings not at all.
 Number number_of(const std::string& key, const DeviceParameters& start, const RivalSetting& setting) {
-  constexpr double of_logarithm = 3.3;
   constexpr double of_critical = 0.01;  // a link's damping, of the square root of stiffness times mass
   const double value = *parameter(start, key);
   const bool is_of_link = key.starts_with("link.");
   if (key.ends_with(".mass") || (is_of_link && key.ends_with(".stiffness"))) {
-    return {key, Number::Scale::logarithmic, value, 0.0, of_logarithm};
+    return {key, Number::Scale::logarithmic, value, 0.0, deviation_of_logarithm};
   }
   if (key == "loop.delay") return {.key = key, .unit = setting.sampling_period};
-  if (key.ends_with(".damping") && !is_of_link) return {.key = key, .unit = setting.damping};
+  if (key.ends_with(".damping") && !is_of_link) return {.key = key, .unit = typical_damping(setting)};
   if (key.ends_with(".damping")) {
     const Link& link = start.links[static_cast<std::size_t>(std::stoul(key.substr(std::string("link.").size())))];
     const double typical = of_critical * std::sqrt(link.stiffness * start.bodies[link.second].mass);
     return {.key = key, .unit = std::max(value, typical)};
   }
   constexpr double small = 1e-3;
-  return {.key = key, .unit = std::max(value, small * setting.force / setting.position)};
+  return {.key = key, .unit = std::max(value, small * setting.rms_force / setting.rms_position)};
 }
 
 /// Where the search begins: the linear fit of the response.
@@ -74,6 +56,7 @@ struct LinearStart {
   DeviceParameters device;
   std::vector<std::string> free;
   bool frees_delay = false;
+  double highest_frequency = 0.0;  ///< Hz, of the response
 };
 
 LinearStart linear_start(std::span<const Recording> recordings, const Device& structure,
@@ -90,7 +73,9 @@ LinearStart linear_start(std::span<const Recording> recordings, const Device& st
   fit.free = start.free;
   fit.locked = options.locked;
   fit.critical_point = ParameterFitOptions::CriticalPoint::free;
-  start.device = fit_parameters(Device(start.device), frequency_response(recordings).response, fit).device.parameters();
+  const FrequencyResponse response = frequency_response(recordings).response;
+  start.highest_frequency = response.points.back().frequency / (2.0 * std::numbers::pi);
+  start.device = fit_parameters(Device(start.device), response, fit).device.parameters();
   start.device.uncertainty.reset();
   return start;
 }
@@ -208,7 +193,6 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   constexpr int parts = 4;  // of a sampling period
   constexpr int rounds = 5;
   constexpr double rise = 1.92;  // 95 %: half the quantile of chi-squared with one degree of freedom
-  constexpr double small_saturation = 0.02;
   const LinearStart start = linear_start(recordings, structure, options);
   std::vector<ForceMotionRecord> records;
   std::vector<double> steps;
@@ -216,31 +200,17 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
     records.push_back({each.channels[0].samples, each.channels[1].samples, each.sampling_period});
     steps.push_back(encoder_step(each.channels[1].samples));
   }
-  RivalSetting setting{
-      .start = start.device, .records = recordings.size(), .sampling_period = recordings.front().sampling_period};
-  measure(setting, recordings);
-  for (const Body& body : start.device.bodies) {
-    setting.damping += body.damping;
-    if (std::ranges::count(options.locked, body.name) == 0) setting.moving.push_back(body.name);
-  }
-  constexpr double least_damping = 0.02;
-  setting.damping = std::max(setting.damping, least_damping * setting.force / setting.speed);
-  setting.frees_lag = start.frees_delay;
-  const Body& held = start.device.bodies[start.device.loop.held];
-  setting.frees_ground = held.stiffness == 0.0 && std::ranges::count(options.locked, held.name) == 0;
+  RivalSetting setting = rival_setting(start.device, options.locked, records, start.highest_frequency);
+  setting.frees_lag = start.frees_delay || std::ranges::count(start.free, "actuator.time_constant") > 0;
   ModelParts all;
   for (const std::string& key : start.free) {
     if (key != "actuator.time_constant") all.numbers.push_back(number_of(key, start.device, setting));
   }
-  setting.frees_lag = setting.frees_lag || std::ranges::count(start.free, "actuator.time_constant") > 0;
   add_rivals(setting, all);
 
-  const MotionModel model(DeviceFamily(start.device, all.numbers, options.locked), all.terms, records, parts);
-  Eigen::VectorXd linear = model.family().coordinates_of(start.device);
-  for (std::size_t i = 0; i < all.numbers.size(); ++i) {
-    if (all.numbers[i].key == "saturation")
-      linear(static_cast<Eigen::Index>(i)) = small_saturation;  // has no slope at 0
-  }
+  const MotionModel model(DeviceFamily(start.device, all.numbers, options.locked, all.further_body), all.terms, records,
+                          parts);
+  const Eigen::VectorXd linear = model.family().coordinates_of(start.device);
   Search near(model, short_segment, steps);
   Search whole(model, long_segment, steps);
   const std::string friction = "friction." + start.device.bodies[start.device.loop.actuated].name;

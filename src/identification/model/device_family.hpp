@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,33 +10,54 @@
 
 namespace zwidth::internal {
 
+/// A body on a link behind another one, by the keys of its numbers, none of which is a key of the structure.
+///
+///     m' = m r / (1 + r),  m <- m / (1 + r),  k' = m' (2 pi f)^2,  c' = 2 zeta sqrt(k' m')
+///
+/// The mass m of both stays, so that slow motion knows nothing of r. No such body at r = 0: it moves along and acts on nothing.
+struct FurtherBody {
+  std::string behind;         ///< name of a body
+  std::string mass_ratio;     ///< key of r: its mass to what is left of the body it hangs on
+  std::string frequency;      ///< key of f, Hz, that it swings at where the other body stands still
+  std::string damping_ratio;  ///< key of zeta
+};
+
 /// The devices that a fit looks among: a structure, and the numbers of it that are free.
 ///
 /// The delay and the lag of an actuator act alike at low frequency: where the lag is a number, the number "loop.delay" is the sum
 /// of both, which is what a record tells.
 class DeviceFamily {
  public:
-  /// `numbers`: those with a key of the device come first. `locked`: bodies held still while the record was made.
-  DeviceFamily(DeviceParameters structure, std::vector<Number> numbers, std::vector<std::string> locked);
+  /// `numbers`: those of the device come first, its keys and a further body's. `locked`: bodies held still while the record
+  /// was made.
+  DeviceFamily(DeviceParameters structure, std::vector<Number> numbers, std::vector<std::string> locked,
+               std::optional<FurtherBody> further_body = {});
 
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return numbers_; }
   /// How many are the device's.
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
-  /// As a device file has it, nothing locked: no delay below 0.
+  /// It is the last body of recorded_device().
+  [[nodiscard]] bool has_further_body() const noexcept { return further_body_.has_value(); }
+  /// As a device file has it, nothing locked: no delay below 0, no further body that is next to none.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;
+  /// Whether the numbers make a device, with its further body too: recorded_device() throws where not.
+  [[nodiscard]] bool has_device_at(const Eigen::VectorXd& x) const;
   /// As it was recorded: bodies locked, the delay left out (played_delay()).
   [[nodiscard]] Device recorded_device(const Eigen::VectorXd& x) const;
   /// s; below 0 where a lag is longer than the sum of both.
   [[nodiscard]] double played_delay(const Eigen::VectorXd& x) const;
-  /// Where in x the value of a number of the device is.
+  /// Where in x the value of a number of the device is; all others are where a fit starts.
   [[nodiscard]] Eigen::VectorXd coordinates_of(const DeviceParameters& device) const;
 
  private:
   [[nodiscard]] DeviceParameters values_at(const Eigen::VectorXd& x) const;
+  [[nodiscard]] double value_of(const std::string& key, const Eigen::VectorXd& x) const;
+  void add_further_body(DeviceParameters& values, const Eigen::VectorXd& x) const;
 
   DeviceParameters structure_;
   std::vector<Number> numbers_;
   std::vector<std::string> locked_;
+  std::optional<FurtherBody> further_body_;
   Eigen::Index of_device_ = 0;
   bool has_lag_ = false;
 };

@@ -61,7 +61,7 @@ std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorX
                                                             const std::vector<Segment>& segments,
                                                             const std::vector<Eigen::VectorXd>& states,
                                                             bool with_slopes) const {
-  if (find_problem(family_.device_at(x))) return std::nullopt;
+  if (!family_.has_device_at(x)) return std::nullopt;
   const auto numbers = static_cast<Eigen::Index>(this->numbers().size());
   const Eigen::Index columns = numbers + this->states();
   std::vector<PlayedSegment> played(segments.size());

@@ -21,6 +21,8 @@ struct Number {
   /// What is believed beforehand: x is normal about `expected`, cut at its bound.
   double expected = 0.0;
   double prior_deviation = std::numeric_limits<double>::infinity();  ///< of x; infinite: nothing is believed
+  double start =
+      0.0;  ///< x that a fit starts from, where no device gives it: off a value at which nothing changes with x
 
   [[nodiscard]] double value(double x) const {
     if (scale == Scale::square) return unit * std::sqrt(std::fmax(x, least_square));

@@ -1,0 +1,18 @@
+#include "identification/model/rivals/catalogue.hpp"
+namespace zwidth::internal {
+namespace {
+
+constexpr double lag_typical = 2e-3;   // s, of current loops and amplifiers (theory, section 10)
+constexpr double lag_deviation = 1.0;  // of (lag / 2 ms)^2
+
+/// 1 / (tau s + 1) beside the delay, where that is free: the record tells delay + lag in the first order, each in the second.
+void add_actuator_lag(const RivalSetting& setting, ModelParts& parts) {
+  constexpr const char* key = "actuator.time_constant";
+  if (setting.frees_lag && !parts.has(key)) parts.add({key, Number::Scale::square, lag_typical, 0.0, lag_deviation});
+}
+
+}  // namespace
+
+Rival actuator_lag() { return {"actuator_lag", add_actuator_lag}; }
+
+}  // namespace zwidth::internal

@@ -1,0 +1,36 @@
+#include "identification/model/rivals/catalogue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::internal {
+
+std::span<const Rival> rivals() {
+  static const std::array all = {constant_force(),  coulomb_friction(), drag(),          asymmetric_damping(),
+                                 damping_drift(),   actuator_lag(),     ground_spring(), drive_saturation(),
+                                 drive_dead_band(), cogging()};
+  return all;
+}
+
+std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts) {
+  std::vector<AddedRival> added;
+  for (const Rival& rival : rivals()) {
+    const std::size_t before = parts.numbers.size();
+    rival.add(setting, parts);
+    AddedRival each{rival.code, {}};
+    for (std::size_t i = before; i < parts.numbers.size(); ++i) each.keys.push_back(parts.numbers[i].key);
+    if (!each.keys.empty()) added.push_back(std::move(each));
+  }
+  std::ranges::stable_partition(parts.numbers, [&](const Number& number) {
+    const std::optional<FurtherBody>& further = parts.further_body;
+    const bool of_further = further && (number.key == further->mass_ratio || number.key == further->frequency ||
+                                        number.key == further->damping_ratio);
+    return of_further || parameter(setting.device, number.key).has_value();
+  });
+  return added;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "identification/model/device_family.hpp"
+#include "identification/model/motion_model.hpp"
+#include "identification/model/motion_terms.hpp"
+#include "identification/model/number.hpp"
+#include "zwidth/model/device.hpp"
+
+namespace zwidth::internal {
+
+/// What the priors of rivals hang on: where the fit starts, and how far the records go.
+struct RivalSetting {
+  DeviceParameters device;          ///< of bodies
+  std::vector<std::string> locked;  ///< bodies held still while the records were made
+  double rms_force = 0.0;           ///< N or N m; > 0
+  double largest_force = 0.0;       ///< N or N m; > 0
+  double rms_speed = 0.0;           ///< m/s or rad/s, of the sensed body; > 0
+  double largest_speed = 0.0;       ///< m/s or rad/s; > 0
+  double rms_position = 0.0;        ///< m or rad, about the mean; > 0
+  double duration = 0.0;            ///< s, of the longest record
+  double sampling_period = 0.0;     ///< s
+  double highest_frequency = 0.0;   ///< Hz, that the records tell of; > 0
+  std::size_t records = 1;
+  bool frees_lag = false;                       ///< a lag may hide beside the delay
+  std::optional<double> cogging_per_turn = {};  ///< slots that a turn of a rotary device passes, where they are known
+};
+
+/// Of records of such a device. Speeds are differences over 5 periods, which an encoder's steps hardly touch.
+/// Requires a force and a motion in each.
+[[nodiscard]] RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std::string>& locked,
+                                         std::span<const ForceMotionRecord> records, double highest_frequency);
+
+/// N s/m or N m s/rad: what all bodies' dampings come to, at least 2 % of the rms force over the rms speed.
+[[nodiscard]] double typical_damping(const RivalSetting& setting);
+
+/// Names of the bodies that move in the records.
+[[nodiscard]] std::vector<std::string> moving_bodies_of(const RivalSetting& setting);
+
+/// Name of the body that the actuator pushes.
+[[nodiscard]] const std::string& actuated_body(const RivalSetting& setting);
+
+/// What a fit is made of: DeviceFamily takes the numbers and the further body, MotionModel the terms.
+struct ModelParts {
+  std::vector<Number> numbers = {};
+  MotionTerms terms = {};
+  std::optional<FurtherBody> further_body = {};
+
+  [[nodiscard]] bool has(std::string_view key) const;
+  /// The key of the number that is added.
+  std::string add(Number number);
+};
+
+/// Another explanation of a record: what it adds to the linear device, and how large that is believed to be beforehand.
+struct Rival {
+  std::string_view code;  ///< stable: results name it
+  /// Nothing where the setting rules it out, or the parts have its numbers.
+  void (*add)(const RivalSetting& setting, ModelParts& parts);
+};
+
+}  // namespace zwidth::internal
