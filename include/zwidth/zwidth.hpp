@@ -38,7 +38,6 @@
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/identification/record_fit.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
-#include "zwidth/identification/time_domain.hpp"
 #include "zwidth/input_problem.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/device_variants.hpp"

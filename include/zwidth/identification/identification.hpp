@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/identification/measured_limit.hpp"
 #include "zwidth/identification/measured_response.hpp"
+#include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
@@ -23,21 +25,24 @@ namespace zwidth {
 /// How a device is identified from recordings.
 struct IdentifyOptions {
   FrequencyResponseOptions response;  ///< how the response of a recording is estimated
-  ParameterFitOptions fit;            ///< what is free and locked, and how it is fitted
+  ParameterFitOptions fit;            ///< what is free and locked; for `lines`, how it is fitted
   /// Whether the structure's numbers are those of the device (a device file), or of nobody (a named structure).
   enum class StructureValues { known, placeholders } structure_values = StructureValues::known;  ///< of the device
-  /// Whether a delay that the record shows beyond the structure's is fitted too, or the structure's taken as it is.
+  /// Whether delay and lag are fitted too, or the structure's taken as they are.
   enum class LoopDelay {
     by_free,  ///< from_data where frees_all(fit.free); as_given where what is free is named
     from_data,
     as_given
   } loop_delay = LoopDelay::by_free;  ///< by what fit.free says
-  /// What would make a sound answer doubtful is looked for beside it.
-  enum class Scrutiny {
-    thorough,  ///< friction by a fit in time too, which takes about as long as all else
-    brief,     ///< friction in the rest of the linear fit only
-    of_fit     ///< nor what else moves the device or limits it unseen: for identify_in_time(), which looks itself
-  } scrutiny = Scrutiny::thorough;  ///< all of it
+  /// What is fitted.
+  enum class Method {
+    motion,  ///< the recorded position itself, with all that may move the device beside its linear equations
+    lines    ///< the lines of the response, of a linear device
+  };
+  /// Absent: motion, where recordings of force and position are given; else lines.
+  std::optional<Method> method = {};
+  double segment = 10.0;                   ///< s, for `motion`; each begins in a state of its own
+  std::vector<MeasuredLimit> limits = {};  ///< walls at which the device was seen to oscillate
 };
 
 /// A structure for which there is no device file.
@@ -75,14 +80,28 @@ struct NamedStructureOptions {
 /// Checks both parts; members are named "response.overlap", "fit.robust_threshold", ...
 [[nodiscard]] std::optional<OptionProblem> find_problem(const IdentifyOptions& options);
 
-/// Coulomb friction that a record shows although the model has none.
-struct ShownFriction {
-  std::string body;        ///< on which it explains most
-  double force = 0.0;      ///< N or N m
-  double deviation = 0.0;  ///< one standard deviation of it
-  /// K_CR of the device that a fit in time finds beside it. Absent where a linear fit found the friction: it does not know
-  /// the damping that is left.
-  std::optional<double> stiffness_beside = {};
+/// Another explanation of a record, fitted beside the device.
+struct RivalEstimate {
+  std::string code;                          ///< "coulomb_friction", "drag", ...: stable
+  std::string parameter;                     ///< its number: "friction.handle"
+  std::string unit = {};                     ///< of value; empty: none
+  double value = 0.0;                        ///< in the most likely fit
+  std::optional<double> standard_deviation;  ///< absent where the data do not determine it
+  double log_likelihood_gain = 0.0;          ///< of the best fit over one without the rival, to second order; >= 0
+  /// K_CR over the rival's own 95 % interval, all else refitted, to first order. Within the answer's interval.
+  std::optional<Interval> stiffness_interval = {};
+};
+
+/// A recording beside the motion of the fitted device.
+struct FittedMotion {
+  std::string source;                     ///< of the record: a file's name
+  double sampling_period = 0.0;           ///< s
+  double constant_force = 0.0;            ///< N or N m, beside the recorded one
+  double constant_force_deviation = 0.0;  ///< one standard deviation
+  double noise = 0.0;                     ///< m or rad, root mean square: what one sample has that those before do not
+  double unexplained = 0.0;         ///< rms of recorded - fitted over the rms of the recorded motion about its mean
+  std::vector<double> residuals{};  ///< recorded - fitted, by sample; 0 before the first segment
+  std::vector<double> recorded{};   ///< position, m or rad, by sample
 };
 
 /// The part of the wall that is closed around the device where a critical stiffness is given.
@@ -92,40 +111,45 @@ struct StiffnessBasis {
   std::size_t filters = 0;          ///< on the whole force
 };
 
-/// A device identified from a record, with its critical stiffness and how far that may be relied on.
+/// A device identified from recordings or a response, with its critical stiffness and how far that may be relied on.
 struct Identification {
-  std::string source;          ///< the recording's name
-  FrequencyResponse response;  ///< as measured, less the leakage of its segments
-  /// fit.device holds the uncertainty, with the verdict and the reasons below: its file keeps them.
+  std::string source;                                                ///< the recording's name
+  IdentifyOptions::Method method = IdentifyOptions::Method::motion;  ///< what was fitted
+  FrequencyResponse response;                                        ///< as measured
+  /// fit.device holds the uncertainty, with the verdict and the reasons below: its file keeps them. fit.fitted: its response.
   ParameterFit fit;
-  Analysis analysis = {};                      ///< of fit.device, as analyze() gives it, without users
-  StiffnessBasis basis = {};                   ///< of analysis.critical
-  std::optional<ShownFriction> friction = {};  ///< absent where the record shows none
-  std::optional<double> ignored_delay = {};    ///< s; that the record shows where another is given and not free
-  std::vector<Remark> remarks = {};            ///< of reading, estimate, fit and judgement
-  /// Of analysis.critical. The device's own (fit.device, analysis.trust) is no better: there, numbers that the data
-  /// leave open count even where the response itself shows the critical stiffness.
-  Trust trust = {};
+  std::vector<FittedMotion> motions = {};  ///< by recording; empty for lines
+  std::vector<RivalEstimate> rivals = {};  ///< first what moves the limit most
+  Analysis analysis = {};                  ///< of fit.device, without users; its interval covers all that is as likely
+  StiffnessBasis basis = {};               ///< of analysis.critical
+  std::vector<Remark> remarks = {};        ///< of reading, estimate, fit and judgement
+  Trust trust = {};                        ///< of analysis.critical
 };
 
-/// Identifies a device from a record of force and motion: frequency_response(), fit_parameters(), without_leakage();
-/// frees delay and lag where the record shows them; and judges.
+/// Identifies a device from recordings of force and motion by maximum likelihood.
 ///
-/// Sound: the excited band holds the limiting crossover, the structure explains the response, the record shows no other
-/// delay, every number that the limit hangs on is known or determined, no friction shows nor could pass for the damping, and the response itself shows no softer crossover. Doubtful where
-/// one of these fails: where the crossover lies above the band, delay and lag enter the uncertainty whether or not they
-/// were free. Refused: nothing is determined, half of the response is unexplained, or the sign of the motion is turned.
-/// Requires two channels (force, motion), and what fit_parameters() does. Throws Error (invalid_argument) where
+///     max over p, q, x_s   log L(recordings | device p, rivals q, states x_s) + log prior(q)
+///
+/// Rivals q: what may explain a record beside the linear device (friction, drag, drift, a lag, a spring ...), always part of the
+/// fit. The interval of K_CR is its range over everything within 1.92 of the best log-likelihood (Venzon & Moolgavkar 1988).
+/// Sound: the interval is within a factor of 1.5 and one omnibus test of what the best fit leaves holds. Doubtful: it is wider,
+/// or something stands out. Refused: nothing is determined, or the data contradict each other.
+///
+/// Requires two channels (force, motion) in each recording, and what fit_parameters() does. Throws Error (invalid_argument) where
 /// find_problem(options) finds one, and as its parts do.
-[[nodiscard]] Identification identify(const Recording& recording, const Device& structure,
-                                      const IdentifyOptions& options = {}, const Progress& progress = {});
-
-/// The same from several recordings of one device, whose responses are pooled: frequency_response() of them says how.
 [[nodiscard]] Identification identify(std::span<const Recording> recordings, const Device& structure,
                                       const IdentifyOptions& options = {}, const Progress& progress = {});
 
-/// The same from a response that was measured elsewhere; friction and leakage do not show in one.
+/// The same from one recording.
+[[nodiscard]] Identification identify(const Recording& recording, const Device& structure,
+                                      const IdentifyOptions& options = {}, const Progress& progress = {});
+
+/// The same from a response that was measured elsewhere; what is not linear does not show in one.
 [[nodiscard]] Identification identify(const MeasuredResponse& measured, const Device& structure,
                                       const IdentifyOptions& options = {});
+
+/// From measured limits alone (options.limits), the structure's numbers being known within its uncertainty or by `fit.free`.
+/// Throws Error (invalid_argument) where there is none.
+[[nodiscard]] Identification identify_from_limits(const Device& structure, const IdentifyOptions& options);
 
 }  // namespace zwidth
