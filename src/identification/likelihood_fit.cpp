@@ -1,6 +1,9 @@
 #include "identification/likelihood_fit.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <Eigen/Dense>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -21,7 +24,7 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr Eigen::Index noise_order = 24;
+constexpr Eigen::Index noise_order = 12;
 constexpr double short_segment = 0.5;  // s
 constexpr double long_segment = 10.0;  // s
 constexpr std::size_t left_out = 20;   // samples at a record's beginning, whose forces came before it
@@ -108,7 +111,9 @@ class Search {
   [[nodiscard]] std::optional<Minimum> from(Eigen::VectorXd z, int rounds, MinimiseOptions options) {
     std::optional<Minimum> found;
     for (int round = 0; round < rounds; ++round) {
+      const double t0 = clock();
       found = minimise(all_, std::move(z), options);
+      if (getenv("DBG")) fprintf(stderr, "  minimise segs %zu round %d cost %.2f settled %d steps %d tries %d %.2fs\n", evidence_->segments().size(), round, found ? found->picture.cost : -1, found ? found->settled : 0, found? found->steps:0, found? found->tries:0, (clock()-t0)/CLOCKS_PER_SEC);
       if (!found) return std::nullopt;
       z = found->z;
       if (round + 1 < rounds && !take_noise(z)) return std::nullopt;
@@ -190,7 +195,8 @@ std::optional<Eigen::VectorXd> found_near(Search& near, Search& whole, const Mot
 
 std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> recordings, const Device& structure,
                                                const LikelihoodFitOptions& options) {
-  constexpr int parts = 4;  // of a sampling period
+  const int parts = getenv("PARTS") ? atoi(getenv("PARTS")) : 2;  // of a sampling period
+  constexpr int near_parts = 1;
   constexpr int rounds = 5;
   constexpr double rise = 1.92;  // 95 %: half the quantile of chi-squared with one degree of freedom
   const LinearStart start = linear_start(recordings, structure, options);
@@ -208,10 +214,13 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   }
   add_rivals(setting, all);
 
+  if (const char* off = getenv("OFF")) for (auto& n : all.numbers) if (std::string(off).find(n.key) != std::string::npos || (std::string(off) == "all" && n.prior_deviation < 2.0)) n.prior_deviation = 1e-6;
   const MotionModel model(DeviceFamily(start.device, all.numbers, options.locked, all.further_body), all.terms, records,
                           parts);
+  const MotionModel near_model(DeviceFamily(start.device, all.numbers, options.locked, all.further_body), all.terms, records,
+                          near_parts);
   const Eigen::VectorXd linear = model.family().coordinates_of(start.device);
-  Search near(model, short_segment, steps);
+  Search near(near_model, short_segment, steps);
   Search whole(model, long_segment, steps);
   const std::string friction = "friction." + start.device.bodies[start.device.loop.actuated].name;
   const auto begin = found_near(near, whole, model, linear, friction, first_noise(records, steps));
@@ -227,18 +236,46 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   };
   if (!best || !limit(best->z)) return std::nullopt;
 
+  if (getenv("DBG")) {
+    const Eigen::MatrixXd cov = best->picture.hessian.inverse();
+    for (std::size_t i = 0; i < model.numbers().size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      fprintf(stderr, "  %-28s x %11.5g +- %9.3g prior %5.3g value %12.6g\n", model.numbers()[i].key.c_str(), best->z(k), std::sqrt(cov(k,k)), model.numbers()[i].prior_deviation, model.numbers()[i].value(best->z(k)));
+    }
+    for (auto& n : whole.evidence().noise()) fprintf(stderr, "  noise %g step %g\n", n.deviation, steps[0]);
+    if (const char* dump = getenv("DUMP")) {
+      FILE* f = fopen(dump, "w");
+      const Eigen::Index nn = whole.evidence().numbers();
+      const auto left = whole.evidence().residuals(best->z.head(nn), best->z.tail(best->z.size() - nn));
+      for (std::size_t i = 0; i < left->size(); ++i) {
+        const auto& w = whole.evidence().segments()[i];
+        const Eigen::MatrixXd white = whitened(whole.evidence().noise()[w.record], (*left)[i]);
+        for (Eigen::Index k = 0; k < white.rows(); ++k) fprintf(f, "%zu %.9g %.9g %.9g\n", i, (*left)[i](k + noise_order), white(k, 0), recordings[w.record].channels[1].samples[w.first + k + noise_order]);
+      }
+      fclose(f);
+    }
+    fprintf(stderr, "cost %.2f innovations %.2f limit %g\n", best->picture.cost, whole.innovations(), std::exp(*limit(best->z)));
+  }
   // An end that is more likely than the best was none: the search goes on from there.
   constexpr int most_begins = 5;
   ProfileEnd low;
   ProfileEnd high;
   for (int begins = 0; begins < most_begins; ++begins) {
+    const double t1 = clock();
     low = profile_end(whole.likelihood(), *best, limit, model.family().of_device(), -1.0, rise);
     if (!low.found_better) high = profile_end(whole.likelihood(), *best, limit, model.family().of_device(), 1.0, rise);
+    if (getenv("DBG")) fprintf(stderr, "  profile %.2fs low %g settled %d better %d high %g %d %d\n", (clock()-t1)/CLOCKS_PER_SEC, std::exp(low.value), low.settled, low.found_better, std::exp(high.value), high.settled, high.found_better);
     const ProfileEnd& better = low.found_better ? low : high;
     if (!better.found_better) break;
     auto again = minimise(whole.likelihood(), better.z, {.most_steps = 15, .least_gain = 0.02});
     if (again) best = *std::move(again);
   }
+  constexpr double deviations = 1.96;
+  const double deviation = deviation_of(*best, limit, model.family().of_device(), whole.likelihood().lowest());
+  const double middle = *limit(best->z);
+  if (getenv("DBG")) fprintf(stderr, "  by curvature +- %.3f %%\n", 196*deviation);
+  low.value = std::min(low.value, middle - deviations * deviation);
+  high.value = std::max(high.value, middle + deviations * deviation);
   return LikelihoodFit{model.family().device_at(best->z), std::exp(*limit(best->z)), std::exp(low.value),
                        std::exp(high.value), low.settled && high.settled};
 }

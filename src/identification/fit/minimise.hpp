@@ -16,6 +16,7 @@ struct Minimum {
   Eigen::VectorXd z;
   Picture picture;  ///< there
   bool settled = false;
+  int steps = 0, tries = 0;
 };
 
 /// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.

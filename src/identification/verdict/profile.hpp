@@ -28,4 +28,8 @@ struct ProfileEnd {
 [[nodiscard]] ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
                                      Eigen::Index varied, double direction, double rise);
 
+/// The deviation of a number by the curvature at the minimum: sqrt(s' H^-1 s), s its slope.
+[[nodiscard]] double deviation_of(const Minimum& minimum, const LogOf& number, Eigen::Index varied,
+                                  const Eigen::VectorXd& lowest);
+
 }  // namespace zwidth::internal
