@@ -51,8 +51,6 @@ struct IdentifyArguments {
 constexpr const char* motion_group = "Fit of the motion";
 constexpr const char* inverse_dynamics_group = "Inverse dynamics";
 
-bool is_of_table_or_estimate(std::string_view group) { return group == "Estimate" || group == "Table of a response"; }
-
 /// What a method does, for who gives it an option that it does not have; nothing where it has it.
 std::optional<std::string_view> why_not(const CLI::Option& option, std::string_view method) {
   const std::string name = option.get_name();
@@ -74,8 +72,10 @@ void check_recording(const CLI::App& command, const IdentifyArguments& arguments
   }
   for (const CLI::Option* option : command.get_options()) {
     const std::string group = option->get_group();
-    if (option->count() > 0 && (group == recording_group || group == motion_group || is_of_table_or_estimate(group) ||
-                                option->get_name() == "--method" || option->get_name() == "--points")) {
+    const bool of_recording = group == recording_group || group == "Estimate" || group == "Table of a response" ||
+                              group == motion_group || option->get_name() == "--method" ||
+                              option->get_name() == "--points";
+    if (option->count() > 0 && of_recording) {
       throw BadInput(option->get_name(), "is for a recording", "name the recording, or leave the option out");
     }
   }
