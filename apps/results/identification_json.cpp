@@ -99,6 +99,9 @@ Json identification_json(const Identification& identified, PointsInJson points) 
   json["critical_stiffness_without_hold"] = fit.stiffness_without_hold;
   json["rivals"] = identified.rivals;
   // The limit, none where it is refused, and how far it is to be trusted.
+  if (identified.trust.refused()) {
+    for (Json& rival : json["rivals"]) rival["critical_stiffness_interval"] = nullptr;
+  }
   for (const char* key : {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz",
                           "limited_by", "limits"}) {
     json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
