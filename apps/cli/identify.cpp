@@ -283,7 +283,7 @@ void add_identify(CLI::App& app) {
       "    --structure devices/lhifam.toml --free link.stiffness,link.damping --locked handle\n"
       "  zwidth identify recordings/free_motion.csv --force force --position position \\\n"
       "    --method inverse-dynamics\n"
-      "  zwidth identify --structure devices/lhifam.toml --free body.motor.damping --limit \"K=8000, hz=6\"");
+      "  zwidth identify --structure devices/lhifam.toml --free body.handle.damping --limit \"K=8000, hz=6\"");
   command->callback([arguments, command] {
     check_recording(*command, *arguments);
     check_method(*command, *arguments);
