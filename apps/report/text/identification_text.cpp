@@ -26,7 +26,7 @@ std::size_t shown_of(std::size_t count, std::size_t most, ShownFindings shown) {
 
 std::string fit_quality(const ParameterFit& fit) {
   if (fit.frequencies.empty()) return "";
-  std::string text = fmt::format("{} points from {:.4g} to {:.4g} Hz", fit.frequencies.size(),
+  std::string text = fmt::format("Response: {} points from {:.4g} to {:.4g} Hz", fit.frequencies.size(),
                                  hertz(fit.frequencies.front()), hertz(fit.frequencies.back()));
   if (fit.misfit) text += fmt::format("; residuals {:.3g} times the noise (1: the noise explains them)", *fit.misfit);
   if (fit.model_error > 1e-4) {
@@ -38,7 +38,8 @@ std::string fit_quality(const ParameterFit& fit) {
 std::string motion_quality(std::span<const FittedMotion> motions, Motion motion, ShownFindings shown) {
   std::string text;
   for (const FittedMotion& each : motions.first(shown_of(motions.size(), most_lines, shown))) {
-    text += wrap(fmt::format("{}: {} of noise per sample; {:.3g} % of the motion unexplained.", each.source,
+    text += wrap(fmt::format("{}noise of {} per sample; {:.3g} % of the motion unexplained.",
+                             motions.size() > 1 ? each.source + ": " : "Motion: ",
                              quantity(each.noise, units_of(motion).length), 100.0 * each.unexplained),
                  line_width, 0);
   }
@@ -103,8 +104,11 @@ std::string rivals_text(const Identification& identified, ShownFindings shown) {
   TextTable table{{Align::left, Align::left, Align::right, Align::right, Align::right, Align::right},
                   {{"what else explains the record", "", "size", "+-1 sigma", "K_CR from", "to"}}};
   for (const RivalEstimate& each : listed) {
-    const auto size = [&](double value) { return each.unit.empty() ? number(value) : quantity(value, each.unit); };
-    const auto& range = each.stiffness_interval;
+    const auto size = [&](double value) {
+      const bool takes_prefix = !each.unit.empty() && each.unit.find_first_of(" /") == std::string::npos;
+      return takes_prefix ? quantity(value, each.unit) : number(value) + (each.unit.empty() ? "" : " " + each.unit);
+    };
+    const auto range = identified.trust.refused() ? std::nullopt : each.stiffness_interval;
     const auto end = [&](double stiffness) { return limit_value_text(stiffness, units.stiffness); };
     std::string name = each.code;
     std::ranges::replace(name, '_', ' ');
