@@ -48,7 +48,7 @@ struct IdentifyArguments {
   [[nodiscard]] bool has_recording() const { return !response.recording.file.empty(); }
 };
 
-constexpr const char* motion_group = "Fit of the motion";
+constexpr const char* motion_fit_group = "Fit of the motion";
 constexpr const char* inverse_dynamics_group = "Inverse dynamics";
 
 /// What a method does, for who gives it an option that it does not have; nothing where it has it.
@@ -73,7 +73,7 @@ void check_recording(const CLI::App& command, const IdentifyArguments& arguments
   for (const CLI::Option* option : command.get_options()) {
     const std::string group = option->get_group();
     const bool of_recording = group == recording_group || group == "Estimate" || group == "Table of a response" ||
-                              group == motion_group || option->get_name() == "--method" ||
+                              group == motion_fit_group || option->get_name() == "--method" ||
                               option->get_name() == "--points";
     if (option->count() > 0 && of_recording) {
       throw BadInput(option->get_name(), "is for a recording", "name the recording, or leave the option out");
@@ -90,7 +90,7 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
     if (option->count() == 0) continue;
     const std::string name = option->get_name();
     const std::string group = option->get_group();
-    if (group == motion_group && !method.empty() && method != "time-domain")
+    if (group == motion_fit_group && !method.empty() && method != "time-domain")
       throw BadInput(name, "is for --method time-domain");
     if (group == inverse_dynamics_group && method != "inverse-dynamics")
       throw BadInput(name, "is for --method inverse-dynamics");
@@ -255,7 +255,7 @@ void add_identify(CLI::App& app) {
   command->add_option("--segment-duration", arguments->segment, "Each segment begins in a state of its own")
       ->type_name("S")
       ->capture_default_str()
-      ->group(motion_group);
+      ->group(motion_fit_group);
   command
       ->add_option("--method", arguments->method,
                    "time-domain (the motion itself; the default of a recording),\n"

@@ -15,7 +15,7 @@ namespace zwidth::report {
 namespace {
 
 constexpr std::size_t most_rivals = 6;
-constexpr std::size_t most_lines = 3;  ///< of pairs hardly told apart, and of recordings
+constexpr std::size_t most_beside = 3;  ///< of pairs hardly told apart, and of recordings
 /// What moves the limit by less is not shown.
 constexpr double least_share_of_limit = 0.005;
 
@@ -37,7 +37,7 @@ std::string fit_quality(const ParameterFit& fit) {
 
 std::string motion_quality(std::span<const FittedMotion> motions, Motion motion, ShownFindings shown) {
   std::string text;
-  for (const FittedMotion& each : motions.first(shown_of(motions.size(), most_lines, shown))) {
+  for (const FittedMotion& each : motions.first(shown_of(motions.size(), most_beside, shown))) {
     text += wrap(fmt::format("{}noise of {} per sample; {:.3g} % of the motion unexplained.",
                              motions.size() > 1 ? each.source + ": " : "Motion: ",
                              quantity(each.noise, units_of(motion).length), 100.0 * each.unexplained),
@@ -48,7 +48,7 @@ std::string motion_quality(std::span<const FittedMotion> motions, Motion motion,
 
 std::string correlations(std::span<const StrongCorrelation> strong, ShownFindings shown) {
   std::string text;
-  for (const StrongCorrelation& each : strong.first(shown_of(strong.size(), most_lines, shown))) {
+  for (const StrongCorrelation& each : strong.first(shown_of(strong.size(), most_beside, shown))) {
     text += wrap(
         fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation),
         line_width, 2);
