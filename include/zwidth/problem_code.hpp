@@ -178,6 +178,11 @@ enum class ProblemCode : std::uint16_t {
   too_many_bodies_with_friction,      ///< too many bodies rub
   motion_too_fast,                    ///< a motion is too fast to follow in time
   force_and_position_of_two_lengths,  ///< force and position have different lengths
+  body_does_not_move,                 ///< a position is constant
+  moves_one_way,                      ///< a motion never reverses
+  too_few_equations,                  ///< filtering, decimation and rests leave too few samples
+  equations_not_told_apart,           ///< a motion does not tell mass, friction and offset apart
+  force_against_motion,               ///< a fitted mass is not above 0
   period_or_samples_not_possible,     ///< a period or a sample is not possible
   ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
   transform_of_nothing,               ///< a transform of no samples

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/excitation_check.hpp"
-#include "identification/excitation_spectrum.hpp"
+#include "identification/excitation/excitation_check.hpp"
+#include "identification/excitation/excitation_spectrum.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_key.hpp"
 

@@ -1,4 +1,4 @@
-#include "identification/excitation_spectrum.hpp"
+#include "identification/excitation/excitation_spectrum.hpp"
 
 #include <fmt/format.h>
 
