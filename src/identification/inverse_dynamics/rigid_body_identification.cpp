@@ -186,9 +186,10 @@ void judge_limit(RigidBodyIdentification& identified) {
          .evidence = {{"frequency", hertz(limit->frequency)}, {"lowest", hertz(lowest)}, {"highest", hertz(highest)}},
          .subjects = {{"side", limit->frequency > highest ? "above" : "below"}}});
   }
-  if (const auto& interval = analysis.interval) {
-    identified.trust.inherit(verdict_of({.limit = LimitRange{interval->lower, interval->upper}}));
-  }
+  if (!analysis.interval) return;
+  FittedLikelihood known;
+  known.limit = LimitRange{analysis.interval->lower, analysis.interval->upper};
+  identified.trust.inherit(verdict_of(known));
 }
 
 /// With the verdict, so that its file keeps it.
