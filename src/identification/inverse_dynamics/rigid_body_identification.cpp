@@ -171,8 +171,8 @@ void judge_delay(RigidBodyIdentification& identified, double recorded_period) {
   const double later = delay.value - 0.5 * recorded_period;
   constexpr double clear = 4.0;
   if (later <= clear * *delay.standard_deviation) return;
-  identified.remarks.push_back(
-      note({.code = FindingCode::force_acts_later, .evidence = {{"milliseconds", 1e3 * later}}, .key = loop_delay_key}));
+  identified.remarks.push_back(note(
+      {.code = FindingCode::force_acts_later, .evidence = {{"milliseconds", 1e3 * later}}, .key = loop_delay_key}));
 }
 
 /// The interval must be narrow, and what limits excited: no number of a rigid body stands for what lies beyond.
@@ -189,7 +189,16 @@ void judge_limit(RigidBodyIdentification& identified) {
   if (!analysis.interval) return;
   FittedLikelihood known;
   known.limit = LimitRange{analysis.interval->lower, analysis.interval->upper};
-  identified.trust.inherit(verdict_of(known));
+  const Loop& loop = identified.device.parameters().loop;
+  const auto& deviation = identified.fit.delay.standard_deviation;
+  constexpr double notable = 0.2;  // of what delays the loop: K_CR goes with it
+  Trust of_width = verdict_of(known);
+  for (Finding& doubt : of_width.findings) {
+    if (deviation && 2.0 * *deviation > notable * (0.5 * loop.sampling_period + loop.delay)) {
+      doubt.evidence.push_back({"delay_within_ms", 2e3 * *deviation});
+    }
+    identified.trust.doubt(std::move(doubt));
+  }
 }
 
 /// With the verdict, so that its file keeps it.
