@@ -78,7 +78,7 @@ std::optional<OptionProblem> find_problem(const ExcitationOptions& options, doub
     return beyond_range("fade_in", options.fade_in, fade, {{"unit", "s"}});
   }
   if (options.stroke_limit && !positive(*options.stroke_limit)) {
-    return not_above_zero("stroke_limit", *options.stroke_limit, "length in m (rotary: rad)");
+    return not_above_zero("stroke_limit", *options.stroke_limit, "length");
   }
   const std::size_t samples = size_of(options, rate);
   if (options.kind == ExcitationKind::multisine) {

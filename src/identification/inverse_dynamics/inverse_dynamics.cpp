@@ -63,7 +63,7 @@ void check(std::span<const double> force, std::span<const double> position, doub
   if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
     fail({.code = ProblemCode::no_duration,
           .evidence = {{"value", sampling_period}},
-          .subjects = {{"name", "the sampling period"}, {"unit", "s"}}});
+          .subjects = {{"name", "sampling period"}, {"unit", "s"}}});
   }
   if (options.cutoff_hz && !(*options.cutoff_hz > 0.0 && *options.cutoff_hz * sampling_period < 0.5)) {
     refuse_option("cutoff_hz", {.code = ProblemCode::cutoff_not_possible,
