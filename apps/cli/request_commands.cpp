@@ -78,7 +78,7 @@ bool put_recording(const CommandRequest::Recorded& recorded, RequestContext& own
   return true;
 }
 
-/// What a request names is in its surroundings; the arguments name it.
+/// What a request names is in its context; the arguments name it.
 void put_inputs(const CommandRequest& request, const OfferedCommand& command, RequestContext& own,
                 std::vector<std::string>& arguments) {
   if (request.device) {
