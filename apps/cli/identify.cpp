@@ -14,10 +14,8 @@
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/remark_lines.hpp"
 #include "cli/request_context.hpp"
 #include "cli/response_arguments.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/structure_arguments.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/identification_figure.hpp"
@@ -140,9 +138,9 @@ IdentifyOptions identify_options(const IdentifyArguments& arguments, const Struc
 
 /// The library's work, with progress.
 template <typename Work>
-auto fitted(const std::string& name, const Work& work, OptionsByMember options) {
+auto fitted(const CLI::App& command, const std::string& name, const Work& work, OptionsByMember options) {
   const auto with_progress = [&] {
-    ProgressLine line("identifying");
+    ProgressLine line(command, "identifying");
     return work(line.progress());
   };
   return worked(name, with_progress, options);
@@ -152,7 +150,8 @@ Identification identified_device(const IdentifyArguments& arguments) {
   if (!arguments.has_recording()) {
     const Structure fitted_structure = structure(arguments.structure, {}, {});
     const IdentifyOptions options = identify_options(arguments, fitted_structure);
-    return fitted("", [&](const Progress&) { return identify_from_limits(fitted_structure.device, options); }, {});
+    return fitted(*arguments.response.command, "",
+                  [&](const Progress&) { return identify_from_limits(fitted_structure.device, options); }, {});
   }
   const ResponseSource source = response_source(arguments.response);
   const Structure fitted_structure = structure(arguments.structure, source.sampling_period(), source.recordings);
@@ -162,7 +161,8 @@ Identification identified_device(const IdentifyArguments& arguments) {
     return !source.recordings.empty() ? identify(source.recordings, fitted_structure.device, options, progress)
                                       : identify(source.table, fitted_structure.device, options);
   };
-  return fitted(source.recordings.size() > 1 ? "" : source.name, identified, options_of_response());
+  return fitted(*arguments.response.command, source.recordings.size() > 1 ? "" : source.name, identified,
+                options_of_response());
 }
 
 RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
@@ -179,7 +179,7 @@ RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
   const auto identified = [&](const Progress& progress) {
     return identify_rigid_body(motion.recording, options, progress);
   };
-  return fitted(arguments.response.recording.file, identified, own_options);
+  return fitted(*arguments.response.command, arguments.response.recording.file, identified, own_options);
 }
 
 std::string device_hint(const IdentifyArguments& arguments) {
@@ -189,9 +189,10 @@ std::string device_hint(const IdentifyArguments& arguments) {
 
 /// Writes the files that were asked for.
 template <typename Identified>
-void put(Outputs& outputs, const Identified& identified, const std::string& device) {
+void put(const IdentifyArguments& arguments, Outputs& outputs, const Identified& identified,
+         const std::string& device) {
   outputs.put("--output-device", [&] { return device; });
-  hand_over_device(device);
+  hand_over_device(*arguments.response.command, device);
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
   outputs.commit();
@@ -199,15 +200,15 @@ void put(Outputs& outputs, const Identified& identified, const std::string& devi
 
 /// What a method found, as a document, as the device file alone, or in words.
 template <typename Identified, typename Document>
-void print(const IdentifyArguments& arguments, const Identified& identified, const std::string& device,
-           const Document& document) {
+void print(const IdentifyArguments& arguments, const Outputs& outputs, const Identified& identified,
+           const std::string& device, const Document& document) {
   if (arguments.output.json) {
-    write_standard_output(results::line(document()));
+    outputs.print(results::line(document()));
   } else if (arguments.output_device == "-") {
-    write_warnings(identified.remarks);
-    write_standard_output(device);
+    outputs.warn(identified.remarks);
+    outputs.print(device);
   } else {
-    write_text(report::identification_text(identified, arguments.output.findings) + device_hint(arguments));
+    outputs.print_text(report::identification_text(identified, arguments.output.findings) + device_hint(arguments));
   }
 }
 
@@ -215,22 +216,22 @@ void print(const IdentifyArguments& arguments, const Identified& identified, con
 void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
   const RigidBodyIdentification identified = fitted_rigid_body(arguments);
   const std::string device = write_device(identified.device.parameters(), identified.remarks);
-  put(outputs, identified, device);
-  print(arguments, identified, device, [&] { return results::identification_json(identified); });
+  put(arguments, outputs, identified, device);
+  print(arguments, outputs, identified, device, [&] { return results::identification_json(identified); });
 }
 
 void run_identify(const IdentifyArguments& arguments) {
   if (arguments.response.recording.list) {
     return write_contents(arguments.response.recording, arguments.output.json);
   }
-  Outputs outputs;
+  Outputs outputs(*arguments.response.command);
   check(arguments, outputs);
   if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments, outputs);
   const Identification identified = identified_device(arguments);
   const std::string device = write_device(identified.fit.device.parameters(), identified.remarks);
-  put(outputs, identified, device);
+  put(arguments, outputs, identified, device);
   const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
-  print(arguments, identified, device, [&] { return results::identification_json(identified, points); });
+  print(arguments, outputs, identified, device, [&] { return results::identification_json(identified, points); });
 }
 
 }  // namespace

@@ -78,6 +78,7 @@ enum class ProblemCode : std::uint16_t {
   no_mode_to_tune_to,          ///< the device has no resonance
   drift_out_of_range,          ///< a drift is not from 0 to 90 %
   no_modes_to_drift,           ///< the device has no link
+  band_without_line,           ///< a band holds no line of a periodic signal
   gain_margin_out_of_range,    ///< a gain margin is not from 0 to 100 dB
   phase_margin_out_of_range,   ///< a phase margin is not from 0 to 90 degrees
 
@@ -89,6 +90,8 @@ enum class ProblemCode : std::uint16_t {
   samples_of_trials,                 ///< trials have too few or too many samples
   no_longer_than_delay,              ///< a trial is over before a force arrives
   duration_out_of_range,             ///< a run has no sample or too many
+  excitation_samples_out_of_range,   ///< duration and rate make too few or too many samples
+  transform_too_long,                ///< one transform would be of too many samples
   no_force_would_arrive,             ///< a run is over before a force arrives
   over_before_user_force,            ///< a run is over before the user pushes
   no_points_kept,                    ///< no point would be kept
@@ -178,6 +181,11 @@ enum class ProblemCode : std::uint16_t {
   too_many_bodies_with_friction,      ///< too many bodies rub
   motion_too_fast,                    ///< a motion is too fast to follow in time
   force_and_position_of_two_lengths,  ///< force and position have different lengths
+  body_does_not_move,                 ///< a position is constant
+  moves_one_way,                      ///< a motion never reverses
+  too_few_equations,                  ///< filtering, decimation and rests leave too few samples
+  equations_not_told_apart,           ///< a motion does not tell mass, friction and offset apart
+  force_against_motion,               ///< a fitted mass is not above 0
   period_or_samples_not_possible,     ///< a period or a sample is not possible
   ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
   transform_of_nothing,               ///< a transform of no samples

@@ -1,4 +1,4 @@
-#include "identification/rigid_band.hpp"
+#include "identification/inverse_dynamics/rigid_band.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "identification/motion_bandwidth.hpp"
+#include "identification/inverse_dynamics/motion_bandwidth.hpp"
 #include "signal/fourier.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"

@@ -1,4 +1,4 @@
-#include "identification/correlated_residuals.hpp"
+#include "identification/inverse_dynamics/correlated_residuals.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,4 @@
-#include "identification/excitation_spectrum.hpp"
-
-#include <fmt/format.h>
+#include "identification/excitation/excitation_spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "counted.hpp"
 #include "signal/fourier.hpp"
 #include "zwidth/identification/excitation.hpp"
 
@@ -49,14 +48,12 @@ std::vector<double> signal_of(const std::vector<Complex>& lines, std::size_t fir
 
 std::optional<OptionProblem> find_problem(std::size_t size, RelativeBand band) {
   if (static_cast<double>(size) > max_transformed_samples) {
-    return OptionProblem{"duration", fmt::format("makes {} samples in one transform", size),
-                         fmt::format("at most {:g} for noise or one period of a multisine", max_transformed_samples)};
+    return option_problem("duration", {.code = ProblemCode::transform_too_long,
+                                       .evidence = {counted("samples", size), {"most", max_transformed_samples}}});
   }
   const Lines lines = lines_in(band, size);
   if (lines.first <= lines.last) return std::nullopt;
-  return OptionProblem{"highest_hz", "ends a band that holds no line of the spectrum",
-                       "lines lie 1/period apart (noise: 1/duration) and below half the rate; make the band wider or "
-                       "the period longer"};
+  return option_problem("highest_hz", {.code = ProblemCode::band_without_line});
 }
 
 std::vector<double> schroeder_multisine(std::size_t size, RelativeBand band) {

@@ -1,7 +1,9 @@
 #include "zwidth/identification/rigid_body_identification.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -10,11 +12,9 @@
 #include <string>
 #include <utility>
 
-#include "identification/fit_judgement.hpp"
-#include "identification/interval_narrowing.hpp"
-#include "identification/lateness.hpp"
-#include "identification/nonlinearity_of_equations.hpp"
+#include "counted.hpp"
 #include "identification/plausibility.hpp"
+#include "identification/verdict/verdict.hpp"
 #include "model/option_beyond.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
@@ -28,6 +28,8 @@
 namespace zwidth {
 using namespace internal;
 namespace {
+
+constexpr const char* loop_delay_key = "loop.delay";
 
 /// What of the fit is the device's, in the order of estimates(): all but the offset; its delay is later than a hold's.
 struct LaterBody {
@@ -78,7 +80,7 @@ DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& opti
   std::vector<Eigen::Index> rows;
   for (const Place& place :
        {Place{"body.body.mass", &body.mass, 0}, Place{"body.body.damping", &body.damping, 1},
-        Place{"body.body.coulomb", &body.coulomb, 2}, Place{delay_key, &parameters.loop.delay, delay_row}}) {
+        Place{"body.body.coulomb", &body.coulomb, 2}, Place{loop_delay_key, &parameters.loop.delay, delay_row}}) {
     const double value = found.values(place.row);
     if (value < 0.0) {
       remarks.push_back(warning({.code = FindingCode::taken_as_zero,
@@ -102,51 +104,34 @@ DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& opti
   return parameters;
 }
 
-/// Friction that drives the body is none: it is biased by more than its interval.
-void judge_friction(RigidBodyIdentification& identified) {
-  for (const ParameterEstimate* each : {&identified.fit.viscous, &identified.fit.coulomb}) {
-    if (!each->upper || *each->upper >= 0.0) continue;
-    identified.trust.doubt({.code = FindingCode::friction_below_zero,
-                            .evidence = {{"value", each->value}, {"upper", *each->upper}},
-                            .subjects = {{"friction", each->key}}});
+/// The record's own statements that contradict what it is taken for: a rate, a column's quantity, its motion.
+void judge_statements(RigidBodyIdentification& identified, const Recording& recording) {
+  for (const Finding& each : recording.doubts) identified.trust.doubt(each);
+  const Motion motion = identified.device.parameters().motion;
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    const Channel& channel = recording.channels[i];
+    const StatedQuantity taken_for = i == 0 ? StatedQuantity::force : StatedQuantity::position;
+    if (channel.quantity != StatedQuantity::nothing && channel.quantity != taken_for) {
+      const bool is_unknown = channel.quantity == StatedQuantity::other;
+      identified.trust.doubt(
+          {.code = is_unknown ? FindingCode::channel_unit_unknown : FindingCode::channel_of_other_quantity,
+           .subjects = {{"channel", channel.name}, {"unit", channel.unit}, {"role", i == 0 ? "force" : "motion"}}});
+    }
+    Recording alone;
+    alone.channels.push_back({.name = "", .samples = {}, .base_unit = channel.base_unit});
+    const std::optional<Motion> stated = stated_motion(std::span(&alone, 1));
+    if (!stated || *stated == motion) continue;
+    const bool is_rotary = motion == Motion::rotary;
+    identified.trust.doubt({.code = FindingCode::channel_of_other_motion,
+                            .subjects = {{"channel", channel.name},
+                                         {"unit", channel.base_unit},
+                                         {"of_channel", is_rotary ? "linear" : "rotary"},
+                                         {"of_structure", is_rotary ? "rotary" : "linear"}},
+                            .key = "motion"});
   }
 }
 
-/// A force that acts later than one that is held delays the loop, too.
-void judge_delay(RigidBodyIdentification& identified, double recorded_period) {
-  const ParameterEstimate& delay = identified.fit.delay;
-  if (!delay.identifiable) {
-    identified.trust.doubt({.code = FindingCode::delay_not_shown});
-    return;
-  }
-  const double later = delay.value - 0.5 * recorded_period;
-  constexpr double clear = 4.0;
-  if (later <= clear * *delay.standard_deviation) return;
-  identified.remarks.push_back(
-      note({.code = FindingCode::force_acts_later, .evidence = {{"milliseconds", 1e3 * later}}, .key = delay_key}));
-}
-
-/// What limits must have been excited, and the delay be known for it.
-void judge_limit(RigidBodyIdentification& identified) {
-  const CriticalStiffness critical = limit_of(identified.device);
-  const double lowest = radians_per_second(identified.fit.lowest_hz);
-  const double highest = radians_per_second(identified.fit.highest_hz);
-  if (critical.limit && (critical.limit->frequency < lowest || critical.limit->frequency > highest)) {
-    identified.trust.doubt(limit_outside_band(critical.limit->frequency, lowest, highest));
-    if (critical.limit->frequency > highest) identified.device = with_shared_lateness(identified.device);
-  }
-  const auto interval = analyze(identified.device, {.any_user = false}).interval;
-  if (!interval || !is_inconclusive(*interval)) return;
-  Finding open = interval_left_open(*interval);
-  const Loop& loop = identified.device.parameters().loop;
-  const auto deviation = identified.fit.delay.standard_deviation;
-  constexpr double notable = 0.2;  // of what delays the loop: K_CR goes with it
-  if (deviation && 2.0 * *deviation > notable * (0.5 * loop.sampling_period + loop.delay)) {
-    open.evidence.push_back({"delay_within_ms", 2e3 * *deviation});
-  }
-  identified.trust.doubt(std::move(open));
-}
-
+/// Most of the force must be that of the body; the interval counts errors that are a small part of it only.
 void judge_residual(RigidBodyIdentification& identified) {
   constexpr double doubtful = 0.1;
   constexpr double refused = 0.5;
@@ -159,47 +144,83 @@ void judge_residual(RigidBodyIdentification& identified) {
   } else {
     identified.trust.doubt(found);
   }
-  identified.remarks.push_back(warning(found));
 }
 
-/// A mode that limits the wall before the rigid body does is not in this model.
-void judge_mode(RigidBodyIdentification& identified) {
+/// What one passive rigid body cannot do: friction that drives it, a response that turns back.
+void judge_body(RigidBodyIdentification& identified) {
   const RigidBodyFit& fit = identified.fit;
+  for (const ParameterEstimate* each : {&fit.viscous, &fit.coulomb}) {
+    if (!each->upper || *each->upper >= 0.0) continue;
+    identified.trust.doubt({.code = FindingCode::friction_below_zero,
+                            .evidence = {{"value", each->value}, {"upper", *each->upper}},
+                            .subjects = {{"friction", each->key}}});
+  }
   if (!fit.first_mode_hz && !fit.compliant_mode_hz) return;
-  const Finding found{.code = FindingCode::device_not_rigid,
-                      .evidence = {fit.first_mode_hz ? Evidence{"first_mode", *fit.first_mode_hz}
-                                                     : Evidence{"mode_above", *fit.compliant_mode_hz}}};
-  identified.trust.doubt(found);
-  identified.remarks.push_back(warning(found));
+  identified.trust.doubt({.code = FindingCode::device_not_rigid,
+                          .evidence = {fit.first_mode_hz ? Evidence{"first_mode", *fit.first_mode_hz}
+                                                         : Evidence{"mode_above", *fit.compliant_mode_hz}}});
 }
 
-void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& recording, Motion motion) {
-  for (Finding& doubt :
-       doubts_of_recording(recording, std::span(&recording, 1), OutputQuantity::position, identified.device)) {
+/// A force that acts later than one that is held delays the loop, too.
+void judge_delay(RigidBodyIdentification& identified, double recorded_period) {
+  const ParameterEstimate& delay = identified.fit.delay;
+  if (!delay.identifiable) {
+    identified.trust.doubt({.code = FindingCode::delay_not_shown});
+    return;
+  }
+  const double later = delay.value - 0.5 * recorded_period;
+  constexpr double clear = 4.0;
+  if (later <= clear * *delay.standard_deviation) return;
+  identified.remarks.push_back(note(
+      {.code = FindingCode::force_acts_later, .evidence = {{"milliseconds", 1e3 * later}}, .key = loop_delay_key}));
+}
+
+/// The interval must be narrow, and what limits excited: no number of a rigid body stands for what lies beyond.
+void judge_limit(RigidBodyIdentification& identified) {
+  const Analysis analysis = analyze(identified.device, {.any_user = false});
+  const double lowest = radians_per_second(identified.fit.lowest_hz);
+  const double highest = radians_per_second(identified.fit.highest_hz);
+  if (const auto& limit = analysis.critical.limit; limit && (limit->frequency < lowest || limit->frequency > highest)) {
+    identified.trust.doubt(
+        {.code = FindingCode::limit_outside_band,
+         .evidence = {{"frequency", hertz(limit->frequency)}, {"lowest", hertz(lowest)}, {"highest", hertz(highest)}},
+         .subjects = {{"side", limit->frequency > highest ? "above" : "below"}}});
+  }
+  if (!analysis.interval) return;
+  FittedLikelihood known;
+  known.limit = LimitRange{analysis.interval->lower, analysis.interval->upper};
+  const Loop& loop = identified.device.parameters().loop;
+  const auto& deviation = identified.fit.delay.standard_deviation;
+  constexpr double notable = 0.2;  // of what delays the loop: K_CR goes with it
+  Trust of_width = verdict_of(known);
+  for (Finding& doubt : of_width.findings) {
+    if (deviation && 2.0 * *deviation > notable * (0.5 * loop.sampling_period + loop.delay)) {
+      doubt.evidence.push_back({"delay_within_ms", 2e3 * *deviation});
+    }
     identified.trust.doubt(std::move(doubt));
   }
-  auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,
-                                              recording.channels[1].samples, recording.sampling_period, motion);
-  if (!found) return;
-  Finding shown = shown_by("the record", std::move(found->finding));
-  shown.subjects.push_back({"taken_for", "friction"});
-  identified.trust.doubt(shown);
-  identified.remarks.push_back(warning(std::move(shown)));
+}
+
+/// With the verdict, so that its file keeps it.
+Device stating_trust(const Device& device, const Trust& trust) {
+  if (trust.sound()) return device;
+  DeviceParameters parameters = device.parameters();
+  if (!parameters.uncertainty) parameters.uncertainty.emplace();
+  parameters.uncertainty->verdict = trust.verdict;
+  parameters.uncertainty->warning = fmt::format("{}", fmt::join(trust.reasons, "; "));
+  return Device(std::move(parameters));
 }
 
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RigidBodyOptions& options) {
-  const auto not_positive = [](const std::optional<double>& value) {
-    return value && !(std::isfinite(*value) && *value > 0.0);
-  };
   const InverseDynamicsOptions& inverse = options.inverse_dynamics;
-  if (not_positive(inverse.cutoff_hz)) {
-    return OptionProblem{"inverse_dynamics.cutoff_hz", fmt::format("is {} Hz", *inverse.cutoff_hz),
-                         "must be above 0 and below half the rate"};
+  if (inverse.cutoff_hz && !(std::isfinite(*inverse.cutoff_hz) && *inverse.cutoff_hz > 0.0)) {
+    return option_problem("inverse_dynamics.cutoff_hz",
+                          {.code = ProblemCode::frequency_out_of_range, .evidence = {{"hertz", *inverse.cutoff_hz}}});
   }
   if (inverse.decimation && *inverse.decimation < 1) {
-    return OptionProblem{"inverse_dynamics.decimation", "is 0", "must be at least 1"};
+    return option_problem("inverse_dynamics.decimation", {.code = ProblemCode::none_asked});
   }
   if (!options.sampling_period) return std::nullopt;
   return option_beyond("sampling_period", *options.sampling_period, positive_numbers, "s");
@@ -209,18 +230,15 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
                                             const Progress& progress) {
   require_valid(find_problem(options));
   if (recording.channels.size() != 2) {
-    throw Error(
-        ErrorCode::invalid_argument,
-        fmt::format("the recording has {} channels; two, the force and the position", recording.channels.size()));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::recording_without_two_channels,
+                                              .evidence = {counted("channels", recording.channels.size())}});
   }
   const double period = recording.sampling_period;
   RigidBodyFit fit = identify_rigid_body(recording.channels[0].samples, recording.channels[1].samples, period,
                                          options.inverse_dynamics, progress);
   if (!(fit.mass.value > 0.0)) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("the fitted mass is {:.4g}: force and motion have opposite signs, or are not of one body; "
-                            "turn the sign of one of them",
-                            fit.mass.value));
+                {.code = ProblemCode::force_against_motion, .evidence = {{"value", fit.mass.value}}});
   }
   std::vector<Remark> remarks = recording.remarks;
   Trust trust;
@@ -241,13 +259,12 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   for (Remark& remark : implausible_device(device, nullptr, period)) remarks.push_back(std::move(remark));
   RigidBodyIdentification identified{recording.source, std::move(fit), std::move(device), std::move(remarks),
                                      std::move(trust)};
+  judge_statements(identified, recording);
   judge_residual(identified);
-  judge_friction(identified);
-  judge_mode(identified);
+  judge_body(identified);
   judge_delay(identified, period);
   judge_limit(identified);
-  judge_nonlinearity(identified, recording, motion);
-  identified.device = with_trust(identified.device, identified.trust);
+  identified.device = stating_trust(identified.device, identified.trust);
   return identified;
 }
 

@@ -1,22 +1,22 @@
 #include "zwidth/identification/inverse_dynamics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
 
+#include "counted.hpp"
 #include "eigenvalues.hpp"
-#include "identification/correlated_residuals.hpp"
-#include "identification/nonlinearity_of_equations.hpp"
-#include "identification/rigid_band.hpp"
+#include "identification/inverse_dynamics/correlated_residuals.hpp"
+#include "identification/inverse_dynamics/rigid_band.hpp"
 #include "identification/student_t.hpp"
 #include "linear_systems.hpp"
-#include "require_valid.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/input_problem.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -26,7 +26,15 @@ constexpr std::size_t least_samples = 100;
 constexpr std::size_t least_equations = 20;
 constexpr double decimation_factor = 0.8;
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorCode::invalid_argument, message); }
+[[noreturn]] void fail(const Problem& problem) { throw Error(ErrorCode::invalid_argument, problem); }
+
+[[noreturn]] void refuse_option(std::string member, Problem problem) {
+  InputPlace place;
+  place.option = std::move(member);
+  InputProblem told = input_problem(std::move(place), std::move(problem));
+  const std::string message = told.what + "; " + told.allowed;
+  throw Error(ErrorCode::invalid_argument, message, {std::move(told)});
+}
 
 /// The terms of the model at the record's inner samples, all through the same low-pass.
 struct Terms {
@@ -39,24 +47,33 @@ struct Terms {
 
 void check(std::span<const double> force, std::span<const double> position, double sampling_period,
            const InverseDynamicsOptions& options) {
-  const auto finite = [](double value) { return std::isfinite(value); };
   if (force.size() != position.size()) {
-    fail(fmt::format("{} samples of force and {} of position; equally many", force.size(), position.size()));
+    fail({.code = ProblemCode::force_and_position_of_two_lengths,
+          .evidence = {counted("force", force.size()), counted("position", position.size())}});
   }
-  if (force.size() < least_samples) fail(fmt::format("{} samples; at least {}", force.size(), least_samples));
-  if (!std::all_of(force.begin(), force.end(), finite) || !std::all_of(position.begin(), position.end(), finite)) {
-    fail("force and position must be finite numbers");
+  if (force.size() < least_samples) {
+    fail({.code = ProblemCode::too_few,
+          .evidence = {counted("value", force.size()), counted("least", least_samples)},
+          .subjects = {{"name", "the record"}, {"unit", "samples"}}});
+  }
+  for (const auto& [name, samples] : {std::pair{"the force", force}, std::pair{"the position", position}}) {
+    if (std::ranges::all_of(samples, [](double value) { return std::isfinite(value); })) continue;
+    fail({.code = ProblemCode::not_finite, .subjects = {{"name", name}}});
   }
   if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    fail(fmt::format("sampling period is {} s; a time > 0", sampling_period));
+    fail({.code = ProblemCode::no_duration,
+          .evidence = {{"value", sampling_period}},
+          .subjects = {{"name", "sampling period"}, {"unit", "s"}}});
   }
   if (options.cutoff_hz && !(*options.cutoff_hz > 0.0 && *options.cutoff_hz * sampling_period < 0.5)) {
-    refuse_member("cutoff_hz", fmt::format("cutoff is {} Hz", *options.cutoff_hz),
-                  fmt::format("above 0 and below half the rate, {:g} Hz", 0.5 / sampling_period));
+    refuse_option("cutoff_hz", {.code = ProblemCode::cutoff_not_possible,
+                                .evidence = {{"value", *options.cutoff_hz}, {"nyquist", 0.5 / sampling_period}}});
   }
-  if (options.decimation && *options.decimation < 1) refuse_member("decimation", "decimation is 0", "at least 1");
-  const auto [lowest, highest] = std::minmax_element(position.begin(), position.end());
-  if (*lowest == *highest) fail("the position is constant: a body that does not move shows none of its parameters");
+  if (options.decimation && *options.decimation < 1) {
+    refuse_option("decimation", {.code = ProblemCode::none_asked, .subjects = {{"name", "decimation"}}});
+  }
+  const auto [lowest, highest] = std::ranges::minmax(position);
+  if (lowest == highest) fail({.code = ProblemCode::body_does_not_move});
 }
 
 /// Samples lost at each end to the differences.
@@ -136,10 +153,9 @@ std::vector<std::size_t> kept_samples(const Terms& terms, double cutoff, std::si
     if (!rests[k]) kept.push_back(k);
   }
   if (kept.size() < least_equations) {
-    fail(
-        fmt::format("{} equations are left of {} samples, at least {} are needed: the record is too short, or the "
-                    "body rests too long; a higher cutoff or less decimation leaves more",
-                    kept.size(), terms.velocity.size() + 2 * reach, least_equations));
+    fail({.code = ProblemCode::too_few_equations,
+          .evidence = {counted("equations", kept.size()), counted("samples", terms.velocity.size() + 2 * reach),
+                       counted("least", least_equations)}});
   }
   return kept;
 }
@@ -149,9 +165,7 @@ void check_reversals(const Terms& terms, const std::vector<std::size_t>& kept) {
   const auto forwards = static_cast<double>(
       std::count_if(kept.begin(), kept.end(), [&](std::size_t k) { return terms.velocity[k] > 0.0; }));
   const double share = forwards / static_cast<double>(kept.size());
-  if (std::min(share, 1.0 - share) < least_share) {
-    fail("the body moves one way only: Coulomb friction and offset look alike then; record motion both ways");
-  }
+  if (std::min(share, 1.0 - share) < least_share) fail({.code = ProblemCode::moves_one_way});
 }
 
 /// The slope of a smooth signal between two samples, and its value: cubic through values and slopes.
@@ -253,42 +267,6 @@ ParameterEstimate estimate(std::string key, double value, double deviation, doub
 
 }  // namespace
 
-std::optional<Nonlinearity> internal::find_nonlinearity_of_equations(const RigidBodyFit& fit,
-                                                                     std::span<const double> force,
-                                                                     std::span<const double> position,
-                                                                     double sampling_period, Motion motion) {
-  const double cutoff = fit.cutoff_hz * sampling_period;
-  const Terms terms = filtered_terms(force, position, sampling_period, cutoff);
-  const std::vector<std::size_t> kept = kept_samples(terms, cutoff, fit.decimation);
-  const DynamicsSolution solution = solve(terms, kept, sampling_period, fit.delay.value, delay);
-  const auto rows = static_cast<Eigen::Index>(kept.size());
-  const auto of_position = [&](std::span<const double> each) -> Eigen::VectorXd {
-    const std::vector<double> filtered = zero_phase_low_pass(each.subspan(reach, terms.force.size()), cutoff);
-    Eigen::VectorXd values(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) values(i) = filtered[kept[static_cast<std::size_t>(i)]];
-    return values;
-  };
-  Eigen::MatrixXd known(rows, solution.regressors.cols() + 1);
-  known << solution.regressors, of_position(position);
-  const Eigen::MatrixXd linear = outside_linear_terms(std::move(known), Eigen::MatrixXd::Zero(rows, 0));
-  const Eigen::VectorXd left = solution.residuals - linear * (linear.transpose() * solution.residuals);
-  return clearest_nonlinearity(position, force, motion, [&](const NonlinearForce& candidate) {
-    // Where noise of the position hides an acceleration, the force itself is left over, and a part of it with it.
-    if (candidate.is_of_command) return NonlinearEvidence{};
-    Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(candidate.terms.size()));
-    for (std::size_t j = 0; j < candidate.terms.size(); ++j) {
-      columns.col(static_cast<Eigen::Index>(j)) = of_position(candidate.terms[j]);
-    }
-    const Eigen::MatrixXd basis = outside_linear_terms(std::move(columns), linear);
-    if (basis.cols() == 0) return NonlinearEvidence{};
-    const Eigen::VectorXd effects = basis.transpose() * left;
-    const Eigen::MatrixXd covariance = covariance_with_correlated_residuals(basis, left - basis * effects);
-    return NonlinearEvidence{
-        effects.dot(internal::solve(covariance, effects)) - static_cast<double>(candidate.terms.size()),
-        effects.squaredNorm() / left.squaredNorm()};
-  });
-}
-
 std::vector<ParameterEstimate> estimates(const RigidBodyFit& fit) {
   return {fit.mass, fit.viscous, fit.coulomb, fit.offset, fit.delay};
 }
@@ -332,11 +310,7 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
   } else {
     total_delay = 0.5 * sampling_period;
     solution = solve(terms, kept, sampling_period, total_delay, delay);
-    if (!independent(solution.regressors)) {
-      fail(
-          "the record does not tell mass, friction and offset apart: let the body accelerate and reverse at several "
-          "speeds");
-    }
+    if (!independent(solution.regressors)) fail({.code = ProblemCode::equations_not_told_apart});
     fit.remarks.push_back(warning({.code = FindingCode::delay_not_shown}));
   }
   report(0.9);

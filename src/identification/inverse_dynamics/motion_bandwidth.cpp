@@ -1,4 +1,4 @@
-#include "identification/motion_bandwidth.hpp"
+#include "identification/inverse_dynamics/motion_bandwidth.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "identification/excitation_check.hpp"
+#include "identification/excitation/excitation_check.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

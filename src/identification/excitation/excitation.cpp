@@ -1,14 +1,13 @@
 #include "zwidth/identification/excitation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "identification/excitation_check.hpp"
-#include "identification/excitation_spectrum.hpp"
-#include "zwidth/error.hpp"
+#include "identification/excitation/excitation_check.hpp"
+#include "identification/excitation/excitation_spectrum.hpp"
+#include "require_valid.hpp"
 #include "zwidth/model/device_key.hpp"
 
 namespace zwidth {
@@ -28,54 +27,69 @@ RelativeBand band_of(const ExcitationOptions& options, double rate) {
   return {options.lowest_hz / rate, options.highest_hz / rate};
 }
 
-std::optional<OptionProblem> find_problem(const ExcitationOptions& options, double rate) {
-  std::optional<OptionProblem> found;
-  const auto require = [&](bool met, const char* member, double value, const std::string& allowed) {
-    if (!met && !found) found = OptionProblem{member, fmt::format("is {:.9g}", value), allowed};
-  };
-  require(positive(options.amplitude), "amplitude", options.amplitude, "a force > 0");
-  if (!found && !positive_numbers.contains(options.amplitude)) {
-    found = option_problem("amplitude", {.code = ProblemCode::not_between,
-                                         .evidence = {{"value", options.amplitude},
-                                                      {"least", positive_numbers.least},
-                                                      {"most", positive_numbers.greatest}}});
-  }
-  require(positive(rate), "rate", rate, "a frequency in Hz > 0");
-  require(positive(options.duration), "duration", options.duration, "a time in s > 0");
-  const double size = std::round(options.duration * rate);
-  if (!found && !(size >= 2.0 && size <= max_excitation_samples)) {
-    // Of the two that make the samples, the one that does so by itself.
-    const bool is_the_rate = options.rate && options.duration * default_excitation_rate <= max_excitation_samples &&
-                             size > max_excitation_samples;
-    found =
-        OptionProblem{is_the_rate ? "rate" : "duration",
-                      fmt::format("times the {} is {:.9g}", is_the_rate ? "duration" : "rate", options.duration * rate),
-                      fmt::format("2 to {:g} samples", max_excitation_samples)};
-  }
+OptionProblem not_above_zero(const char* member, double value, const char* what) {
+  return option_problem(
+      member,
+      {.code = ProblemCode::no_positive_quantity, .evidence = {{"value", value}}, .subjects = {{"what", what}}});
+}
+
+OptionProblem beyond_range(const char* member, double value, NumberRange range, std::vector<Subject> subjects) {
+  return option_problem(member, {.code = ProblemCode::not_between,
+                                 .evidence = {{"value", value}, {"least", range.least}, {"most", range.greatest}},
+                                 .subjects = std::move(subjects)});
+}
+
+std::optional<OptionProblem> problem_of_size(const ExcitationOptions& options, double rate) {
+  const double samples = options.duration * rate;
+  const double size = std::round(samples);
+  if (size >= 2.0 && size <= max_excitation_samples) return std::nullopt;
+  // Of the two that make the samples, the one that does so by itself.
+  const bool is_the_rate = options.rate && options.duration * default_excitation_rate <= max_excitation_samples &&
+                           size > max_excitation_samples;
+  return option_problem(is_the_rate ? "rate" : "duration",
+                        {.code = ProblemCode::excitation_samples_out_of_range,
+                         .evidence = {{"samples", samples}, {"least", 2.0}, {"most", max_excitation_samples}},
+                         .subjects = {{"times", is_the_rate ? "duration" : "rate"}}});
+}
+
+std::optional<OptionProblem> problem_of_band(const ExcitationOptions& options, double rate) {
   const double nyquist = 0.5 * rate;
-  require(positive(options.lowest_hz) && options.lowest_hz <= nyquist, "lowest_hz", options.lowest_hz,
-          fmt::format("above 0 and at most half the rate, {:g} Hz", nyquist));
-  require(options.kind == ExcitationKind::relay ||
-              (options.highest_hz >= options.lowest_hz && options.highest_hz <= nyquist),
-          "highest_hz", options.highest_hz,
-          fmt::format("from the lowest, {:g} Hz, to half the rate, {:g} Hz", options.lowest_hz, nyquist));
-  const bool fades_once = options.kind == ExcitationKind::multisine;
-  require(options.fade_in >= 0.0 && (fades_once ? 1.0 : 2.0) * options.fade_in <= options.duration, "fade_in",
-          options.fade_in,
-          fades_once ? "0 to the duration" : "0 to half the duration: the end fades as the start does");
-  require(!options.stroke_limit || positive(*options.stroke_limit), "stroke_limit", options.stroke_limit.value_or(0.0),
-          "a length in m (rotary: rad) above 0");
-  if (found) return found;
+  const NumberRange band{options.lowest_hz, nyquist};
+  if (!positive(options.lowest_hz)) return not_above_zero("lowest_hz", options.lowest_hz, "frequency in Hz");
+  if (options.lowest_hz > nyquist) {
+    return option_problem("lowest_hz", {.code = ProblemCode::frequency_out_of_range,
+                                        .evidence = {{"hertz", options.lowest_hz}, {"nyquist", nyquist}}});
+  }
+  if (options.kind == ExcitationKind::relay || band.contains(options.highest_hz)) return std::nullopt;
+  return beyond_range("highest_hz", options.highest_hz, band, {{"unit", "Hz"}});
+}
+
+std::optional<OptionProblem> find_problem(const ExcitationOptions& options, double rate) {
+  if (!positive(options.amplitude)) return not_above_zero("amplitude", options.amplitude, "force");
+  if (!positive_numbers.contains(options.amplitude)) {
+    return beyond_range("amplitude", options.amplitude, positive_numbers, {});
+  }
+  if (!positive(rate)) return not_above_zero("rate", rate, "frequency in Hz");
+  if (!positive(options.duration)) return not_above_zero("duration", options.duration, "time in s");
+  if (auto problem = problem_of_size(options, rate)) return problem;
+  if (auto problem = problem_of_band(options, rate)) return problem;
+  const bool fades_once = options.kind == ExcitationKind::multisine;  // else the end fades as the start does
+  if (const NumberRange fade{0.0, (fades_once ? 1.0 : 0.5) * options.duration}; !fade.contains(options.fade_in)) {
+    return beyond_range("fade_in", options.fade_in, fade, {{"unit", "s"}});
+  }
+  if (options.stroke_limit && !positive(*options.stroke_limit)) {
+    return not_above_zero("stroke_limit", *options.stroke_limit, "length");
+  }
+  const std::size_t samples = size_of(options, rate);
   if (options.kind == ExcitationKind::multisine) {
-    const std::size_t samples = size_of(options, rate);
-    require(options.periods >= 1 && 2 * options.periods <= samples, "periods", static_cast<double>(options.periods),
-            "at least 1, and each of at least two samples");
-    return found ? found : internal::find_problem(period_of(options, samples), band_of(options, rate));
+    if (options.periods < 1 || 2 * options.periods > samples) {
+      return beyond_range("periods", static_cast<double>(options.periods), {1.0, static_cast<double>(samples / 2)},
+                          {{"whole", "yes"}});
+    }
+    return internal::find_problem(period_of(options, samples), band_of(options, rate));
   }
-  if (options.kind == ExcitationKind::noise) {
-    return internal::find_problem(size_of(options, rate), band_of(options, rate));
-  }
-  return found;
+  if (options.kind != ExcitationKind::noise) return std::nullopt;
+  return internal::find_problem(samples, band_of(options, rate));
 }
 
 void remark_rounding(Excitation& excitation, std::string_view what, double wanted, double actual,
@@ -152,10 +166,7 @@ void fade(Excitation& excitation) {
 }
 
 Excitation made(const ExcitationOptions& options, double rate) {
-  if (const auto problem = find_problem(options, rate)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("`{}` {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options, rate));
   const std::size_t size = size_of(options, rate);
   Excitation excitation;
   excitation.options = options;
