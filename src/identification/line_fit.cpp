@@ -149,6 +149,24 @@ std::optional<double> log_limit(DeviceParameters device) {
   return is_finite ? std::optional(std::log(found.stiffness)) : std::nullopt;
 }
 
+/// Of the numbers, others refitted; 0 for those that a bound holds, which the fit does not move.
+Eigen::MatrixXd moved_covariance(const LeastSquaresProblem& problem, const Minimum& best, Eigen::Index count) {
+  constexpr double near = 1e-9;
+  const Eigen::VectorXd bounds = problem.lowest();
+  Eigen::MatrixXd hessian = best.picture.hessian;
+  std::vector<Eigen::Index> held;
+  for (Eigen::Index i = 0; i < hessian.rows(); ++i) {
+    if (best.z(i) > bounds(i) + near) continue;
+    hessian.row(i).setZero();
+    hessian.col(i).setZero();
+    hessian(i, i) = 1.0;
+    held.push_back(i);
+  }
+  Eigen::MatrixXd inverse = hessian.fullPivLu().inverse();
+  for (const Eigen::Index i : held) inverse(i, i) = 0.0;
+  return inverse.topLeftCorner(count, count);
+}
+
 double p_of(const SumOfSquares& squares) {
   if (!(squares.freedom > 0.0) || !std::isfinite(squares.sum)) return 1.0;
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(squares.freedom), squares.sum));
@@ -192,15 +210,17 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
 
   const auto count = static_cast<Eigen::Index>(model.numbers.size());
   FittedByLines found{family.device_at(best->z), family.numbers(), best->z.head(count), {}};
-  const Eigen::MatrixXd inverse = best->picture.hessian.fullPivLu().inverse().topLeftCorner(count, count);
   SumOfSquares left;
-  if (lines) left = squares_of_bands(family, *lines, *setting.response, best->z, inverse);
+  if (lines) {
+    const Eigen::MatrixXd moved = moved_covariance(likelihood, *best, count);
+    left = squares_of_bands(family, *lines, *setting.response, best->z, moved);
+  }
   if (!walls.empty()) {
     // Of limits alone all that is fitted has a prior, which gives way: together they are as many squares as there are limits.
     left.sum += lines ? 2.0 * limits->cost(found.x, {}).value_or(0.0) : 2.0 * best->picture.cost;
     for (const MeasuredLimit& each : walls) left.freedom += each.frequency_hz ? 2.0 : 1.0;
   }
-  found.covariance = shared * inverse;
+  found.covariance = shared * best->picture.hessian.fullPivLu().inverse().topLeftCorner(count, count);
   found.lower = std::exp(low.value);
   found.value = std::exp(*limit(best->z));
   found.upper = std::exp(high.value);

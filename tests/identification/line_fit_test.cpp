@@ -138,7 +138,8 @@ TEST(LineFit, ABodyThatIsMissingStandsOut) {
 
 TEST(LineFit, LimitsAloneNarrowAFile) {
   const DeviceParameters truth = test::lhifam_parameters();
-  const std::vector<MeasuredLimit> coarse = {limit_at(truth, 0.0, 10.0)};
+  std::vector<MeasuredLimit> coarse = {limit_at(truth, 0.0, 10.0)};
+  coarse[0].frequency_hz.reset();
   const std::vector<MeasuredLimit> fine = {limit_at(truth, 0.0, 0.02), limit_at(truth, 5.0, 0.02)};
   DeviceParameters file = truth;
   file.bodies[1].damping *= 1.2;  // within what a file is believed to
@@ -160,7 +161,8 @@ TEST(LineFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
   const double damping = file.bodies[1].damping;
   file.uncertainty = Uncertainty{.parameters = {"body.handle.damping"}, .covariance = {{std::pow(0.1 * damping, 2)}}};
   const Device structure(file);
-  const std::vector<MeasuredLimit> far = {limit_at(file, 0.0, 10.0)};
+  std::vector<MeasuredLimit> far = {limit_at(file, 0.0, 10.0)};
+  far[0].frequency_hz.reset();
   const auto found = fit_lines({.structure = structure, .limits = far, .known = true});
   ASSERT_TRUE(found);
   ASSERT_EQ(found->numbers.size(), 1U);
