@@ -54,7 +54,6 @@ LinearStart linear_start(std::span<const Recording> recordings, const Device& st
   ParameterFitOptions fit;
   fit.free = start.free;
   fit.locked = options.locked;
-  fit.critical_point = ParameterFitOptions::CriticalPoint::free;
   const FrequencyResponse response = frequency_response(recordings).response;
   start.highest_frequency = response.points.back().frequency / (2.0 * std::numbers::pi);
   start.device = fit_parameters(Device(start.device), response, fit).device.parameters();

@@ -65,7 +65,6 @@ LineModel model_of_response(const LineFitSetting& setting) {
   ParameterFitOptions linear;
   linear.free = free;
   linear.locked = setting.locked;
-  linear.critical_point = ParameterFitOptions::CriticalPoint::free;
   model.start = fit_parameters(Device(model.start), *setting.response, linear).device.parameters();
   model.start.uncertainty.reset();
 

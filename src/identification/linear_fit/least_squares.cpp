@@ -1,4 +1,4 @@
-#include "identification/least_squares.hpp"
+#include "identification/linear_fit/least_squares.hpp"
 
 #include <ceres/ceres.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/quiet_solve.hpp"
+#include "identification/linear_fit/quiet_solve.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -239,9 +239,8 @@ LeastSquares least_squares(const FitModel& model, const FitData& data, const Eig
       options.robust_threshold > 0.0 ? std::make_unique<ceres::HuberLoss>(per_part * options.robust_threshold)
                                      : nullptr;
   for (std::size_t i = 0; i < data.frequencies.size(); ++i) {
-    const bool is_held = i + data.held >= data.frequencies.size();
-    problem.AddResidualBlock(new PointMisfit(shared, static_cast<Eigen::Index>(i), start.size()),
-                             is_held ? nullptr : loss.get(), position.y.data());
+    problem.AddResidualBlock(new PointMisfit(shared, static_cast<Eigen::Index>(i), start.size()), loss.get(),
+                             position.y.data());
   }
   if (pull.strength.size() > 0) problem.AddResidualBlock(new PullMisfit(pull, position), nullptr, position.y.data());
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "identification/least_squares.hpp"
+#include "identification/linear_fit/least_squares.hpp"
 
 namespace zwidth::internal {
 

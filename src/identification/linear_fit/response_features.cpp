@@ -1,4 +1,4 @@
-#include "identification/response_features.hpp"
+#include "identification/linear_fit/response_features.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "identification/link_mode.hpp"
+#include "identification/linear_fit/link_mode.hpp"
 
 #include <fmt/format.h>
 

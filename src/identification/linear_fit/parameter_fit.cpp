@@ -8,22 +8,20 @@
 #include <limits>
 #include <utility>
 
-#include "identification/critical_hold.hpp"
-#include "identification/fit_solution.hpp"
-#include "identification/fit_weights.hpp"
-#include "identification/identifiability.hpp"
-#include "identification/misfit_doubt.hpp"
-#include "identification/residual_checks.hpp"
-#include "identification/student_t.hpp"
+#include "identification/linear_fit/fit_solution.hpp"
+#include "identification/linear_fit/fit_weights.hpp"
+#include "identification/linear_fit/identifiability.hpp"
+#include "identification/linear_fit/missed_mode.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
 using namespace internal;
 namespace {
+
+constexpr double normal_95 = 1.959963984540054;  // deviations on either side
 
 std::vector<ResponsePoint> points_in_band(const FrequencyResponse& response, const ParameterFitOptions& options) {
   std::vector<ResponsePoint> points;
@@ -55,8 +53,8 @@ ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determin
     return result;
   }
   result.standard_deviation = deviation;
-  result.lower = std::max(0.0, result.value - two_sided_95 * deviation);
-  result.upper = result.value + two_sided_95 * deviation;
+  result.lower = std::max(0.0, result.value - normal_95 * deviation);
+  result.upper = result.value + normal_95 * deviation;
   return result;
 }
 
@@ -137,50 +135,10 @@ std::optional<double> misfit(const std::vector<ResponsePoint>& points, const Eig
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-std::optional<ClearMisfit> misfit_where_clear(const std::vector<ResponsePoint>& points,
-                                              const Eigen::VectorXcd& fitted) {
-  constexpr std::size_t many = lines_of_local_misfit;
-  ClearMisfit result;
-  std::vector<double> frequencies;
-  std::vector<double> squares;
-  double all = 0.0;
-  double local = 0.0;
-  if (points.front().variance == 0.0) return std::nullopt;
-  // Into the first and the last line leaks what lies outside the band.
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const ResponsePoint& point = points[i];
-    if (point.variance == 0.0) return std::nullopt;
-    const std::complex<double> model = fitted(static_cast<Eigen::Index>(i));
-    const double response = std::max(std::abs(model), std::abs(point.value));
-    if (std::sqrt(point.variance) > clear_of_noise * response) continue;
-    frequencies.push_back(point.frequency);
-    squares.push_back(std::norm(point.value - model) / point.variance);
-    const std::size_t lines = squares.size();
-    all += squares.back();
-    local += squares.back();
-    if (lines > many) local -= squares[lines - 1 - many];
-    if (lines < many) continue;
-    const double misfit = std::sqrt(std::max(0.0, local) / static_cast<double>(many));
-    if (misfit > result.local.misfit) result.local = {misfit, frequencies[lines - many], point.frequency};
-  }
-  if (squares.size() < many) return std::nullopt;
-  result.lines = squares.size();
-  result.misfit = std::sqrt(all / static_cast<double>(result.lines));
-  return result;
-}
-
-std::vector<double> mode_frequencies(const Device& device, const std::vector<std::size_t>& locked) {
-  const ModalForm form = modal_form(locked_device(device, locked));
-  std::vector<double> frequencies;
-  for (const Mode& mode : form.modes) frequencies.push_back(mode.frequency);
-  if (form.suspended_rigid_body) frequencies.push_back(form.suspended_rigid_body->frequency);
-  return frequencies;
-}
-
-/// A mode that is missing from the fit may be missing from a side minimum alone: a link whose ends move as one, or that
-/// hardly holds them, or two links for one mode. What stands out of the noise anywhere may be such a mode too.
-Solution with_missing_mode(const FitModel& model, const FrequencyResponse& response, Solution found,
-                           double robust_threshold) {
+/// What looks like a mode in what is left may have been passed over by a side minimum alone: a link whose ends move as one, or
+/// that hardly holds them, or two links for one mode.
+Solution with_missed_mode(const FitModel& model, const FrequencyResponse& response, Solution found,
+                          double robust_threshold) {
   const std::vector<ResponsePoint>& points = response.points;
   constexpr double overdamped = 0.5;
   std::vector<double> modes;
@@ -193,46 +151,13 @@ Solution with_missing_mode(const FitModel& model, const FrequencyResponse& respo
   for (std::size_t i = 0; i < points.size(); ++i) {
     residuals.push_back(points[i].value - fitted(static_cast<Eigen::Index>(i)));
   }
-  std::optional<double> missing = missing_mode(residuals, points, modes);
-  if (!missing) {
-    const auto left = misfit_where_clear(points, fitted);
-    if (left && stands_out(*left, response)) missing = std::sqrt(left->local.lowest * left->local.highest);
-  }
-  if (!missing) return found;
-  modes.push_back(*missing);
+  const std::optional<double> missed = missed_mode(residuals, response, modes);
+  if (!missed) return found;
+  modes.push_back(*missed);
   return searched_near(modes, model, points, std::move(found), robust_threshold);
 }
 
-/// K_CR at the record's sampling period.
-double stiffness_at(const FitModel& model, const Eigen::VectorXd& x) {
-  DeviceParameters parameters = model.parameters_at(x);
-  parameters.loop.sampling_period = *model.sampling_period();
-  parameters.wall.filters.clear();  // at the record's rate they may be impossible
-  // Of the bare device, as everything that is fitted.
-  return critical_stiffness(filtered_plant(sampled_plant(Device(std::move(parameters))), {})).stiffness;
-}
-
-/// The model error of the response with its sign turned round, where it fits much better: a position that falls as the
-/// force rises. Where noise hides most of the response, the misfit tells better than the model error.
-std::optional<double> error_if_turned(const FitModel& model, std::vector<ResponsePoint> points, const ParameterFit& fit,
-                                      double robust_threshold) {
-  constexpr double suspicious = 0.3;
-  constexpr double much_better = 0.3;
-  if (fit.model_error < suspicious) return std::nullopt;
-  for (ResponsePoint& point : points) point.value = -point.value;
-  try {
-    const Solution turned = solve(model, points, promising_starts(model, points), robust_threshold);
-    const std::optional<double> left = misfit(points, model.response_at(turned.x, fit.frequencies));
-    const bool misses_less = left && fit.misfit && *left < much_better * *fit.misfit;
-    const bool explains_more = turned.model_error <= much_better * fit.model_error;
-    if (!explains_more && !(misses_less && turned.model_error < fit.model_error)) return std::nullopt;
-    return turned.model_error;
-  } catch (const Error&) {  // then it fits no better
-    return std::nullopt;
-  }
-}
-
-void add_remarks(ParameterFit& fit, const FitModel& model, const std::vector<ResponsePoint>& points) {
+void add_remarks(ParameterFit& fit) {
   for (const UnidentifiableCombination& each : fit.unidentifiable) {
     if (each.parameters.size() == 1) {
       fit.remarks.push_back(warning({.code = FindingCode::parameter_unidentifiable, .key = each.parameters.front()}));
@@ -248,18 +173,6 @@ void add_remarks(ParameterFit& fit, const FitModel& model, const std::vector<Res
                    .evidence = {{"relative_deviation", *each.standard_deviation / each.value}, {"threshold", 0.5}},
                    .key = each.key}));
     }
-  }
-  if (fit.stiffness_without_hold) {
-    fit.remarks.push_back(
-        note({.code = FindingCode::held_to_critical_point, .evidence = {{"without", *fit.stiffness_without_hold}}}));
-  }
-  ResidualChecks checks = check_residuals(fit, points, mode_frequencies(fit.device, model.locked()));
-  fit.missing_mode = checks.missing_mode;
-  for (Remark& remark : checks.remarks) fit.remarks.push_back(std::move(remark));
-  if (fit.model_error_if_turned) {
-    fit.remarks.push_back(
-        warning({.code = FindingCode::explained_better_if_turned,
-                 .evidence = {{"turned", *fit.model_error_if_turned}, {"unexplained", fit.model_error}}}));
   }
 }
 
@@ -320,25 +233,12 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   Solution solution = solve(model, points, starts, options.robust_threshold);
   if (from_data && options.search_widely) {
     solution = searched_widely(model, in_band, std::move(solution), options.robust_threshold);
-    solution = with_missing_mode(model, in_band, std::move(solution), options.robust_threshold);
+    solution = with_missed_mode(model, in_band, std::move(solution), options.robust_threshold);
   }
   const Identifiability known = identifiability_at(model, points, solution);
   if (std::ranges::count(known.determined, false) > 0) {
     // What the data leave open depends on the start: it goes to the structure's values as far as the data allow.
     solution = drawn_back(model, points, solution, own, known.determined, options.robust_threshold);
-  }
-  std::optional<double> without_hold;
-  std::vector<Remark> about_the_hold;
-  bool held_to_a_guess = false;
-  const auto left = misfit_where_clear(points, model.response_at(solution.x, frequencies_of(points)));
-  const bool is_explained = left && !stands_out(*left, in_band);
-  if (const auto critical = is_explained ? std::nullopt : measured_critical_point(in_band, options)) {
-    if (const auto held = hold(model, points, solution, *critical, options.robust_threshold)) {
-      without_hold = stiffness_at(model, solution.x);
-      solution = *held;
-      held_to_a_guess = critical->is_guess;
-      about_the_hold = critical->remarks;
-    }
   }
   const FitData data = fit_data(points, solution.model_error);
   const ResponseWithSlopes at_solution = model.slopes_at(solution.x, data.frequencies);
@@ -349,13 +249,9 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   ParameterFit fit{.device = Device(fitted),
                    .correlations = strong_correlations(model, known.determined, covariance_of_x),
                    .misfit = misfit(points, at_solution.values),
-                   .clear_misfit = misfit_where_clear(points, at_solution.values),
                    .model_error = solution.model_error,
-                   .stiffness_without_hold = without_hold,
                    .frequencies = data.frequencies,
-                   .remarks = std::move(about_the_hold),
-                   .settled = solution.settled,
-                   .held_to_a_guess = held_to_a_guess};
+                   .settled = solution.settled};
   for (Eigen::Index i = 0; i < solution.x.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     fit.estimates.push_back(
@@ -372,8 +268,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
     fit.fitted.push_back(at_solution.values(static_cast<Eigen::Index>(i)));
     fit.residuals.push_back(points[i].value - fit.fitted.back());
   }
-  fit.model_error_if_turned = error_if_turned(model, points, fit, options.robust_threshold);
-  add_remarks(fit, model, points);
+  add_remarks(fit);
   return fit;
 }
 

@@ -1,4 +1,4 @@
-#include "identification/fit_model.hpp"
+#include "identification/linear_fit/fit_model.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <set>
 #include <utility>
 
-#include "identification/motion_slope.hpp"
-#include "identification/response_features.hpp"
-#include "identification/response_slopes.hpp"
+#include "identification/linear_fit/motion_slope.hpp"
+#include "identification/linear_fit/response_features.hpp"
+#include "identification/linear_fit/response_slopes.hpp"
 #include "model/key_members.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"

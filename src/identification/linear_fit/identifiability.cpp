@@ -1,4 +1,4 @@
-#include "identification/identifiability.hpp"
+#include "identification/linear_fit/identifiability.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "identification/fit_solution.hpp"
+#include "identification/linear_fit/fit_solution.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -9,12 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "identification/fit_weights.hpp"
-#include "identification/identifiability.hpp"
-#include "identification/initial_values.hpp"
-#include "identification/lateness.hpp"
-#include "identification/link_mode.hpp"
-#include "identification/response_features.hpp"
+#include "identification/linear_fit/fit_weights.hpp"
+#include "identification/linear_fit/identifiability.hpp"
+#include "identification/linear_fit/initial_values.hpp"
+#include "identification/linear_fit/link_mode.hpp"
+#include "identification/linear_fit/response_features.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -150,8 +149,8 @@ std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x, 
   if (const auto springs = with_springs(model.parameters_at(x), keys, above * highest)) {
     positions.push_back(model.position_of(*springs));
   }
-  const Eigen::Index delay = std::ranges::find(keys, delay_key) - keys.begin();
-  const Eigen::Index lag = std::ranges::find(keys, lag_key) - keys.begin();
+  const Eigen::Index delay = std::ranges::find(keys, "loop.delay") - keys.begin();
+  const Eigen::Index lag = std::ranges::find(keys, "actuator.time_constant") - keys.begin();
   std::vector<Start> starts;
   for (const Eigen::VectorXd& each : positions) {
     starts.push_back(start_at(model, each));

@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include "identification/fit_model.hpp"
+#include "identification/linear_fit/fit_model.hpp"
 
 namespace zwidth::internal {
 
@@ -18,7 +18,6 @@ enum class Misfit {
 struct FitData {
   std::vector<double> frequencies;  ///< rad/s
   std::vector<std::complex<double>> measured;
-  std::size_t held = 0;            ///< how many of the last points the robust loss leaves alone
   std::vector<double> deviations;  ///< standard deviation of |measured|; > 0; weighted only
 };
 
