@@ -1,13 +1,12 @@
 #include "identification/linear_fit/fit_model.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
+#include "counted.hpp"
 #include "identification/linear_fit/motion_slope.hpp"
 #include "identification/linear_fit/response_features.hpp"
 #include "identification/linear_fit/response_slopes.hpp"
@@ -40,26 +39,24 @@ void check_response(const FrequencyResponse& response, std::size_t parameters) {
     const bool is_finite = std::isfinite(point.value.real()) && std::isfinite(point.value.imag());
     if (!is_finite || point.value == 0.0 || !(point.frequency > 0.0) || !(point.variance >= 0.0)) {
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("the response at {} rad/s is not a frequency > 0 with a finite value that is not 0 and a "
-                              "variance >= 0",
-                              point.frequency));
+                  Problem{.code = ProblemCode::response_point_unusable, .evidence = {{"frequency", point.frequency}}});
     }
   }
   if (response.points.size() <= parameters) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("the response has {} points for {} free parameters, and must have more; leave fewer "
-                            "parameters free, widen the band, or record for longer (more lines)",
-                            response.points.size(), parameters));
+                Problem{.code = ProblemCode::too_few_points_to_fit,
+                        .evidence = {counted("points", response.points.size()), counted("parameters", parameters)}});
   }
 }
 
 void check_free(const DeviceParameters& parameters, const std::string& key) {
   const std::vector<std::string> keys = parameter_keys(parameters);
   if (std::ranges::find(keys, key) == keys.end()) {
-    throw Error(ErrorCode::invalid_argument, "no parameter of the structure is called " + key);
+    throw Error(ErrorCode::invalid_argument,
+                Problem{.code = ProblemCode::no_number_of_structure, .subjects = {{"key", key}}});
   }
   if (row_of(key)->reach != KeyReach::response) {
-    throw Error(ErrorCode::invalid_argument, key + " does not show in a frequency response; it cannot be free");
+    throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::not_in_response, .subjects = {{"key", key}}});
   }
 }
 
@@ -84,7 +81,7 @@ FitModel::FitModel(const Device& structure, const FrequencyResponse& response, c
                    const std::vector<std::string>& locked)
     : structure_(structure), sampling_period_(response.sampling_period) {
   if (!structure.has_bodies()) {
-    throw Error(ErrorCode::invalid_argument, "the structure is a transfer function; it must be a device of bodies");
+    throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::fit_needs_bodies});
   }
   for (const std::string& name : locked) locked_.push_back(structure.body_index(name));
   (void)locked_device(structure, locked_);  // refuses what cannot be locked
@@ -93,7 +90,9 @@ FitModel::FitModel(const Device& structure, const FrequencyResponse& response, c
   for (const std::string& given : free) {
     const std::string key = full_parameter_key(structure.parameters(), given);
     check_free(structure.parameters(), key);
-    if (!seen.insert(key).second) throw Error(ErrorCode::invalid_argument, key + " is given twice as free");
+    if (!seen.insert(key).second) {
+      throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::free_twice, .subjects = {{"key", key}}});
+    }
     Coordinate coordinate{key, Coordinate::kind_of(key), unit_of(measure_of(key), response.points)};
     if (key == "loop.delay") {
       const double longest = max_delay_samples * sampling_period_.value_or(std::numeric_limits<double>::infinity());

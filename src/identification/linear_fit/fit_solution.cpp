@@ -40,11 +40,7 @@ std::vector<LeastSquares> logarithmic_fits(const FitModel& model, const std::vec
   return fits;
 }
 
-Error no_convergence() {
-  return {ErrorCode::did_not_converge,
-          "the fit finds no values for which the structure answers at all like the record; name a structure with other "
-          "bodies, free fewer parameters, or start from values that are nearly right"};
-}
+Error no_convergence() { return {ErrorCode::did_not_converge, Problem{.code = ProblemCode::structure_never_fits}}; }
 
 /// What the fit at x leaves of each point, over the deviations that go with a model error.
 std::vector<std::complex<double>> left_by(const FitModel& model, const std::vector<ResponsePoint>& points,

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 
@@ -26,17 +26,19 @@ std::vector<bool> moving_bodies(const Device& device, const std::vector<bool>& i
 
 void check_locked(const Device& device, const std::vector<std::size_t>& locked) {
   if (!device.has_bodies()) {
-    throw Error(ErrorCode::invalid_argument, "a transfer function has no bodies that could be locked");
+    throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::locking_transfer_function});
   }
   for (const std::size_t body : locked) {
     if (body >= device.bodies().size()) {
-      throw Error(ErrorCode::invalid_argument, "there is no body number " + std::to_string(body) + " to lock");
+      throw Error(ErrorCode::invalid_argument,
+                  Problem{.code = ProblemCode::no_body_to_lock, .evidence = {internal::counted("body", body)}});
     }
     for (const auto& [role, index] :
          {std::pair{"actuated", device.loop().actuated}, {"sensed", device.loop().sensed}}) {
       if (body != index) continue;
-      throw Error(ErrorCode::invalid_argument, "the " + std::string(role) + " body \"" + device.bodies()[body].name +
-                                                   "\" is locked; lock another one");
+      throw Error(ErrorCode::invalid_argument,
+                  Problem{.code = ProblemCode::locked_body_needed,
+                          .subjects = {{"role", role}, {"name", device.bodies()[body].name}}});
     }
   }
 }
@@ -50,7 +52,7 @@ Device locked_device(const Device& device, const std::vector<std::size_t>& locke
   for (const std::size_t body : locked) is_locked[body] = true;
   const std::vector<bool> moves = moving_bodies(device, is_locked);
   if (!moves[device.loop().sensed]) {
-    throw Error(ErrorCode::invalid_argument, "the locked bodies part the sensed body from the actuated one");
+    throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::locked_bodies_part_device});
   }
 
   DeviceParameters parameters = device.parameters();

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "counted.hpp"
 #include "identification/linear_fit/fit_solution.hpp"
 #include "identification/linear_fit/fit_weights.hpp"
 #include "identification/linear_fit/identifiability.hpp"
@@ -219,10 +220,11 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   FrequencyResponse in_band = response;
   in_band.points = points;
   const std::vector<std::string> free = free_parameters(structure, options.free, options.locked);
-  if (free.empty()) throw Error(ErrorCode::invalid_argument, "no parameter is free");
+  if (free.empty()) throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::nothing_free});
   if (free.size() > max_free_parameters) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("{} parameters are free; at most {} can be fitted at once",
-                                                         free.size(), max_free_parameters));
+    throw Error(ErrorCode::invalid_argument,
+                Problem{.code = ProblemCode::too_many_free,
+                        .evidence = {counted("free", free.size()), counted("most", max_free_parameters)}});
   }
   const FitModel model(structure, in_band, free, options.locked);
 
