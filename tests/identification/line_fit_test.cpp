@@ -7,9 +7,11 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "lhifam.hpp"
+#include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -121,6 +123,43 @@ TEST(LineFit, ALagIsPartOfIt) {
   EXPECT_NEAR(found->device.actuator.time_constant, 1.5e-3, 0.2e-3);
   EXPECT_NEAR(found->device.loop.delay, 0.4e-3, 0.2e-3);
   EXPECT_NEAR(found->value, bare_limit(truth), 0.03 * bare_limit(truth));
+}
+
+// A table has no period and may have no variances: what is left over all lines is the noise.
+TEST(LineFit, ATableWithoutVariancesHoldsTheTruth) {
+  const DeviceParameters truth = late_lhifam(0.0);
+  const ModalForm form = modal_form(Device(truth));
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal(0.0, 0.01 * std::sqrt(0.5));
+  FrequencyResponse table;
+  for (double hz = 0.5; hz < 300.0; hz *= 1.04) {
+    const double w = 2.0 * std::numbers::pi * hz;
+    table.points.push_back({.frequency = w,
+                            .value = response(form, w) * std::polar(1.0, -w * truth.loop.delay) *
+                                     (1.0 + std::complex<double>(normal(random), normal(random)))});
+  }
+  const Device structure = unknown_lhifam();
+  const auto found = fit_lines({.structure = structure, .response = &table, .frees_lateness = true});
+  ASSERT_TRUE(found);
+  EXPECT_LE(found->lower, bare_limit(truth));
+  EXPECT_GE(found->upper, bare_limit(truth));
+  EXPECT_LT(found->upper / found->lower, 1.2);
+  EXPECT_GT(found->chi_squared_of_bands, 1e-3);
+}
+
+TEST(LineFit, ALimitBesideLinesNarrowsTheInterval) {
+  const DeviceParameters truth = test::lhifam_parameters();
+  const FrequencyResponse lines = noisy_lines(truth, 0.05, 1);
+  const std::vector<MeasuredLimit> limits = {limit_at(truth, 0.0, 0.01)};
+  const Device structure = unknown_lhifam();
+  const auto without = fit_lines({.structure = structure, .response = &lines});
+  const auto with = fit_lines({.structure = structure, .response = &lines, .limits = limits});
+  ASSERT_TRUE(without);
+  ASSERT_TRUE(with);
+  EXPECT_LT(std::log(with->upper / with->lower), 0.5 * std::log(without->upper / without->lower));
+  EXPECT_LE(with->lower, bare_limit(truth));
+  EXPECT_GE(with->upper, bare_limit(truth));
+  EXPECT_GT(with->chi_squared_of_bands, 1e-3);
 }
 
 TEST(LineFit, ABodyThatIsMissingStandsOut) {
