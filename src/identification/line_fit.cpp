@@ -1,12 +1,9 @@
 #include "identification/line_fit.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "identification/evidence/given_numbers.hpp"
@@ -14,130 +11,14 @@
 #include "identification/evidence/response_evidence.hpp"
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/fit/minimise.hpp"
-#include "identification/model/device_numbers.hpp"
-#include "identification/model/rivals/catalogue.hpp"
+#include "identification/line_model.hpp"
 #include "identification/verdict/line_bands.hpp"
 #include "identification/verdict/profile.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
-#include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-constexpr const char* delay_of_lines = "loop.delay";
-constexpr const char* lag_of_lines = "actuator.time_constant";
-
-/// What is fitted, and from where.
-struct LineModel {
-  DeviceParameters start;
-  std::vector<Number> numbers;
-  std::optional<Uncertainty> given;  ///< a prior of these numbers
-};
-
-bool is_named(const std::vector<std::string>& keys, const std::string& key) {
-  return std::ranges::find(keys, key) != keys.end();
-}
-
-/// How large numbers are that show in a response.
-RivalSetting setting_of_lines(const DeviceParameters& device, const LineFitSetting& setting) {
-  RivalSetting sizes{.device = device, .locked = setting.locked, .rms_force = 1.0, .largest_force = 1.0};
-  for (const ResponsePoint& point : setting.response->points) {
-    sizes.rms_position = std::max(sizes.rms_position, std::abs(point.value));
-    sizes.rms_speed = std::max(sizes.rms_speed, std::abs(point.value) * point.frequency);
-  }
-  sizes.largest_speed = sizes.rms_speed;
-  const double highest = setting.response->points.back().frequency;
-  sizes.highest_frequency = highest / (2.0 * std::numbers::pi);
-  sizes.sampling_period = setting.response->sampling_period.value_or(1.0 / highest);
-  return sizes;
-}
-
-LineModel model_of_response(const LineFitSetting& setting) {
-  constexpr double typical_delay = 0.5;  // sampling periods
-  LineModel model{setting.structure.parameters(), {}, {}};
-  std::vector<std::string> free = free_parameters(setting.structure, setting.free, setting.locked);
-  if ((setting.frees_lateness || is_named(free, lag_of_lines)) && !is_named(free, delay_of_lines)) {
-    const double period = setting.response->sampling_period.value_or(model.start.loop.sampling_period);
-    if (model.start.loop.delay == 0.0) model.start.loop.delay = typical_delay * period;
-    free.emplace_back(delay_of_lines);
-  }
-  ParameterFitOptions linear;
-  linear.free = free;
-  linear.locked = setting.locked;
-  model.start = fit_parameters(Device(model.start), *setting.response, linear).device.parameters();
-  model.start.uncertainty.reset();
-
-  RivalSetting sizes = setting_of_lines(model.start, setting);
-  sizes.frees_lag = setting.frees_lateness || is_named(free, lag_of_lines);
-  const TypicalSizes typical{sizes.sampling_period, typical_damping(sizes), sizes.rms_force / sizes.rms_position};
-  ModelParts parts;
-  for (const std::string& key : free) {
-    if (key != lag_of_lines) parts.numbers.push_back(device_number(key, model.start, typical));
-  }
-  actuator_lag().add(sizes, parts);
-  ground_spring().add(sizes, parts);
-  model.numbers = std::move(parts.numbers);
-  return model;
-}
-
-/// A number of a device file as it is fitted to limits, whose prior is elsewhere.
-Number given_number(const std::string& key, double value, double deviation) {
-  const double open = std::numeric_limits<double>::infinity();
-  if (key.ends_with(".mass") || (key.starts_with("link.") && key.ends_with(".stiffness"))) {
-    return number_about(key, value, open);
-  }
-  return {.key = key, .unit = std::max(value, deviation)};
-}
-
-/// The part of an uncertainty that is of these numbers.
-Uncertainty part_of(const Uncertainty& all, const std::vector<std::size_t>& kept) {
-  Uncertainty part;
-  for (const std::size_t i : kept) {
-    part.parameters.push_back(all.parameters[i]);
-    part.covariance.emplace_back();
-    for (const std::size_t j : kept) part.covariance.back().push_back(all.covariance[i][j]);
-  }
-  return part;
-}
-
-LineModel model_of_limits(const LineFitSetting& setting) {
-  constexpr double known_to = 0.2;  // of each number of a file that says nothing more
-  LineModel model{setting.structure.parameters(), {}, {}};
-  const std::optional<Uncertainty> file = std::exchange(model.start.uncertainty, {});
-  const bool names_none = frees_all(setting.free);
-  std::vector<std::string> keys;
-  if (!names_none || !file) keys = free_parameters(setting.structure, setting.free);
-  if (file && setting.known) {
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < file->parameters.size(); ++i) {
-      const std::string key = full_parameter_key(model.start, file->parameters[i]);
-      const std::optional<double> value = parameter(model.start, key);
-      if (!value || !(file->covariance[i][i] > 0.0) || is_named(keys, key)) continue;
-      kept.push_back(i);
-      model.numbers.push_back(given_number(key, *value, std::sqrt(file->covariance[i][i])));
-    }
-    if (!kept.empty()) model.given = part_of(*file, kept);
-  }
-  const double period = model.start.loop.sampling_period;
-  for (const std::string& key : keys) {
-    const double value = *parameter(model.start, key);
-    if (names_none && value == 0.0) continue;  // a file that gives 0 means none
-    if (value > 0.0) {
-      model.numbers.push_back(number_about(key, value, names_none ? known_to : deviation_of_logarithm));
-      continue;
-    }
-    double damping = 0.0;
-    for (const Body& body : model.start.bodies) damping += body.mass / period;
-    Number open = device_number(key, model.start, {period, damping, damping / period});
-    open.prior_deviation = 1.0;
-    model.numbers.push_back(std::move(open));
-  }
-  if (setting.frees_lateness && model.start.loop.delay == 0.0 && !is_named(keys, delay_of_lines)) {
-    model.numbers.push_back({.key = delay_of_lines, .unit = period, .prior_deviation = 1.0});
-  }
-  return model;
-}
 
 /// log K_CR of the bare device; nothing where it has no limit.
 std::optional<double> log_limit(DeviceParameters device) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "lhifam.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -207,6 +209,44 @@ TEST(LineFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
   ASSERT_EQ(found->numbers.size(), 1U);
   const double deviation = found->numbers[0].slope(found->x(0)) * std::sqrt(found->covariance(0, 0));
   EXPECT_NEAR(deviation, 0.1 * damping, 0.01 * damping);
+}
+
+TEST(LineFit, OfALagAloneLimitsTellAsOfADelay) {
+  DeviceParameters truth = test::lhifam_parameters();
+  truth.actuator.time_constant = 1e-3;
+  const Device structure(truth);
+  const std::vector<MeasuredLimit> limits = {limit_at(truth, 0.0, 0.02)};
+  const auto found = fit_lines({.structure = structure, .limits = limits, .known = true});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(std::ranges::count(found->numbers, "actuator.time_constant", &Number::key), 0);
+  EXPECT_EQ(std::ranges::count(found->numbers, "loop.delay", &Number::key), 1);
+  EXPECT_NEAR(found->device.loop.delay + found->device.actuator.time_constant, 1e-3, 0.2e-3);
+  EXPECT_LE(found->lower, bare_limit(truth));
+  EXPECT_GE(found->upper, bare_limit(truth));
+}
+
+// A delay and a lag that share a known sum: neither is known, the limit is.
+TEST(LineFit, AFileKeepsTheSumOfDelayAndLag) {
+  DeviceParameters file = late_lhifam(0.6e-3);
+  const double open = std::pow(0.2e-3, 2);
+  const double shared = -0.99 * open;
+  file.uncertainty = Uncertainty{.parameters = {"loop.delay", "actuator.time_constant"},
+                                 .covariance = {{open, shared}, {shared, open}}};
+  std::vector<MeasuredLimit> far = {limit_at(file, 0.0, 10.0)};
+  far[0].frequency_hz.reset();
+  const Device structure(file);
+  const auto found = fit_lines({.structure = structure, .limits = far, .known = true});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->numbers[0].key, "loop.delay");  // the sum of both
+  EXPECT_NEAR(found->numbers[0].slope(0.0) * std::sqrt(found->covariance(0, 0)), std::sqrt(0.02 * open), 1e-7);
+  EXPECT_LT(found->upper / found->lower, 1.2);
+}
+
+TEST(LineFit, RefusesANumberThatTheFileLacks) {
+  const Device structure(test::lhifam_parameters());
+  const std::vector<MeasuredLimit> limits = {limit_at(structure.parameters(), 0.0, 0.05)};
+  EXPECT_THROW((void)fit_lines({.structure = structure, .limits = limits, .free = {"body.nobody.mass"}, .known = true}),
+               Error);
 }
 
 TEST(LineFit, ALimitThatContradictsAFileStandsOut) {
