@@ -24,10 +24,9 @@ struct ParameterFitOptions {
   /// Residuals beyond this many standard deviations count linearly (Huber loss); 0: plain least squares.
   double robust_threshold = 3.0;
   /// Whether the structure's values of the free parameters are the starting point, or the starting point is found from
-  /// the data (antiresonance, resonance, low-frequency line).
+  /// the data (antiresonance, resonance, low-frequency line), other places of the resonances tried where it leaves more
+  /// than their noise.
   enum class Start { from_data, from_structure } start = Start::from_data;  ///< from the data alone
-  /// From the data, where the fit leaves more than their noise: whether other places of the resonances are tried too.
-  bool search_widely = true;
 };
 
 inline constexpr std::size_t max_free_parameters = 40;  ///< of one fit

@@ -233,7 +233,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   const std::vector<Start> starts =
       from_data ? promising_starts(model, points) : starts_near(model, own, points.back().frequency);
   Solution solution = solve(model, points, starts, options.robust_threshold);
-  if (from_data && options.search_widely) {
+  if (from_data) {
     solution = searched_widely(model, in_band, std::move(solution), options.robust_threshold);
     solution = with_missed_mode(model, in_band, std::move(solution), options.robust_threshold);
   }
