@@ -13,7 +13,7 @@ set(slow
   "^LightMode\\."
   "^WeakDefects\\."
   "^RigidBodyIdentification\\.(ALimit|AMode|ADelay|ARigid)"
-  "^LineFit\\.(TheInterval|Deviations)"
+  "^LineFit\\.(TheInterval|Deviations|ALagIs)"
   "^All/FreeDevice\\."
   "^MotorBench\\.(Admits|HasTheModes)"
   "^Nonlinearity\\."

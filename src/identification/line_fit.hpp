@@ -41,7 +41,8 @@ struct FittedByLines {
 /// The most likely device of a structure, and the least and the largest critical stiffness that the data allow.
 ///
 /// Of a response: fit_parameters() is the start; beside the numbers that are free a lag (where lateness is) and a spring to the
-/// ground at the held body are fitted. What is not linear does not show. Neighbouring lines of a window share their noise: the
+/// ground at the held body are fitted; what the file of a known structure gives only within its [uncertainty] is as open as that.
+/// What is not linear does not show. Neighbouring lines of a window share their noise: the
 /// likelihood counts as so many fewer.
 /// Of limits alone: named numbers are open, all others exact, but for those of the file's [uncertainty], which is the prior. Where
 /// none is named, the numbers of the [uncertainty] are fitted; where the file has none, all that a response shows, each within 20 %.

@@ -58,6 +58,19 @@ Uncertainty part_of(const Uncertainty& all, const std::vector<std::size_t>& kept
   return part;
 }
 
+/// Numbers of the file's [uncertainty] that are not open: fitted too, which it alone limits.
+void add_given(LineModel& model, const Uncertainty& file, const std::vector<std::string>& open) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < file.parameters.size(); ++i) {
+    const std::string key = full_parameter_key(model.start, file.parameters[i]);
+    const std::optional<double> value = parameter(model.start, key);
+    if (!value || !(file.covariance[i][i] > 0.0) || is_named(open, key)) continue;
+    kept.push_back(i);
+    model.numbers.push_back(given_number(key, *value, std::sqrt(file.covariance[i][i])));
+  }
+  if (!kept.empty()) model.given = part_of(file, kept);
+}
+
 /// A named number is open, one of a file that says nothing more is known to 20 %.
 Number number_of_limits(const std::string& key, const DeviceParameters& start, bool is_named_open) {
   const std::optional<double> value = parameter(start, key);
@@ -129,6 +142,12 @@ LineModel model_of_response(const LineFitSetting& setting) {
   actuator_lag().add(sizes, parts);
   ground_spring().add(sizes, parts);
   model.numbers = std::move(parts.numbers);
+  const std::optional<Uncertainty>& file = setting.structure.parameters().uncertainty;
+  if (file && setting.known) {
+    for (const Number& each : model.numbers) free.push_back(each.key);
+    add_given(model, *file, free);
+    fit_lag_as_delay(model);
+  }
   return model;
 }
 
@@ -138,17 +157,7 @@ LineModel model_of_limits(const LineFitSetting& setting) {
   const bool names_none = frees_all(setting.free);
   std::vector<std::string> keys;
   if (!names_none || !file) keys = free_parameters(setting.structure, setting.free);
-  if (file && setting.known) {
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < file->parameters.size(); ++i) {
-      const std::string key = full_parameter_key(model.start, file->parameters[i]);
-      const std::optional<double> value = parameter(model.start, key);
-      if (!value || !(file->covariance[i][i] > 0.0) || is_named(keys, key)) continue;
-      kept.push_back(i);
-      model.numbers.push_back(given_number(key, *value, std::sqrt(file->covariance[i][i])));
-    }
-    if (!kept.empty()) model.given = part_of(*file, kept);
-  }
+  if (file && setting.known) add_given(model, *file, keys);
   for (const std::string& key : keys) {
     Number number = number_of_limits(key, model.start, !names_none);
     if (names_none && number.scale != Number::Scale::logarithmic) continue;  // a file that gives 0 means none

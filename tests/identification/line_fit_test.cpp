@@ -13,6 +13,7 @@
 
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -162,6 +163,29 @@ TEST(LineFit, ALimitBesideLinesNarrowsTheInterval) {
   EXPECT_LE(with->lower, bare_limit(truth));
   EXPECT_GE(with->upper, bare_limit(truth));
   EXPECT_GT(with->chi_squared_of_bands, 1e-3);
+}
+
+// The paper's locked handle: of its mass and damping the lines tell nothing.
+TEST(LineFit, WhatIsGivenIsAsOpenAsTheFileSays) {
+  const DeviceParameters truth = test::lhifam_parameters();
+  DeviceParameters locked = locked_device(Device(truth), {1}).parameters();
+  const FrequencyResponse lines = noisy_lines(locked, 0.003, 1);
+  DeviceParameters file = truth;
+  const auto width = [&] {
+    const Device structure(file);
+    const auto found = fit_lines({.structure = structure,
+                                  .response = &lines,
+                                  .free = {"link.stiffness", "link.damping"},
+                                  .locked = {"handle"},
+                                  .known = true});
+    return found ? std::log(found->upper / found->lower) : 0.0;
+  };
+  const double exact = width();
+  file.uncertainty =
+      Uncertainty{.parameters = {"body.handle.damping"}, .covariance = {{std::pow(0.1 * file.bodies[1].damping, 2)}}};
+  EXPECT_GT(exact, 0.0);
+  EXPECT_LT(exact, 0.02);
+  EXPECT_GT(width(), 0.1);
 }
 
 TEST(LineFit, ABodyThatIsMissingStandsOut) {
