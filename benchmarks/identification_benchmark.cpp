@@ -55,9 +55,9 @@ std::string fitted_file(const std::string& path, const Device& structure, const 
   RecordingOptions options;
   options.columns = {{"force", 1.0}, {"position", 1.0}};
   const auto recording = read_recording(path, options);
-  const RecordFit found = fit_record(structure, recording->channels[0].samples, recording->channels[1].samples,
-                                     recording->sampling_period, {}, fit);
-  return write_device(found.fit.device.parameters());
+  const FrequencyResponse response =
+      frequency_response(recording->channels[0].samples, recording->channels[1].samples, recording->sampling_period);
+  return write_device(fit_parameters(structure, response, fit).device.parameters());
 }
 
 void locked_device_to_file(benchmark::State& state) {

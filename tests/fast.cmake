@@ -13,7 +13,7 @@ set(slow
   "^LightMode\\."
   "^WeakDefects\\."
   "^RigidBodyIdentification\\.(ALimit|AMode|ADelay|ARigid)"
-  "^RecordFit\\.(Intervals|WhatDies|Recovers)"
+  "^LineFit\\.(TheInterval|Deviations|ALagIs)"
   "^All/FreeDevice\\."
   "^MotorBench\\.(Admits|HasTheModes)"
   "^Nonlinearity\\."

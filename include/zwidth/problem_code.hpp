@@ -119,6 +119,21 @@ enum class ProblemCode : std::uint16_t {
   no_estimator,                      ///< a firmware without an estimator
   estimator_bandwidth_out_of_range,  ///< an estimator's bandwidth is out of its range
 
+  // fits
+  locking_transfer_function,  ///< a transfer function has no body to lock
+  no_body_to_lock,            ///< the device has no body of this number
+  locked_body_needed,         ///< the actuated or the sensed body is locked
+  locked_bodies_part_device,  ///< between the actuated and the sensed body all stand still
+  fit_needs_bodies,           ///< a transfer function is no structure to fit
+  response_point_unusable,    ///< a point of a response cannot be fitted
+  too_few_points_to_fit,      ///< no more points than free parameters
+  no_number_of_structure,     ///< no number of the structure is called that
+  not_in_response,            ///< a number does not show in a response
+  free_twice,                 ///< a number is free twice
+  nothing_free,               ///< no number is free
+  too_many_free,              ///< too many numbers are free
+  structure_never_fits,       ///< a fit finds no start
+
   // studies
   damping_varies,    ///< regions are over every damping
   no_specification,  ///< failures need a specification

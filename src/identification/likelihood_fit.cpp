@@ -14,6 +14,7 @@
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
 #include "identification/fit/minimise.hpp"
+#include "identification/model/device_numbers.hpp"
 #include "identification/model/rivals/catalogue.hpp"
 #include "identification/verdict/profile.hpp"
 #include "zwidth/identification/measured_response.hpp"
@@ -33,25 +34,6 @@ double rms(std::span<const double> samples) {
   double squares = 0.0;
   for (const double each : samples) squares += each * each;
   return std::sqrt(squares / static_cast<double>(samples.size()));
-}
-
-/// The device's own numbers: masses and link stiffnesses hardly known beforehand, dampings not at all.
-Number number_of(const std::string& key, const DeviceParameters& start, const RivalSetting& setting) {
-  constexpr double of_critical = 0.01;  // a link's damping, of the square root of stiffness times mass
-  const double value = *parameter(start, key);
-  const bool is_of_link = key.starts_with("link.");
-  if (key.ends_with(".mass") || (is_of_link && key.ends_with(".stiffness"))) {
-    return {key, Number::Scale::logarithmic, value, 0.0, deviation_of_logarithm};
-  }
-  if (key == "loop.delay") return {.key = key, .unit = setting.sampling_period};
-  if (key.ends_with(".damping") && !is_of_link) return {.key = key, .unit = typical_damping(setting)};
-  if (key.ends_with(".damping")) {
-    const Link& link = start.links[static_cast<std::size_t>(std::stoul(key.substr(std::string("link.").size())))];
-    const double typical = of_critical * std::sqrt(link.stiffness * start.bodies[link.second].mass);
-    return {.key = key, .unit = std::max(value, typical)};
-  }
-  constexpr double small = 1e-3;
-  return {.key = key, .unit = std::max(value, small * setting.rms_force / setting.rms_position)};
 }
 
 /// Where the search begins: the linear fit of the response.
@@ -75,7 +57,6 @@ LinearStart linear_start(std::span<const Recording> recordings, const Device& st
   ParameterFitOptions fit;
   fit.free = start.free;
   fit.locked = options.locked;
-  fit.critical_point = ParameterFitOptions::CriticalPoint::free;
   const FrequencyResponse response = frequency_response(recordings).response;
   start.highest_frequency = response.points.back().frequency / (2.0 * std::numbers::pi);
   start.device = fit_parameters(Device(start.device), response, fit).device.parameters();
@@ -208,9 +189,11 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   }
   RivalSetting setting = rival_setting(start.device, options.locked, records, start.highest_frequency);
   setting.frees_lag = start.frees_delay || std::ranges::count(start.free, "actuator.time_constant") > 0;
+  const TypicalSizes typical{setting.sampling_period, typical_damping(setting),
+                             setting.rms_force / setting.rms_position};
   ModelParts all;
   for (const std::string& key : start.free) {
-    if (key != "actuator.time_constant") all.numbers.push_back(number_of(key, start.device, setting));
+    if (key != "actuator.time_constant") all.numbers.push_back(device_number(key, start.device, typical));
   }
   add_rivals(setting, all);
 

@@ -34,8 +34,4 @@ struct AddedRival {
 /// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them.
 std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts);
 
-/// A factor of 28 either way at one sigma: what is believed of a mass or a link's stiffness before its record, as the deviation of
-/// its logarithm. An assumption, weak on purpose.
-inline constexpr double deviation_of_logarithm = 3.3;
-
 }  // namespace zwidth::internal
