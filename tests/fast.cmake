@@ -2,29 +2,20 @@
 # which takes more than half a second of processor, waits as long, or is one of many alike.
 set(slow
   # identification: fits of whole records
-  "^(Identification|TimeDomain|LostRows)Property\\."
-  "^Finding/IdentifiedSeedProperty\\."
-  "^Identification\\.(OfANamed|Rounded|AHand|ARounding|ARight|AnInertia|ADelay|AStructure|AReversed|TheBasis|AFit|APeriod)"
-  "^Identification\\.(Counts|AnExtrapolated)"
-  "^HiddenFriction\\.(OfAThousandth|UnderThree|ThatExplains|BesideAShort)"
-  "^(RingingMode|DoubtedRecording|IdentifiedPeriods|Agreement)\\."
-  "^SuspectedMotions\\."
+  "^IdentificationProperty\\."
+  "^Identification\\.(ARight|An|ADelay|AReversed|Separates|Two|TheInterval|TheFile|OfNoise|Counts)"
+  "^CampaignRecords\\."
+  "^Campaigns/OneBodyRecords\\."
+  "^Suite/KnownRecord\\."
+  "^IdentifiedPeriods\\."
   "^PooledResponse\\.(Identifies|Intervals|TwoRecordings|ASine|Lines)"
-  "^LightMode\\."
-  "^WeakDefects\\."
   "^RigidBodyIdentification\\.(ALimit|AMode|ADelay|ARigid)"
-  "^RecordFit\\.(Intervals|WhatDies|Recovers)"
   "^All/FreeDevice\\."
-  "^MotorBench\\.(Admits|HasTheModes)"
-  "^Nonlinearity\\."
+  "^MotorBench\\.(Admits|HasTheModes|ItsMotion)"
   "^SeveralRates\\."
-  "^GivenNumber\\."
-  "^FewLines\\."
   "^ResponseFriction\\.(NoStiffness|ALinear|IsNotSeen)"
   "^MeasuredStiffness\\.(Distortions|NoiseThatHides)"
-  "^TimeDomain\\.(OfNoise|FileKeeps)"
   "^InverseDynamics\\.Intervals"
-  "^OpenInterval\\.WhereThere"
   "^EncoderRounding\\.IsTaken"
   "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
@@ -94,8 +85,6 @@ set(slow
   "^(Drive/OnDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc)$"
   "^Bench/OnDevice\\..*/([3-9]|1[0-9])$"
   "^Bench/IdentifiedDevice\\.")
-# Fast all the same: of the findings of the identification campaign those of short records.
-set(fast_findings "/(ASofterCrossover|WhatWasNarrowed|AWideInterval|ALackingBody|ResidualsBeyond|FrictionThatShows)")
 # What is skipped where something is missing: published recordings beside the project, MPI, a right to mount.
 set(skipped
   "MotorBench"
