@@ -67,9 +67,9 @@ Line answer_to(const Case& made) {
   return judged(made, 0, {.budget = 60.0}, reasons);
 }
 
-class OneBodyRecords : public testing::TestWithParam<std::size_t> {};
+class CampaignRecordsOfOneBody : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(OneBodyRecords, AreAnsweredRightly) {
+TEST_P(CampaignRecordsOfOneBody, AreAnsweredRightly) {
   Lines lines;
   for (const Kind& kind : kinds()) {
     if (is_asked(kind, 1)) lines.push_back(answer_to(quick_case(kind, GetParam())));
@@ -77,7 +77,7 @@ TEST_P(OneBodyRecords, AreAnsweredRightly) {
   expect_figures(lines);
 }
 
-INSTANTIATE_TEST_SUITE_P(Campaigns, OneBodyRecords, testing::Values(0U, 1U, 2U));
+INSTANTIATE_TEST_SUITE_P(Devices, CampaignRecordsOfOneBody, testing::Values(0U, 1U, 2U));
 
 TEST(CampaignRecords, MadeAsTheDocsSayAreSound) {
   Lines lines;
