@@ -289,6 +289,7 @@ Known forces_in_counts() {
   for (double& each : made.recordings[0].channels[0].samples) each = std::round(200.0 * each);
   return made;
 }
+
 enum class Says { no_more_than_it_may, the_truth };
 
 struct Row {
