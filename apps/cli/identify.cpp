@@ -125,7 +125,6 @@ IdentifyOptions identify_options(const IdentifyArguments& arguments, const Struc
   options.fit.free = arguments.structure.free;
   options.fit.locked = arguments.structure.locked;
   if (arguments.from_structure) options.fit.start = ParameterFitOptions::Start::from_structure;
-  if (arguments.no_hold) options.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
   if (arguments.method == "time-domain") options.method = IdentifyOptions::Method::motion;
   if (arguments.method == "frequency-response") options.method = IdentifyOptions::Method::lines;
   options.segment = arguments.segment;
