@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "identification/line_regression.hpp"
+#include "identification/response/line_regression.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/line_regression.hpp"
+#include "identification/response/line_regression.hpp"
 #include "identification/missing_mode.hpp"
 #include "zwidth/model/device.hpp"
 

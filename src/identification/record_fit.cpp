@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "identification/encoder_rounding.hpp"
+#include "identification/response/encoder_rounding.hpp"
 #include "identification/fit_comparison.hpp"
 #include "identification/misfit_doubt.hpp"
 #include "identification/motion_residuals.hpp"
-#include "identification/pooled_response.hpp"
-#include "identification/response_choice.hpp"
-#include "identification/welch.hpp"
+#include "identification/response/pooled_response.hpp"
+#include "identification/response/response_choice.hpp"
+#include "identification/response/welch.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"

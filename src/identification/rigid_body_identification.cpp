@@ -14,7 +14,7 @@
 #include "identification/interval_narrowing.hpp"
 #include "identification/lateness.hpp"
 #include "identification/nonlinearity_of_equations.hpp"
-#include "identification/plausibility.hpp"
+#include "identification/response/plausibility.hpp"
 #include "model/option_beyond.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"

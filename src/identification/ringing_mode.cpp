@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "identification/motion_residuals.hpp"
-#include "identification/response_choice.hpp"
+#include "identification/response/response_choice.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/quantity.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/plausibility.hpp"
+#include "identification/response/plausibility.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
