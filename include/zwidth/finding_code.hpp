@@ -374,9 +374,7 @@ enum class FindingCode : std::uint16_t {
   recordings_disagree_on_limit,     ///< recordings whose critical stiffness lies outside the interval of all
   motion_shows_friction,            ///< the motion shows dry friction that the response takes for damping
   friction_would_pass_unseen,       ///< dry friction of a size that matters would not show
-  repeating_force_hides_friction,   ///< a force that repeats hides dry friction
   friction_unknown,                 ///< the recordings do not show dry friction, nor exclude it
-  friction_unknown_of_resting,      ///< the motion is not what the response makes of the force
   table_hides_friction,             ///< a table does not show dry friction
   table_gives_no_reason,            ///< a table doubts its critical stiffness and gives no reason
   table_doubts_itself,              ///< a table doubts its critical stiffness, for `reason`

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/encoder_step.hpp"
+#include "identification/response/encoder_step.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/friction_fit.hpp"
 #include "identification/friction_test.hpp"

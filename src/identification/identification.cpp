@@ -16,7 +16,7 @@
 #include "identification/misfit_doubt.hpp"
 #include "identification/period_choice.hpp"
 #include "identification/recording_agreement.hpp"
-#include "identification/response_choice.hpp"
+#include "identification/response/response_choice.hpp"
 #include "identification/ringing_mode.hpp"
 #include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "identification/encoder_step.hpp"
+#include "identification/response/encoder_step.hpp"
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
 #include "identification/fit/minimise.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/encoder_step.hpp"
+#include "identification/response/encoder_step.hpp"
 #include "linear_systems.hpp"
 
 namespace zwidth::internal {

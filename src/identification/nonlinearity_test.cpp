@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/encoder_step.hpp"
+#include "identification/response/encoder_step.hpp"
 #include "identification/motion_residuals.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/time_domain_start.hpp"

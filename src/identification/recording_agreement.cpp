@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "identification/pooled_response.hpp"
+#include "identification/response/pooled_response.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/record_fit.hpp"
 #include "zwidth/quantity.hpp"

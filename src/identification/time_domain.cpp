@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "identification/disturbed_motion.hpp"
-#include "identification/encoder_step.hpp"
+#include "identification/response/encoder_step.hpp"
 #include "identification/feedback_test.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/lateness.hpp"

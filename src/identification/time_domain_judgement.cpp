@@ -17,7 +17,7 @@
 #include "identification/lateness.hpp"
 #include "identification/motion_residuals.hpp"
 #include "identification/nonlinearity_test.hpp"
-#include "identification/plausibility.hpp"
+#include "identification/response/plausibility.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/model/parameter.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/encoder_rounding.hpp"
+#include "identification/response/encoder_rounding.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/suspected_motions.hpp"

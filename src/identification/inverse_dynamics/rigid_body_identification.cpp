@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "identification/plausibility.hpp"
+#include "identification/response/plausibility.hpp"
 #include "identification/verdict/verdict.hpp"
 #include "model/option_beyond.hpp"
 #include "model/uncertainty_problem.hpp"

@@ -1,4 +1,4 @@
-#include "identification/periodic_response.hpp"
+#include "identification/response/periodic_response.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "counted.hpp"
-#include "identification/encoder_step.hpp"
-#include "identification/line_scatter.hpp"
+#include "identification/response/encoder_step.hpp"
+#include "identification/response/line_scatter.hpp"
 #include "signal/fourier.hpp"
 
 namespace zwidth::internal {

@@ -1,4 +1,4 @@
-#include "identification/response_choice.hpp"
+#include "identification/response/response_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "identification/line_response.hpp"
-#include "identification/period_detection.hpp"
+#include "identification/response/line_response.hpp"
+#include "identification/response/period_detection.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/parameter_fit.hpp"

@@ -1,4 +1,4 @@
-#include "identification/student_t.hpp"
+#include "identification/crossover/student_t.hpp"
 
 #include <boost/math/distributions/students_t.hpp>
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "identification/phase_lines.hpp"
-#include "identification/phase_runs.hpp"
-#include "identification/phase_verdict.hpp"
+#include "identification/crossover/phase_lines.hpp"
+#include "identification/crossover/phase_runs.hpp"
+#include "identification/crossover/phase_verdict.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
 
 namespace zwidth::internal {

@@ -1,4 +1,4 @@
-#include "identification/line_response.hpp"
+#include "identification/response/line_response.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "identification/line_scatter.hpp"
+#include "identification/response/line_scatter.hpp"
 #include "signal/fitted_sine.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"

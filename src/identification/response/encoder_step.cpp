@@ -1,4 +1,4 @@
-#include "identification/encoder_step.hpp"
+#include "identification/response/encoder_step.hpp"
 
 #include <algorithm>
 #include <cmath>

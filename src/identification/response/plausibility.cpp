@@ -1,4 +1,4 @@
-#include "identification/plausibility.hpp"
+#include "identification/response/plausibility.hpp"
 
 #include <algorithm>
 #include <cmath>

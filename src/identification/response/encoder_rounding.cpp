@@ -1,4 +1,4 @@
-#include "identification/encoder_rounding.hpp"
+#include "identification/response/encoder_rounding.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "identification/encoder_step.hpp"
+#include "identification/response/encoder_step.hpp"
 #include "zwidth/identification/excitation.hpp"
 
 namespace zwidth::internal {

@@ -1,4 +1,4 @@
-#include "identification/line_scatter.hpp"
+#include "identification/response/line_scatter.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,10 +1,10 @@
-#include "identification/phase_verdict.hpp"
+#include "identification/crossover/phase_verdict.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "identification/student_t.hpp"
+#include "identification/crossover/student_t.hpp"
 
 namespace zwidth::internal {
 namespace {

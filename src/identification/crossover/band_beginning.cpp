@@ -1,4 +1,4 @@
-#include "identification/band_beginning.hpp"
+#include "identification/crossover/band_beginning.hpp"
 
 #include <cmath>
 #include <complex>

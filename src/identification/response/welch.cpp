@@ -1,4 +1,4 @@
-#include "identification/welch.hpp"
+#include "identification/response/welch.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "counted.hpp"
-#include "identification/encoder_rounding.hpp"
+#include "identification/response/encoder_rounding.hpp"
 #include "require_valid.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"

@@ -1,4 +1,4 @@
-#include "identification/crossing_fit.hpp"
+#include "identification/crossover/crossing_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "identification/student_t.hpp"
+#include "identification/crossover/student_t.hpp"
 
 namespace zwidth::internal {
 namespace {

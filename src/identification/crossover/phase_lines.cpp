@@ -1,4 +1,4 @@
-#include "identification/phase_lines.hpp"
+#include "identification/crossover/phase_lines.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "identification/stated_units.hpp"
+#include "identification/response/stated_units.hpp"
 
 #include <fmt/format.h>
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "counted.hpp"
-#include "identification/line_response.hpp"
-#include "identification/period_detection.hpp"
-#include "identification/periodic_response.hpp"
-#include "identification/welch.hpp"
+#include "identification/response/line_response.hpp"
+#include "identification/response/period_detection.hpp"
+#include "identification/response/periodic_response.hpp"
+#include "identification/response/welch.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 

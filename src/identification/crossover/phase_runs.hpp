@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "identification/phase_lines.hpp"
+#include "identification/crossover/phase_lines.hpp"
 
 namespace zwidth::internal {
 

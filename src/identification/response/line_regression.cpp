@@ -1,4 +1,4 @@
-#include "identification/line_regression.hpp"
+#include "identification/response/line_regression.hpp"
 
 #include <algorithm>
 #include <cmath>

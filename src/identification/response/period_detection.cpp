@@ -1,4 +1,4 @@
-#include "identification/period_detection.hpp"
+#include "identification/response/period_detection.hpp"
 
 #include <algorithm>
 #include <cmath>

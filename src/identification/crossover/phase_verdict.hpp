@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "identification/local_estimate.hpp"
-#include "identification/phase_lines.hpp"
+#include "identification/crossover/local_estimate.hpp"
+#include "identification/crossover/phase_lines.hpp"
 
 namespace zwidth::internal {
 

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "counted.hpp"
-#include "identification/band_beginning.hpp"
-#include "identification/crossing_fit.hpp"
-#include "identification/phase_lines.hpp"
-#include "identification/phase_runs.hpp"
-#include "identification/phase_verdict.hpp"
+#include "identification/crossover/band_beginning.hpp"
+#include "identification/crossover/crossing_fit.hpp"
+#include "identification/crossover/phase_lines.hpp"
+#include "identification/crossover/phase_runs.hpp"
+#include "identification/crossover/phase_verdict.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 

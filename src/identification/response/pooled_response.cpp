@@ -1,4 +1,4 @@
-#include "identification/pooled_response.hpp"
+#include "identification/response/pooled_response.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "identification/phase_runs.hpp"
+#include "identification/crossover/phase_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
