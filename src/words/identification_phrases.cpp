@@ -11,6 +11,22 @@ std::span<const Phrase> identification_phrases() {
   static constexpr const char* taken_for =
       "{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit takes it for "
       "mass, friction and offset}";
+  // What leaves most of an interval open.
+  static constexpr const char* rival_leaves_open =
+      "{?rival|most of it by {?rival=coulomb_friction|dry friction}{?rival=drag|a force that grows with the square of "
+      "the speed}{?rival=asymmetric_damping|a damping that differs by direction}{?rival=damping_drift|a damping that "
+      "changes while it is recorded}{?rival=actuator_lag|a lag of the actuator}{?rival=ground_spring|a spring to the "
+      "ground}{?rival=drive_saturation|a drive that saturates}{?rival=drive_dead_band|a dead band of the "
+      "drive}{?rival=cogging|cogging}{?rival=constant_force|a constant force}{?rival=further_body|a further body} "
+      "({parameter}), within which it is {with_lower} to {with_upper}}";
+  static constexpr const char* record_against_rival =
+      "{?rival=coulomb_friction|record at a second, larger amplitude}{?rival=drag|record at a second amplitude}"
+      "{?rival=asymmetric_damping|record for longer}{?rival=damping_drift|record the device when it is warm}"
+      "{?rival=actuator_lag|excite higher frequencies}{?rival=ground_spring|excite lower frequencies}"
+      "{?rival=drive_saturation|record with less force}{?rival=drive_dead_band|record with more force}"
+      "{?rival=cogging|record larger motion}{?rival=constant_force|record for longer}{?rival=further_body|excite "
+      "higher "
+      "frequencies}{!rival|excite more strongly or for longer}";
   static constexpr std::array phrases{
       Phrase{motion_against_force, "motion_against_force", refusal,
              "the position falls as the force rises: scale one of them by -1"},
@@ -87,10 +103,10 @@ std::span<const Phrase> identification_phrases() {
              "{side} the measured band, may limit at {stiffness:.4g} {unit}",
              "", "excite {?side=above|higher}{?side=below|lower} frequencies"},
       Phrase{data_leave_interval_open, "data_leave_interval_open", doubt,
-             "{?delay_within_ms|the delay is known to +-{delay_within_ms:.2g} ms only: }the data leave the critical "
-             "stiffness open {?factor|within a factor of {factor:.2g}}{?more_than|by more than a factor of "
-             "{more_than:.0f}}{!factor|{!more_than|down to 0, where not even the softest wall is stable}}",
-             "", "excite more strongly or for longer{?delay_within_ms|, and at higher frequencies}"},
+             "the data leave the critical stiffness open {?factor|within a factor of {factor:.2g}}{?more_than|by more "
+             "than a factor of {more_than:.0f}}{!factor|{!more_than|down to 0, where not even the softest wall is "
+             "stable}}",
+             rival_leaves_open, record_against_rival},
       Phrase{no_interval, "no_interval", doubt, "how well the data determine the numbers could not be computed", "",
              "free fewer, or name a structure of fewer bodies"},
       Phrase{noise_hides_limit, "noise_hides_limit", doubt,
@@ -105,14 +121,13 @@ std::span<const Phrase> identification_phrases() {
              "{from:.4g} to {to:.4g} Hz}{!to|near {from:.4g} Hz}",
              "friction, backlash or a mode that the structure lacks; the intervals are widened for it, the values may "
              "be off by more"},
-      Phrase{
-          residual_stands_out, "residual_stands_out", doubt,
-          "the fitted device leaves more than the noise of {source}, most from {from:.4g} to {to:.4g} s: what is left "
-          "{?kind=correlated|is correlated with itself}{?kind=follows_force|follows the force, as a missing body or "
-          "mode "
-          "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}{?kind=varies_with_speed|grows or falls "
-          "with the speed}",
-          "", "name a structure with what is missing, or excite less of it"},
+      Phrase{residual_stands_out, "residual_stands_out", doubt,
+             "the fitted device leaves more than the noise of {source}, most from {from:.4g} to {to:.4g} s: what is "
+             "left {?kind=follows_force|follows the force, as a missing body or mode "
+             "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}",
+             "the critical stiffness may lie outside its interval",
+             "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
+             "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}"},
       Phrase{residual_above_noise, "residual_above_noise", doubt,
              "what the structure leaves of the response is {residual:.2g} times its noise: friction, backlash, or a "
              "body that it lacks"},
@@ -214,7 +229,8 @@ std::span<const Phrase> identification_phrases() {
              "the record shows dry friction of about {force:.3g} {unit} on {body}",
              "the fit takes it for damping, which makes the critical stiffness too high",
              "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"},
-      Phrase{dry_friction_fitted, "dry_friction_fitted", note, "dry friction of {force:.3g} {unit} ({key})",
+      Phrase{dry_friction_fitted, "dry_friction_fitted", note,
+             "dry friction of {force:.3g} +- {deviation:.2g} {unit} on {body}",
              "the critical stiffness is that of the device without it: small motion is damped by it"},
       Phrase{friction_shown_in_time, "friction_shown_in_time", doubt,
              "the record shows dry friction{?force| of about {force:.3g} {force_unit}} on {body}",
@@ -238,7 +254,7 @@ std::span<const Phrase> identification_phrases() {
              "it: a spring to the ground, or a body, that the structure lacks passes for noise",
              "", "name it"},
       Phrase{constant_force, "constant_force", note,
-             "a constant force of {force:.3g} {unit} beside the recorded one in {source}",
+             "a constant force of {force:.3g} +- {deviation:.2g} {unit} beside the recorded one in {source}",
              "an offset of the actuator, gravity, or friction that differs by direction; the fit allows for it"},
       Phrase{recordings_disagree, "recordings_disagree", doubt,
              "the recordings disagree: {of_softest} alone gives a critical stiffness of {softest}, {of_stiffest} alone "

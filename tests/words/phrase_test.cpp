@@ -145,9 +145,15 @@ TEST(WordsOfIdentification, HaveTheirVariants) {
   EXPECT_EQ(open({{"more_than", 1000.0}}),
             "the data leave the critical stiffness open by more than a factor of 1000; excite more strongly or for "
             "longer");
-  EXPECT_EQ(open({{"delay_within_ms", 0.5}}),
-            "the delay is known to +-0.5 ms only: the data leave the critical stiffness open down to 0, where not even "
-            "the softest wall is stable; excite more strongly or for longer, and at higher frequencies");
+  EXPECT_EQ(open({}),
+            "the data leave the critical stiffness open down to 0, where not even the softest wall is stable; excite "
+            "more strongly or for longer");
+  const Finding by_friction{.code = FindingCode::data_leave_interval_open,
+                            .evidence = {{"factor", 2.0}, {"with_lower", 40.0, "N/m"}, {"with_upper", 70.0, "N/m"}},
+                            .subjects = {{"rival", "coulomb_friction"}, {"parameter", "friction.motor"}}};
+  EXPECT_EQ(doubt(by_friction),
+            "the data leave the critical stiffness open within a factor of 2; most of it by dry friction "
+            "(friction.motor), within which it is 40 N/m to 70 N/m; record at a second, larger amplitude");
 
   const Finding outside{.code = FindingCode::limit_outside_band,
                         .evidence = {{"frequency", 250.0}, {"lowest", 1.0}, {"highest", 100.0}},
