@@ -112,4 +112,12 @@ double widening(const std::vector<LeftOver>& left, const LimitSlope& limit) {
   return std::isfinite(ratio) ? std::sqrt(std::max(1.0, ratio)) : 1.0;
 }
 
+Interval widened(const OpenLimit& limit, double by) {
+  constexpr double of_95_percent = 1.96;
+  const double least = of_95_percent * limit.deviation;
+  const double down = by * std::max(limit.best - limit.lower, least);
+  const double up = by * std::max(limit.upper - limit.best, least);
+  return {std::exp(limit.best - down), std::exp(limit.best + up)};
+}
+
 }  // namespace zwidth::internal

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "identification/verdict/left_over.hpp"
+#include "zwidth/identification/measured_stiffness.hpp"
 
 namespace zwidth::internal {
 
@@ -21,5 +22,19 @@ struct LimitSlope {
 /// its force repeats, and parts of its spectrum, each of as much weight. Motion that the model lacks is large in some of either.
 /// The larger of both over sum w_k^2 counts.
 [[nodiscard]] double widening(const std::vector<LeftOver>& left, const LimitSlope& limit);
+
+/// Logarithms of a limit and of what leaves it open.
+struct OpenLimit {
+  double best = 0.0;       ///< of the most likely K_CR
+  double lower = 0.0;      ///< end of the profile
+  double upper = 0.0;      ///< the other
+  double deviation = 0.0;  ///< of log K_CR: sqrt(g'C g), g its slope, C the covariance of the numbers
+};
+
+/// The answer's interval: each half of the profile's, at least 1.96 deviations, times the widening.
+///
+/// Noise that no filter of a record's length tells, and ends that the search of a profile does not reach, made 32 % of the
+/// profiles of 124 simulated records miss their truth; of these intervals 12 % do (Calibration).
+[[nodiscard]] Interval widened(const OpenLimit& limit, double by);
 
 }  // namespace zwidth::internal
