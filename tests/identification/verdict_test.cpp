@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "identification/verdict/finding_of_fit.hpp"
-
 namespace zwidth::internal {
 namespace {
 
@@ -79,9 +77,8 @@ TEST(Verdict, RefusesWhatHasNoLimitOrContradictsItself) {
   ASSERT_EQ(undetermined.findings.size(), 1U);
   EXPECT_EQ(undetermined.findings[0].code, FindingCode::nothing_determined);
 
-  EXPECT_FALSE(turned_sign(0.99, std::nullopt));
   fit = narrow_fit();
-  fit.contradictions = {*turned_sign(0.99, 0.01)};
+  fit.contradictions = {{.code = FindingCode::motion_against_force, .evidence = {{"agreement", -0.9}}}};
   const Trust turned = verdict_of(fit).trust;
   EXPECT_TRUE(turned.refused());
   EXPECT_EQ(turned.findings.at(0).code, FindingCode::motion_against_force);

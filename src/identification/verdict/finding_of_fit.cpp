@@ -25,12 +25,6 @@ bool opens_most(const RivalEstimate& rival, const Interval& limit) {
 
 }  // namespace
 
-std::optional<Finding> turned_sign(double unexplained, std::optional<double> if_turned) {
-  if (!if_turned) return std::nullopt;
-  return Finding{.code = FindingCode::motion_against_force,
-                 .evidence = {{"turned", *if_turned}, {"unexplained", unexplained}}};
-}
-
 Finding undetermined(const FittedLikelihood& fit) {
   return {.code = FindingCode::nothing_determined,
           .subjects = {{"by", fit.records.size() <= 1 ? "record" : "recordings"}}};

@@ -10,10 +10,6 @@ namespace zwidth::internal {
 
 // What is found of a fit by likelihood, a function a finding.
 
-/// A contradiction where a linear fit explains much more with one sign turned round: what ParameterFit leaves unexplained
-/// (model_error), and what it would (model_error_if_turned).
-[[nodiscard]] std::optional<Finding> turned_sign(double unexplained, std::optional<double> if_turned);
-
 [[nodiscard]] Finding undetermined(const FittedLikelihood& fit);
 
 /// With the rival that leaves most of the interval open, and the limit within what the records allow of it.
