@@ -345,7 +345,6 @@ enum class FindingCode : std::uint16_t {
   too_few_averages,                 ///< fewer than two independent averages
   segments_too_short,               ///< the window smears a resonance
   periods_averaged,                 ///< how a response was averaged over periods
-  periods_not_averaged,             ///< what drifts between the periods is left to the segments
   transient_in_periods,             ///< the first periods differ from the later ones
   force_repeats,                    ///< the period that was found
   sine_fitted_in_one_piece,         ///< a single sine
@@ -380,10 +379,6 @@ enum class FindingCode : std::uint16_t {
   table_doubts_itself,              ///< a table doubts its critical stiffness, for `reason`
   recordings_averaged,              ///< the recordings differ by more than their noise
   motion_against_force,             ///< the position falls as the force rises
-  explained_better_if_turned,       ///< the response is explained better with its sign turned round
-  response_unexplained,             ///< the structure leaves most of a response unexplained
-  response_in_time_unexplained,     ///< the fitted device leaves most of a recording's response unexplained
-  response_drowned,                 ///< the response hardly stands out of its noise
   nothing_determined,               ///< the data determine no parameter
   numbers_undetermined,             ///< the data do not determine some parameters: they are taken as given
   number_is_placeholder,            ///< a parameter that the data do not determine stands for an unknown one
@@ -392,70 +387,27 @@ enum class FindingCode : std::uint16_t {
   parameter_hardly_determined,      ///< a parameter known to half its size or less
   fitted_too,                       ///< a parameter is free that was not asked for
   search_stopped,                   ///< the search was stopped while it still improved
-  local_minimum,                    ///< other values explain the record better
-  held_to_critical_point,           ///< the fit is held to the measured critical point
-  critical_point_is_guess,          ///< the fit is held to a measured critical point that is a guess
   limit_outside_band,               ///< the crossover that limits is outside the measured band
-  limit_extrapolated,               ///< the same, of the critical stiffness that is given
-  limit_above_measured,             ///< the fitted limit lies above the one that the same data show
-  limit_may_be_wrong,               ///< what a fit in time is doubted for, in the sentence `reason`
-  unseen_limit_within_interval,     ///< a parameter within its interval makes a crossover outside the band limit
-  unseen_limit_of_light_mode,       ///< a lightly damped mode above the band may limit
-  unseen_limit_of_other_values,  ///< other values that explain the record as well make a crossover outside the band limit
-  data_leave_interval_open,      ///< the data leave the critical stiffness open
-  no_interval,                   ///< no interval could be computed
-  noise_hides_limit,             ///< noise hides the response at the limit
-  residual_beyond_noise,         ///< the structure leaves a share of the response beyond the noise
-  residual_largest,              ///< the same, with where it is largest
-  residual_stands_out,           ///< what the best fit leaves of a record is more than its noise
-  residual_above_noise,          ///< the normalised residual is too large
-  residual_above_noise_in_band,    ///< the normalised residual is too large in a part of the band
-  residual_in_time_beyond_noise,   ///< the fitted device leaves a share of a recording's response beyond the noise
-  residuals_larger_at_reversals,   ///< residuals larger where the motion turns
-  mode_missing,                    ///< a mode that the structure lacks
-  higher_order_explains_better,    ///< a higher-order model explains the record better
-  segments_truncate_mode,          ///< the mode that limits rings on from segment to segment
-  rectangular_window_leaks,        ///< segments under a rectangular window
-  recorded_in_feedback,            ///< the force answers to the noise of the position
-  lag_beyond_drives,               ///< an actuator's lag that no drive has
-  fitted_late_beyond_drives,       ///< a fitted delay and lag that no drive has
-  fitted_body_too_heavy,           ///< a fitted mass or inertia that no haptic device has
-  mass_far_from_structure,         ///< a fitted mass powers of ten off the structure's
-  period_far_from_record,          ///< the structure's sampling period is powers of ten off the record's
-  delay_lost,                      ///< the record shows less delay than the structure states
-  delay_contradicts_structure,     ///< the record shows another delay than the structure's
-  delay_hidden,                    ///< too few lines to tell a delay
-  delay_open,                      ///< the record does not exclude a delay that lowers the limit
-  delay_not_shown,                 ///< the delay from force to motion does not show
-  force_acts_later,                ///< the force acts later than a held one
-  fixed_parameter_inconsistent,    ///< a fixed parameter that the recordings contradict
-  operator_taken_to_hold,          ///< the structure's operator is taken to hold the device
-  nobody_taken_to_hold,            ///< nobody is taken to have held the device
-  force_taken_for_command,         ///< the force is taken for the commanded one
-  held_body_looks_held,            ///< the held body comes out heavier and more damped: a hand
-  spring_to_ground,                ///< a spring to the ground that the structure lacks
-  dry_friction_taken_for_damping,  ///< dry friction that a linear fit takes for damping
-  dry_friction_fitted,             ///< dry friction beside the linear device
-  friction_shown_in_time,          ///< dry friction that the record shows in time
-  friction_not_told_from_damping,  ///< dry friction that the record does not tell from damping
-  friction_not_looked_for,         ///< the record is too short to look for dry friction
-  linear_fit_leaves_more,          ///< a linear fit leaves more than its noise, and no friction explains it
-  linear_fit_gives_less,           ///< a linear fit gives a lower limit than the one with friction
-  constant_force,                  ///< a constant force beside the recorded one
-  recordings_disagree,             ///< two recordings alone give limits that lie apart
-  nonlinear_spring,                ///< a force that changes with the position, not in proportion
-  nonlinear_actuator,              ///< a force that is not in proportion to the recorded one
-  cogging,                         ///< a force that comes and goes with the position
-  drag,                            ///< a force that is not in proportion to the speed
-  friction_not_coulombs,           ///< friction of another kind as the motion turns
-  link_friction,                   ///< friction in a link
-  unmodelled_mode,                 ///< a mode that the structure lacks, in the motion
-  delay_changes,                   ///< clocks that run apart
-  damping_changes,                 ///< a damping that changes while it is recorded
-  taken_as_zero,                   ///< a fitted value below 0
-  friction_below_zero,             ///< friction below 0 by more than its interval
-  force_unexplained,               ///< one rigid body leaves a share of the force unexplained
-  device_not_rigid,                ///< a mode of a device that was taken for one rigid body
+  data_leave_interval_open,         ///< the data leave the critical stiffness open
+  residual_stands_out,              ///< what the best fit leaves of a record is more than its noise
+  lag_beyond_drives,                ///< an actuator's lag that no drive has
+  fitted_late_beyond_drives,        ///< a fitted delay and lag that no drive has
+  fitted_body_too_heavy,            ///< a fitted mass or inertia that no haptic device has
+  mass_far_from_structure,          ///< a fitted mass powers of ten off the structure's
+  period_far_from_record,           ///< the structure's sampling period is powers of ten off the record's
+  delay_contradicts_structure,      ///< the record shows another delay than the structure's
+  delay_not_shown,                  ///< the delay from force to motion does not show
+  force_acts_later,                 ///< the force acts later than a held one
+  operator_taken_to_hold,           ///< the structure's operator is taken to hold the device
+  nobody_taken_to_hold,             ///< nobody is taken to have held the device
+  force_taken_for_command,          ///< the force is taken for the commanded one
+  dry_friction_fitted,              ///< dry friction beside the linear device
+  constant_force,                   ///< a constant force beside the recorded one
+  recordings_disagree,              ///< two recordings alone give limits that lie apart
+  taken_as_zero,                    ///< a fitted value below 0
+  friction_below_zero,              ///< friction below 0 by more than its interval
+  force_unexplained,                ///< one rigid body leaves a share of the force unexplained
+  device_not_rigid,                 ///< a mode of a device that was taken for one rigid body
 };
 
 }  // namespace zwidth

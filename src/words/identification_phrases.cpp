@@ -7,25 +7,25 @@ namespace zwidth::internal {
 std::span<const Phrase> identification_phrases() {
   using enum FindingCode;
   using enum Finding::Severity;
-  // What a fit makes of a force that its structure lacks.
-  static constexpr const char* taken_for =
-      "{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit takes it for "
-      "mass, friction and offset}";
+  // What leaves most of an interval open.
+  static constexpr const char* rival_leaves_open =
+      "{?rival|most of it by {?rival=coulomb_friction|dry friction}{?rival=drag|a force that grows with the square of "
+      "the speed}{?rival=asymmetric_damping|a damping that differs by direction}{?rival=damping_drift|a damping that "
+      "changes while it is recorded}{?rival=actuator_lag|a lag of the actuator}{?rival=ground_spring|a spring to the "
+      "ground}{?rival=drive_saturation|a drive that saturates}{?rival=drive_dead_band|a dead band of the "
+      "drive}{?rival=cogging|cogging}{?rival=constant_force|a constant force}{?rival=further_body|a further body} "
+      "({parameter}), within which it is {with_lower} to {with_upper}}";
+  static constexpr const char* record_against_rival =
+      "{?rival=coulomb_friction|record at a second, larger amplitude}{?rival=drag|record at a second amplitude}"
+      "{?rival=asymmetric_damping|record for longer}{?rival=damping_drift|record the device when it is warm}"
+      "{?rival=actuator_lag|excite higher frequencies}{?rival=ground_spring|excite lower frequencies}"
+      "{?rival=drive_saturation|record with less force}{?rival=drive_dead_band|record with more force}"
+      "{?rival=cogging|record larger motion}{?rival=constant_force|record for longer}{?rival=further_body|excite "
+      "higher "
+      "frequencies}{!rival|excite more strongly or for longer}";
   static constexpr std::array phrases{
       Phrase{motion_against_force, "motion_against_force", refusal,
              "the position falls as the force rises: scale one of them by -1"},
-      Phrase{explained_better_if_turned, "explained_better_if_turned", warning,
-             "with its sign turned round, {turned:percent} of the response would be unexplained, not "
-             "{unexplained:percent}",
-             "the position falls as the force rises", "scale one of them by -1"},
-      Phrase{response_unexplained, "response_unexplained", refusal,
-             "the structure leaves {unexplained:percent} of the response unexplained", "",
-             "is the structure right, and are force and position those of one experiment?"},
-      Phrase{response_in_time_unexplained, "response_in_time_unexplained", refusal,
-             "the fitted device leaves {unexplained:percent} of the response of {source} unexplained", "",
-             "is the structure right, and are force and position those of one experiment?"},
-      Phrase{response_drowned, "response_drowned", refusal, "the response hardly stands out of its noise anywhere", "",
-             "excite more strongly, and check that force and position are those of one experiment"},
       Phrase{nothing_determined, "nothing_determined", refusal,
              "the {?by=record|record determines}{?by=recordings|recordings determine} no parameter of the structure",
              "", "free fewer, or excite more strongly"},
@@ -49,101 +49,22 @@ std::span<const Phrase> identification_phrases() {
       Phrase{search_stopped, "search_stopped", doubt,
              "the search for the parameters was stopped while it still improved", "",
              "free fewer parameters, or start from values that are nearly right"},
-      Phrase{local_minimum, "local_minimum", doubt,
-             "other values of its numbers explain the record better: the search ended beside the device", "",
-             "excite more strongly or for longer, or give values that are nearly right"},
-      Phrase{held_to_critical_point, "held_to_critical_point", note,
-             "the fit is held to the measured critical point, since the structure misses the data by more than their "
-             "noise",
-             "all points alike would give a critical stiffness of {without:.4g}"},
-      Phrase{critical_point_is_guess, "critical_point_is_guess", doubt,
-             "the fit is held to a measured critical point that is itself a guess"},
       Phrase{limit_outside_band, "limit_outside_band", doubt,
              "the crossover that limits, near {frequency:.4g} Hz, lies {side} the measured band, {lowest:.4g} to "
              "{highest:.4g} Hz: {?side=above|delay, lag and modes there are not in the data; excite higher "
              "frequencies}{?side=below|dampings and springs there are not in the data; excite lower frequencies}"},
-      Phrase{limit_extrapolated, "limit_extrapolated", warning,
-             "the critical stiffness is extrapolated {side} the measured band",
-             "the crossover that limits, near {frequency:.4g} Hz, lies {side} the measured band, {lowest:.4g} to "
-             "{highest:.4g} Hz: {?side=above|delay, lag and modes there are not in the data; excite higher "
-             "frequencies}{?side=below|dampings and springs there are not in the data; excite lower frequencies}"},
-      Phrase{limit_above_measured, "limit_above_measured", doubt,
-             "UNSAFE: the critical stiffness of the recorded device as fitted, {fitted:.4g} {unit}, lies above "
-             "{proven:.4g}, where the same data show an oscillation without any model",
-             "the structure lacks something",
-             "use the critical stiffness of the response itself; free delay and lag, or name bodies that were "
-             "locked"},
-      Phrase{limit_may_be_wrong, "limit_may_be_wrong", warning, "{reason}", "the critical stiffness may be wrong"},
-      Phrase{unseen_limit_within_interval, "unseen_limit_within_interval", doubt,
-             "{key} is known to {relative_deviation:percent} only: within that a crossover near {frequency:.4g} Hz, "
-             "{side} the measured band, may limit at {stiffness:.4g} {unit}",
-             "", "excite {?side=above|higher}{?side=below|lower} frequencies"},
-      Phrase{unseen_limit_of_light_mode, "unseen_limit_of_light_mode", doubt,
-             "the record does not show how much a mode above it is damped: hardly at all, a crossover near "
-             "{frequency:.4g} Hz, {side} the measured band, may limit at {stiffness:.4g} {unit}",
-             "", "excite {?side=above|higher}{?side=below|lower} frequencies"},
-      Phrase{unseen_limit_of_other_values, "unseen_limit_of_other_values", doubt,
-             "the record leaves numbers open: with others that explain it as well a crossover near {frequency:.4g} Hz, "
-             "{side} the measured band, may limit at {stiffness:.4g} {unit}",
-             "", "excite {?side=above|higher}{?side=below|lower} frequencies"},
       Phrase{data_leave_interval_open, "data_leave_interval_open", doubt,
-             "{?delay_within_ms|the delay is known to +-{delay_within_ms:.2g} ms only: }the data leave the critical "
-             "stiffness open {?factor|within a factor of {factor:.2g}}{?more_than|by more than a factor of "
-             "{more_than:.0f}}{!factor|{!more_than|down to 0, where not even the softest wall is stable}}",
-             "", "excite more strongly or for longer{?delay_within_ms|, and at higher frequencies}"},
-      Phrase{no_interval, "no_interval", doubt, "how well the data determine the numbers could not be computed", "",
-             "free fewer, or name a structure of fewer bodies"},
-      Phrase{noise_hides_limit, "noise_hides_limit", doubt,
-             "noise hides the response where the crossover limits, near {frequency:.4g} Hz (coherence "
-             "{coherence:.2f}), and the other lines leave the critical stiffness open within a factor of {factor:.2g}",
-             "", "excite more strongly there, or for longer"},
-      Phrase{residual_beyond_noise, "residual_beyond_noise", doubt,
-             "the structure leaves {unexplained:percent} of the response unexplained beyond the noise: friction, "
-             "backlash, or a body that it lacks"},
-      Phrase{residual_largest, "residual_largest", warning,
-             "the structure leaves {unexplained:percent} of the response unexplained beyond the noise, most {?to|from "
-             "{from:.4g} to {to:.4g} Hz}{!to|near {from:.4g} Hz}",
-             "friction, backlash or a mode that the structure lacks; the intervals are widened for it, the values may "
-             "be off by more"},
-      Phrase{
-          residual_stands_out, "residual_stands_out", doubt,
-          "the fitted device leaves more than the noise of {source}, most from {from:.4g} to {to:.4g} s: what is left "
-          "{?kind=correlated|is correlated with itself}{?kind=follows_force|follows the force, as a missing body or "
-          "mode "
-          "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}{?kind=varies_with_speed|grows or falls "
-          "with the speed}",
-          "", "name a structure with what is missing, or excite less of it"},
-      Phrase{residual_above_noise, "residual_above_noise", doubt,
-             "what the structure leaves of the response is {residual:.2g} times its noise: friction, backlash, or a "
-             "body that it lacks"},
-      Phrase{residual_above_noise_in_band, "residual_above_noise_in_band", doubt,
-             "from {lowest:.4g} to {highest:.4g} Hz what the structure leaves of the response is {residual:.2g} times "
-             "its noise: friction, backlash, or a body that it lacks"},
-      Phrase{residual_in_time_beyond_noise, "residual_in_time_beyond_noise", doubt,
-             "the fitted device leaves {unexplained:percent} of the response of {source} unexplained beyond the noise: "
-             "a body that it lacks, or backlash"},
-      Phrase{residuals_larger_at_reversals, "residuals_larger_at_reversals", doubt,
-             "the residuals of {source} are {ratio:.2g} times larger where the motion turns than elsewhere: the "
-             "friction is not Coulomb's, or there is backlash"},
-      Phrase{mode_missing, "mode_missing", doubt,
-             "a mode near {frequency:.4g} Hz{?damping_ratio| (damping ratio about {damping_ratio:.2g})} is missing "
-             "from the structure",
-             "add a body and a link{?damping_ratio| for it, or leave that band out}"},
-      Phrase{higher_order_explains_better, "higher_order_explains_better", doubt,
-             "one body more, on {body} with a mode near {frequency:.3g} Hz, explains the record better ({residual:.3g} "
-             "times the noise instead of {without:.3g}): the structure lacks a body, or the search ended beside the "
-             "device",
-             "", "name a structure with it"},
-      Phrase{segments_truncate_mode, "segments_truncate_mode", doubt,
-             "the mode near {frequency:.4g} Hz that limits rings on for {ringing:.3g} s, and the segments of the "
-             "record are {segment:.3g} s long",
-             "", "record for longer, or excite periodically"},
-      Phrase{rectangular_window_leaks, "rectangular_window_leaks", doubt,
-             "segments under a rectangular window leak from the strongest lines into all others", "", "take hann"},
-      Phrase{recorded_in_feedback, "recorded_in_feedback", doubt,
-             "the force of {source} answers to the noise of its position: recorded in feedback, where disturbances "
-             "bias a fit by as much as they are of the force",
-             "", "record with a force made beforehand"},
+             "the data leave the critical stiffness open {?factor|within a factor of {factor:.2g}}{?more_than|by more "
+             "than a factor of {more_than:.0f}}{!factor|{!more_than|down to 0, where not even the softest wall is "
+             "stable}}",
+             rival_leaves_open, record_against_rival},
+      Phrase{residual_stands_out, "residual_stands_out", doubt,
+             "the fitted device leaves more than the noise of {source}, most from {from:.4g} to {to:.4g} s: what is "
+             "left {?kind=follows_force|follows the force, as a missing body or mode "
+             "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}",
+             "the critical stiffness may lie outside its interval",
+             "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
+             "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}"},
       Phrase{lag_beyond_drives, "lag_beyond_drives", doubt,
              "the actuator's lag comes out as {lag:.4g} s, {periods:.3g} sampling periods: it was probably exchanged "
              "with the time that a body's mass takes on its damping, or friction or a spring hides it",
@@ -164,30 +85,14 @@ std::span<const Phrase> identification_phrases() {
              "the structure's sampling period, {period:.4g} s, is {ratio:.3g} times the record's",
              "the critical stiffness is that of the structure's period",
              "{?prefix|is one of them in {prefix}seconds?}{!prefix|give the period of the loop to judge in seconds}"},
-      Phrase{delay_lost, "delay_lost", doubt,
-             "the record shows {lost} less delay than the structure states: rows that pair a force with a later "
-             "position hide it, and the critical stiffness comes out too high",
-             "", "log both at one instant, or correct loop.delay in the structure"},
       Phrase{delay_contradicts_structure, "delay_contradicts_structure", doubt,
              "the record shows a delay of {shown:.3g} s where the structure has {given:.3g} s",
              "the critical stiffness depends on it", "free loop.delay, or give it"},
-      Phrase{delay_hidden, "delay_hidden", doubt,
-             "the response has {lines:n} lines, too few to tell a delay beside the {numbers:n} numbers that are "
-             "fitted, and a delay makes the critical stiffness lower",
-             "", "excite more lines, or state loop.delay in a device file"},
-      Phrase{delay_open, "delay_open", doubt,
-             "no delay was to be fitted, and the record does not exclude one with which the critical stiffness is "
-             "{stiffness:.3g} {unit}",
-             "", "free loop.delay, state it in a device file, or excite higher frequencies"},
       Phrase{delay_not_shown, "delay_not_shown", doubt, "the delay from force to motion does not show in this record",
              "taken as half a period, that of a held force", "move at several frequencies"},
       Phrase{force_acts_later, "force_acts_later", note,
              "the force acts {milliseconds:.4g} ms later than a held force does",
              "the device has it as its loop.delay"},
-      Phrase{fixed_parameter_inconsistent, "fixed_parameter_inconsistent", doubt,
-             "{key} was not fitted, and the recordings contradict it: they ask for about {shown:.3g} where {given:.3g} "
-             "is taken, in SI units",
-             "", "free it too"},
       Phrase{operator_taken_to_hold, "operator_taken_to_hold", warning,
              "the structure's operator is taken to hold the device while it is recorded",
              "the bodies are fitted beside it, and the critical stiffness is with it",
@@ -202,96 +107,21 @@ std::span<const Phrase> identification_phrases() {
              "of a load cell's, or beside a later position, what delays the command (a bus, a drive) is not in the "
              "record, and the critical stiffness comes out up to several times too high",
              "record the command beside the position read before it, or add that delay as loop.delay"},
-      Phrase{held_body_looks_held, "held_body_looks_held", doubt,
-             "{body} comes out at least {of_mass:.2g} times as heavy and {of_damping:.2g} times as damped as in the "
-             "structure: a hand on it would be in both, and in the critical stiffness",
-             "", "record it with nobody on it, or correct the structure"},
-      Phrase{spring_to_ground, "spring_to_ground", doubt,
-             "the record shows a spring of about {stiffness:.3g} {unit} from {body} to the ground, which the structure "
-             "does not have: a hand on it, a cable, or gravity",
-             "", "record it with nobody on it, or give the body that stiffness"},
-      Phrase{dry_friction_taken_for_damping, "dry_friction_taken_for_damping", doubt,
-             "the record shows dry friction of about {force:.3g} {unit} on {body}",
-             "the fit takes it for damping, which makes the critical stiffness too high",
-             "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"},
-      Phrase{dry_friction_fitted, "dry_friction_fitted", note, "dry friction of {force:.3g} {unit} ({key})",
+      Phrase{dry_friction_fitted, "dry_friction_fitted", note,
+             "dry friction of {force:.3g} +- {deviation:.2g} {unit} on {body}",
              "the critical stiffness is that of the device without it: small motion is damped by it"},
-      Phrase{friction_shown_in_time, "friction_shown_in_time", doubt,
-             "the record shows dry friction{?force| of about {force:.3g} {force_unit}} on {body}",
-             "beside it the critical stiffness is about {stiffness:.3g} {unit}{?within_from|, within the interval}",
-             "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"},
-      Phrase{friction_not_told_from_damping, "friction_not_told_from_damping", doubt,
-             "the record does not tell damping from dry friction{?force| of about {force:.3g} {force_unit}} on "
-             "{body}",
-             "beside it the critical stiffness is about {stiffness:.3g} {unit}{?within_from|, within the interval}",
-             "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"},
-      Phrase{friction_not_looked_for, "friction_not_looked_for", note, "dry friction was not looked for in time",
-             "that takes {samples:n} samples, and a device that moves through each in {steps:n} steps or fewer; "
-             "friction that the response does not show makes the critical stiffness too high",
-             "record for longer; or fit a structure without the stiffest link"},
-      Phrase{linear_fit_leaves_more, "linear_fit_leaves_more", doubt,
-             "a linear fit of the same record leaves more than its noise, and no friction is found that explains it: a "
-             "spring to the ground, or a body, that the structure lacks passes for noise",
-             "", "name it"},
-      Phrase{linear_fit_gives_less, "linear_fit_gives_less", doubt,
-             "a linear fit of the same record gives {linear}, less than the fit with friction, which can only raise "
-             "it: a spring to the ground, or a body, that the structure lacks passes for noise",
-             "", "name it"},
       Phrase{constant_force, "constant_force", note,
-             "a constant force of {force:.3g} {unit} beside the recorded one in {source}",
+             "a constant force of {force:.3g} +- {deviation:.2g} {unit} beside the recorded one in {source}",
              "an offset of the actuator, gravity, or friction that differs by direction; the fit allows for it"},
       Phrase{recordings_disagree, "recordings_disagree", doubt,
              "the recordings disagree: {of_softest} alone gives a critical stiffness of {softest}, {of_stiffest} alone "
              "{stiffest}, beyond what their noise allows",
              "", "the device, its load or its friction has changed between them: look at them one by one"},
-      Phrase{nonlinear_spring, "nonlinear_spring", doubt,
-             "{source} shows a force that changes with the position, but not in proportion to it: a spring that "
-             "stiffens, gravity on a lever, or a stop",
-             taken_for, "record smaller motion, about the place that matters"},
-      Phrase{nonlinear_actuator, "nonlinear_actuator", doubt,
-             "{source} shows a force that is not in proportion to the recorded one: an amplifier that saturates, or a "
-             "torque that falls at large currents",
-             taken_for, "record the force that acts, or excite less strongly"},
-      Phrase{cogging, "cogging", doubt,
-             "{source} shows a force that comes and goes with the position, about every {wavelength:.2g} {unit}: "
-             "cogging, gear teeth, or a bearing",
-             taken_for, "compensate it, or excite more strongly: its share falls with the amplitude"},
-      Phrase{drag, "drag", doubt,
-             "{source} {?below|hardly tells damping from}{!below|shows} a force that is not in proportion to the "
-             "speed: drag of air or of a fluid, an eddy-current brake, or friction that changes with the "
-             "speed{?below|: beside it the critical stiffness is about {beside}}{!below|{?beside| (beside it the "
-             "critical stiffness is about {beside})}}",
-             taken_for,
-             "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower"},
-      Phrase{friction_not_coulombs, "friction_not_coulombs", doubt,
-             "{source} {?below|hardly tells damping from}{!below|shows} friction that is not Coulomb's as the motion "
-             "turns: what rubs, or a cable, bends before it slips, or friction at rest is more{?below|: beside it the "
-             "critical stiffness is about {beside}}{!below|{?beside| (beside it the critical stiffness is about "
-             "{beside})}}",
-             taken_for, "excite more strongly: its share falls with the amplitude"},
-      Phrase{link_friction, "link_friction", doubt,
-             "{source} {?below|hardly tells damping from}{!below|shows} friction in a link: a belt, cable or gear that "
-             "rubs, or gives before it slips{?below|: beside it the critical stiffness is about "
-             "{beside}}{!below|{?beside| (beside it the critical stiffness is about {beside})}}",
-             taken_for, "excite more strongly: its share falls with the amplitude"},
-      Phrase{unmodelled_mode, "unmodelled_mode", doubt,
-             "{source} shows a mode near {frequency:.4g} Hz that the structure lacks, {?times|larger "
-             "than}{?share|{share:percent} of} the response there{?beside|: with it the critical stiffness is about "
-             "{beside}}",
-             taken_for, "give the structure one more body (a frame that shakes is one), or hold the device firmly"},
-      Phrase{delay_changes, "delay_changes", doubt,
-             "{source} shows a delay that changes by {change} from its beginning to its end: the clocks of force and "
-             "position run apart, or under a sweep something delays some frequencies more than others",
-             taken_for, "record both by one clock, under noise or a multisine"},
-      Phrase{damping_changes, "damping_changes", doubt,
-             "{source} shows that the damping of {body} changes by {change} while it is recorded, of which the fit is "
-             "a mean: at the softest the critical stiffness is about {beside} or less",
-             taken_for, "record the device when it is warm, or as cold as it will be used"},
       Phrase{taken_as_zero, "taken_as_zero", warning, "{key} = {value:.4g} is below 0", "taken as 0 in the device"},
       Phrase{friction_below_zero, "friction_below_zero", doubt,
              "{friction} friction comes out as {value:.3g}, below 0 by more than its interval: motion is too noisy, or "
              "another force acts",
-             "", "lower the cutoff, or fit in time"},
+             "", "lower the cutoff, or identify the device from its motion"},
       Phrase{force_unexplained, "force_unexplained", refusal,
              "{unexplained:percent} of the force stays unexplained by one rigid body with dry friction",
              "its parameters may be off by more than their intervals",

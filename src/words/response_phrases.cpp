@@ -83,9 +83,6 @@ std::span<const Phrase> response_phrases() {
              "period of {samples:n} samples ({period:.4g} s); {averaged:n} of {periods:n} whole periods "
              "averaged{?skipped|, the first {skipped:n} skipped as transient}{?of_drift|, one spent on taking off the "
              "drift}"},
-      Phrase{periods_not_averaged, "periods_not_averaged", note,
-             "the periods of the force are not averaged: what drifts between them would leave more of the response "
-             "unexplained, or pass for noise"},
       Phrase{transient_in_periods, "transient_in_periods", warning,
              "the first {periods:n} of the averaged periods differ from the later ones: the transient has not died out",
              "skip more periods"},

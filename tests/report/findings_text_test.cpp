@@ -18,9 +18,8 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 Finding unsafe(double at_most) {
-  return {.code = FindingCode::limit_above_measured,
-          .evidence = {{"fitted", 2.0 * at_most}, {"proven", at_most}},
-          .subjects = {{"unit", "N/m"}},
+  return {.code = FindingCode::data_leave_interval_open,
+          .evidence = {{"factor", 1000.0 / at_most}},
           .effect = {{"critical_stiffness", at_most}}};
 }
 

@@ -15,9 +15,8 @@ using enum FindingCode;
 using Severity = Finding::Severity;
 
 Finding unsafe(double at_most) {
-  return {.code = limit_above_measured,
-          .evidence = {{"fitted", 2.0 * at_most}, {"proven", at_most}},
-          .subjects = {{"unit", "N/m"}},
+  return {.code = data_leave_interval_open,
+          .evidence = {{"factor", 1000.0 / at_most}},
           .effect = {{"critical_stiffness", at_most}}};
 }
 
@@ -36,13 +35,14 @@ TEST(RankedFindings, RefusalsComeFirstThenTheLowestLimitThenRemarks) {
   const std::vector remarks{note({.code = single_numbers, .subjects = {{"numbers", "T = 1"}}}), note({.code = no_wall}),
                             warning({.code = encoder_stands_still, .evidence = {{"resolution", 1e-4, "m"}}})};
   const std::vector<RankedFinding> all = most_important(trust, remarks);
-  EXPECT_THAT(codes(all), ElementsAre(second_route_contradicts, limit_above_measured, limit_above_measured,
+  EXPECT_THAT(codes(all), ElementsAre(second_route_contradicts, data_leave_interval_open, data_leave_interval_open,
                                       interval_open, encoder_stands_still, no_wall, single_numbers));
   EXPECT_EQ(all[0].finding.severity, Severity::refusal);
   EXPECT_EQ(all[1].finding.effect[0].value, 500.0);
   EXPECT_EQ(all[4].finding.severity, Severity::warning);
   EXPECT_EQ(all[4].words.remedy, remarks[2].remedy);
-  EXPECT_THAT(codes(most_important(trust, remarks, 2)), ElementsAre(second_route_contradicts, limit_above_measured));
+  EXPECT_THAT(codes(most_important(trust, remarks, 2)),
+              ElementsAre(second_route_contradicts, data_leave_interval_open));
 }
 
 TEST(RankedFindings, ARemarkOfADoubtIsLeftOut) {
@@ -51,7 +51,7 @@ TEST(RankedFindings, ARemarkOfADoubtIsLeftOut) {
   finding.evidence.push_back({"threshold", 1.1});
   trust.doubt(finding);
   const std::vector remarks{warning(unsafe(500.0)), warning(unsafe(400.0)),
-                            warning({.code = limit_may_be_wrong, .subjects = {{"reason", trust.reasons.front()}}})};
+                            warning({.code = stated, .subjects = {{"reason", trust.reasons.front()}}})};
   const std::vector<RankedFinding> ranked = most_important(trust, remarks);
   ASSERT_EQ(ranked.size(), 2U);
   EXPECT_EQ(ranked[0].finding.severity, Severity::doubt);

@@ -78,7 +78,6 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
     constexpr auto lags = static_cast<Eigen::Index>(Calibration::force_lags.size());
     Eigen::MatrixXd lagged(count, lags);
     Eigen::MatrixXd forces(count, 8);
-    Eigen::VectorXd speed(count);
     const double mean = position.mean();
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto at = static_cast<std::ptrdiff_t>(segment.first) + k;
@@ -91,8 +90,8 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
       const double force = sample_at(record.force, at);
       const double place = position(k) - mean;
       const double share = static_cast<double>(at) / static_cast<double>(record.position.size()) - 0.5;
-      speed(k) = std::abs(velocity);
-      forces.row(k) << force * force, force * force * force, velocity > 0.0 ? 1.0 : -1.0, speed(k), velocity * speed(k),
+      const double speed = std::abs(velocity);
+      forces.row(k) << force * force, force * force * force, velocity > 0.0 ? 1.0 : -1.0, speed, velocity * speed,
           place * place, place * place * place, share * velocity;
     }
     forces.colwise().normalize();
@@ -107,7 +106,7 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
                     counted(whitened(noise, position - recorded)), counted(slopes.leftCols(numbers)),
                     counted(slopes.rightCols(model.states())), counted(whitened(noise, lagged)),
                     counted(whitened(noise, positions_under(device, record.sampling_period, forces))),
-                    counts.cwiseProduct(speed.tail(count - order)), counts});
+                    counted(whitened(noise, (recorded.array() - recorded.mean()).matrix())), counts});
   }
   return left;
 }

@@ -20,7 +20,7 @@ struct LeftOver {
   Eigen::MatrixXd own;        ///< how they change with the segment's state
   Eigen::MatrixXd lagged;     ///< the force at the lags of Calibration::force_lags
   Eigen::MatrixXd forces;     ///< what nonlinear forces would add to the position
-  Eigen::VectorXd speed;      ///< |velocity|, not filtered
+  Eigen::VectorXd motion;     ///< the recorded position about its mean
   /// 1, and 0 where the encoder hardly moves: rounding is no noise there (Widrow & Kollar 2008, ch. 5). All else is 0 there too.
   Eigen::VectorXd counts;
 };

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "identification/verdict/calibration.hpp"
+#include "signal/fourier.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -67,45 +69,43 @@ class Fitted {
   Columns shared_;
 };
 
-/// sum_k u_k and its covariance: Bartlett's weights, within a record folded by the period of its force.
+/// Spectra of a segment's columns, scaled so that products over all lines sum as those over all samples.
+Eigen::MatrixXcd spectra_of(const Eigen::Ref<const Columns>& columns) {
+  Eigen::MatrixXcd all(columns.rows() / 2 + 1, columns.cols());
+  const double scale = std::sqrt(2.0 / static_cast<double>(columns.rows()));
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    const Eigen::VectorXd column = columns.col(j);
+    const auto lines = spectrum(std::span<const double>(column.data(), static_cast<std::size_t>(column.size())));
+    for (Eigen::Index k = 0; k < all.rows(); ++k) all(k, j) = scale * lines[static_cast<std::size_t>(k)];
+  }
+  all.row(0) *= std::numbers::sqrt2 / 2.0;
+  if (columns.rows() % 2 == 0) all.bottomRows(1) *= std::numbers::sqrt2 / 2.0;
+  return all;
+}
+
+/// Sums of residuals times candidates, and their covariance: lines of a spectrum are independent whatever its shape, and alike
+/// in the segments of a record whose force repeats.
 struct Score {
   Eigen::VectorXd sum;
   Columns covariance;
 };
 
-Score score_of(const Columns& terms, const std::vector<LeftOver>& left) {
-  Score score{terms.colwise().sum().transpose(), Columns::Zero(terms.cols(), terms.cols())};
+Score score_of(const Eigen::VectorXd& residuals, const Columns& candidates, const std::vector<LeftOver>& left) {
+  Score score{candidates.transpose() * residuals, Columns::Zero(candidates.cols(), candidates.cols())};
+  Columns terms;
   Eigen::Index at = 0;
-  for (std::size_t i = 0; i < left.size();) {
-    Columns folded;
-    const std::size_t period = left[i].period;
-    const std::size_t record = left[i].record;
-    Eigen::Index rows = 0;
-    std::size_t end = i;
-    for (; end < left.size() && left[end].record == record; ++end) rows += left[end].residuals.size();
-    if (period == 0) {
-      folded = terms.middleRows(at, rows);
-    } else {
-      folded = Columns::Zero(static_cast<Eigen::Index>(period), terms.cols());
-      Eigen::Index row = at;
-      for (std::size_t s = i; s < end; ++s) {
-        for (Eigen::Index k = 0; k < left[s].residuals.size(); ++k) {
-          folded.row(static_cast<Eigen::Index>((left[s].first + static_cast<std::size_t>(k)) % period)) +=
-              terms.row(row++);
-        }
-      }
-    }
-    // Newey & West 1994: the bandwidth 4 (N / 100)^(2/9).
-    const auto bandwidth = std::min<Eigen::Index>(
-        folded.rows() - 1, std::lround(4.0 * std::pow(static_cast<double>(folded.rows()) / 100.0, 2.0 / 9.0)));
-    score.covariance += folded.transpose() * folded;
-    for (Eigen::Index lag = 1; lag <= bandwidth; ++lag) {
-      const double weight = 1.0 - static_cast<double>(lag) / static_cast<double>(bandwidth + 1);
-      const Columns product = folded.bottomRows(folded.rows() - lag).transpose() * folded.topRows(folded.rows() - lag);
-      score.covariance += weight * (product + product.transpose());
-    }
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const Eigen::Index rows = left[i].residuals.size();
+    const Eigen::MatrixXcd residual = spectra_of(residuals.segment(at, rows));
+    const Eigen::MatrixXcd candidate = spectra_of(candidates.middleRows(at, rows));
+    const Columns own = (candidate.conjugate().array().colwise() * residual.col(0).array()).real();
+    const bool goes_on =
+        i > 0 && left[i].period > 0 && left[i - 1].record == left[i].record && terms.rows() == own.rows();
+    terms = goes_on ? Columns(terms + own) : own;
+    const bool is_last = i + 1 == left.size() || left[i].period == 0 || left[i + 1].record != left[i].record ||
+                         left[i + 1].residuals.size() != rows;
+    if (is_last) score.covariance += terms.transpose() * terms;
     at += rows;
-    i = end;
   }
   return score;
 }
@@ -114,36 +114,20 @@ Score score_of(const Columns& terms, const std::vector<LeftOver>& left) {
 struct Tested {
   Omnibus::Part part;
   Eigen::VectorXd terms;
+  double explained = 0.0;  ///< squares of the residuals that the candidates take away
 };
 
-std::optional<Tested> tested(Omnibus::Kind kind, const Columns& terms, const std::vector<LeftOver>& left, int freedom) {
-  if (terms.cols() == 0 || freedom <= 0) return std::nullopt;
-  const Score score = score_of(terms, left);
+std::optional<Tested> tested(Omnibus::Kind kind, const Eigen::VectorXd& residuals, const Columns& candidates,
+                             const std::vector<LeftOver>& left) {
+  const auto freedom = static_cast<int>(candidates.cols());
+  if (freedom == 0) return std::nullopt;
+  const Score score = score_of(residuals, candidates, left);
   const Eigen::VectorXd direction = score.covariance.ldlt().solve(score.sum);
   const double statistic = score.sum.dot(direction);
   if (!std::isfinite(statistic)) return std::nullopt;
   const boost::math::chi_squared law(freedom);
   const double p = boost::math::cdf(boost::math::complement(law, std::max(statistic, 0.0)));
-  return Tested{{kind, statistic, freedom, p}, terms * direction};
-}
-
-/// Products e[k] e[k - lag], whose sums a white residual has about 0.
-Columns lagged_products(const Eigen::VectorXd& residuals, const std::vector<LeftOver>& left) {
-  Eigen::Index order = 0;
-  for (const LeftOver& each : left) order = std::max(order, each.order);
-  const Eigen::Index first = order + 1;  // the filter has made those before it 0
-  Columns products = Columns::Zero(residuals.size(), std::max<Eigen::Index>(0, Calibration::most_lags - order));
-  Eigen::Index at = 0;
-  for (const LeftOver& each : left) {
-    const Eigen::Index rows = each.residuals.size();
-    for (Eigen::Index j = 0; j < products.cols() && first + j < rows; ++j) {
-      const Eigen::Index lag = first + j;
-      products.col(j).segment(at + lag, rows - lag) =
-          residuals.segment(at + lag, rows - lag).cwiseProduct(residuals.segment(at, rows - lag));
-    }
-    at += rows;
-  }
-  return products;
+  return Tested{{kind, statistic, freedom, p}, residuals.cwiseProduct(candidates * direction), score.sum.squaredNorm()};
 }
 
 /// Of tenths of each segment the one whose terms add most.
@@ -187,39 +171,36 @@ Omnibus omnibus(const std::vector<LeftOver>& left) {
   if (left.empty() || rows_of(left) == 0) return found;
   const Fitted fitted(left);
   Eigen::VectorXd residuals(rows_of(left));
-  Columns speed(residuals.size(), 1);
-  Eigen::VectorXd counts(residuals.size());
+  double counts = 0.0;
+  double motion = 0.0;
   Eigen::Index at = 0;
   for (const LeftOver& each : left) {
     residuals.segment(at, each.residuals.size()) = each.residuals;
-    const double mean = each.speed.sum() / std::max(1.0, each.counts.sum());
-    speed.col(0).segment(at, each.residuals.size()) = each.speed - mean * each.counts;
-    counts.segment(at, each.residuals.size()) = each.counts;
+    counts += each.counts.sum();
+    motion += each.motion.squaredNorm();
     at += each.residuals.size();
   }
-  if (counts.sum() < 1.0) return found;
+  if (counts < 1.0) return found;
   residuals = fitted.without(residuals);
   std::optional<Tested> clearest;
-  const auto add = [&](std::optional<Tested> test) {
+  double explained = 0.0;
+  const auto add = [&](Omnibus::Kind kind, const Columns& candidates) {
+    const Columns basis = basis_of(fitted.without(candidates), candidates.colwise().norm(), Calibration::least_share);
+    std::optional<Tested> test = tested(kind, residuals, basis, left);
     if (!test) return;
     found.parts.push_back(test->part);
+    const double by_chance = static_cast<double>(test->part.freedom) * residuals.squaredNorm() / counts;
+    explained = std::max(explained, test->explained - by_chance);
     const double excess = (test->part.statistic - test->part.freedom) / std::sqrt(2.0 * test->part.freedom);
     if (clearest && excess <= found.excess) return;
     found.excess = excess;
     clearest = std::move(test);
   };
-  const Columns products = lagged_products(residuals, left);
-  add(tested(Omnibus::Kind::correlated, products, left, static_cast<int>(products.cols())));
-  const auto add_score = [&](Omnibus::Kind kind, const Columns& candidates) {
-    const Columns basis = basis_of(fitted.without(candidates), candidates.colwise().norm(), Calibration::least_share);
-    add(tested(kind, residuals.asDiagonal() * basis, left, static_cast<int>(basis.cols())));
-  };
-  add_score(Omnibus::Kind::follows_force, stacked(left, &LeftOver::lagged));
-  add_score(Omnibus::Kind::nonlinear, stacked(left, &LeftOver::forces));
-  const Eigen::VectorXd squares = residuals.array().square() - residuals.squaredNorm() / counts.sum();
-  add(tested(Omnibus::Kind::varies_with_speed, squares.asDiagonal() * speed, left, 1));
+  add(Omnibus::Kind::follows_force, stacked(left, &LeftOver::lagged));
+  add(Omnibus::Kind::nonlinear, stacked(left, &LeftOver::forces));
   if (!clearest) return found;
   found.clearest = clearest->part.kind;
+  found.share = motion > 0.0 ? std::sqrt(explained / motion) : 0.0;
   found.p = combined(found.parts);
   place_of(clearest->terms, left, found);
   return found;

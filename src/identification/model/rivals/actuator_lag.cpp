@@ -13,6 +13,6 @@ void add_actuator_lag(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival actuator_lag() { return {"actuator_lag", add_actuator_lag}; }
+Rival actuator_lag() { return {"actuator_lag", add_actuator_lag, RivalMeasure::time}; }
 
 }  // namespace zwidth::internal

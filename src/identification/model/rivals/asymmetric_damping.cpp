@@ -27,6 +27,6 @@ void add_asymmetric_damping(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival asymmetric_damping() { return {"asymmetric_damping", add_asymmetric_damping}; }
+Rival asymmetric_damping() { return {"asymmetric_damping", add_asymmetric_damping, RivalMeasure::damping}; }
 
 }  // namespace zwidth::internal

@@ -20,7 +20,7 @@ std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& part
   for (const Rival& rival : rivals()) {
     const std::size_t before = parts.numbers.size();
     rival.add(setting, parts);
-    AddedRival each{rival.code, {}};
+    AddedRival each{rival.code, {}, rival.measure};
     for (std::size_t i = before; i < parts.numbers.size(); ++i) each.keys.push_back(parts.numbers[i].key);
     if (!each.keys.empty()) added.push_back(std::move(each));
   }

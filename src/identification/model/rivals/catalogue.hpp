@@ -28,7 +28,8 @@ namespace zwidth::internal {
 /// A rival that is part of a fit.
 struct AddedRival {
   std::string_view code;
-  std::vector<std::string> keys;  ///< of its numbers
+  std::vector<std::string> keys;               ///< of its numbers
+  RivalMeasure measure = RivalMeasure::force;  ///< of theirs
 };
 
 /// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them.

@@ -24,6 +24,6 @@ void add_damping_drift(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival damping_drift() { return {"damping_drift", add_damping_drift}; }
+Rival damping_drift() { return {"damping_drift", add_damping_drift, RivalMeasure::damping}; }
 
 }  // namespace zwidth::internal

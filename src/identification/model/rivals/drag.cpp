@@ -27,6 +27,6 @@ void add_drag(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival drag() { return {"drag", add_drag}; }
+Rival drag() { return {"drag", add_drag, RivalMeasure::quadratic_damping}; }
 
 }  // namespace zwidth::internal

@@ -35,6 +35,6 @@ void add_further_body(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival further_body() { return {"further_body", add_further_body}; }
+Rival further_body() { return {"further_body", add_further_body, RivalMeasure::ratio}; }
 
 }  // namespace zwidth::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,11 +58,18 @@ struct ModelParts {
   std::string add(Number number);
 };
 
+/// What a rival's numbers measure.
+enum class RivalMeasure : std::uint8_t { force, damping, quadratic_damping, stiffness, time, ratio };
+
+/// "N s2/m2", "N m s2/rad2", ...; empty for a ratio.
+[[nodiscard]] std::string_view unit_of(RivalMeasure measure, Motion motion);
+
 /// Another explanation of a record: what it adds to the linear device, and how large that is believed to be beforehand.
 struct Rival {
   std::string_view code;  ///< stable: results name it
   /// Nothing where the setting rules it out, or the parts have its numbers.
   void (*add)(const RivalSetting& setting, ModelParts& parts);
+  RivalMeasure measure = RivalMeasure::force;  ///< of its numbers
 };
 
 }  // namespace zwidth::internal

@@ -1,0 +1,123 @@
+#include "identification/verdict/widening.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <span>
+
+#include "identification/verdict/calibration.hpp"
+#include "signal/fourier.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+/// Weights of the residuals in the limit, by segment.
+std::vector<Eigen::VectorXd> weights_of(const std::vector<LeftOver>& left, const Eigen::VectorXd& slope,
+                                        const Eigen::MatrixXd& hessian) {
+  const Eigen::VectorXd direction = hessian.ldlt().solve(slope);
+  std::vector<Eigen::VectorXd> weights;
+  for (const LeftOver& each : left) {
+    const Eigen::VectorXd moved = each.shared * direction;
+    weights.emplace_back(moved - each.own * each.own.colPivHouseholderQr().solve(moved));
+  }
+  return weights;
+}
+
+/// J'J with each segment's state refitted, and what was believed.
+Eigen::MatrixXd hessian_of(const std::vector<LeftOver>& left, const Eigen::VectorXd& precision) {
+  Eigen::MatrixXd hessian = precision.asDiagonal();
+  for (const LeftOver& each : left) {
+    const Eigen::MatrixXd rest = each.shared - each.own * each.own.colPivHouseholderQr().solve(each.shared);
+    hessian.selfadjointView<Eigen::Lower>().rankUpdate(rest.transpose());
+  }
+  hessian.triangularView<Eigen::StrictlyUpper>() = hessian.transpose();
+  return hessian;
+}
+
+/// Terms of a sum, in an order in which neighbours belong together.
+struct Terms {
+  std::vector<double> values;
+  std::vector<double> weights;  ///< their variances, were the residuals white
+};
+
+/// The sum of squares of the sums over parts of equal weight.
+double variance_of(const Terms& terms) {
+  double all = 0.0;
+  for (const double each : terms.weights) all += each;
+  double variance = 0.0;
+  double sum = 0.0;
+  double until = 0.0;
+  int part = 1;
+  for (std::size_t k = 0; k < terms.values.size(); ++k) {
+    sum += terms.values[k];
+    until += terms.weights[k];
+    if (until < all * part / Calibration::parts_of_limit && k + 1 < terms.values.size()) continue;
+    variance += sum * sum;
+    sum = 0.0;
+    while (part < Calibration::parts_of_limit && until >= all * part / Calibration::parts_of_limit) ++part;
+  }
+  return variance;
+}
+
+/// By time, samples of a repeated force at one phase as one.
+Terms by_time(const LeftOver& left, const Eigen::VectorXd& weights) {
+  const std::size_t rows = static_cast<std::size_t>(weights.size());
+  const std::size_t length = left.period == 0 ? rows : std::min(rows, left.period);
+  Terms terms{std::vector<double>(length, 0.0), std::vector<double>(length, 0.0)};
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double weight = weights(static_cast<Eigen::Index>(k));
+    terms.values[k % length] += weight * left.residuals(static_cast<Eigen::Index>(k));
+    terms.weights[k % length] += weight * weight;
+  }
+  return terms;
+}
+
+/// By frequency (Parseval).
+Terms by_frequency(const LeftOver& left, const Eigen::VectorXd& weights) {
+  const auto of = [](const Eigen::VectorXd& samples) {
+    return spectrum(std::span<const double>(samples.data(), static_cast<std::size_t>(samples.size())));
+  };
+  const auto weight = of(weights);
+  const auto residual = of(left.residuals);
+  const double scale = 1.0 / static_cast<double>(weights.size());
+  const bool is_even = weights.size() % 2 == 0;
+  Terms terms;
+  for (std::size_t k = 0; k < weight.size(); ++k) {
+    const double times = k == 0 || (is_even && k + 1 == weight.size()) ? scale : 2.0 * scale;
+    terms.values.push_back(times * (std::conj(weight[k]) * residual[k]).real());
+    terms.weights.push_back(times * std::norm(weight[k]));
+  }
+  return terms;
+}
+
+}  // namespace
+
+double widening(const std::vector<LeftOver>& left, const LimitSlope& limit) {
+  if (left.empty() || limit.slope.squaredNorm() == 0.0) return 1.0;
+  const Eigen::MatrixXd hessian = hessian_of(left, limit.precision);
+  const std::vector<Eigen::VectorXd> weights = weights_of(left, limit.slope, hessian);
+  double white = 0.0;
+  double of_time = 0.0;
+  double of_frequency = 0.0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (weights[i].size() == 0) continue;
+    white += weights[i].squaredNorm();
+    of_time += variance_of(by_time(left[i], weights[i]));
+    of_frequency += variance_of(by_frequency(left[i], weights[i]));
+  }
+  const Eigen::VectorXd direction = hessian.ldlt().solve(limit.slope);
+  const double believed = direction.cwiseAbs2().dot(limit.precision);
+  const double ratio = (std::max(of_time, of_frequency) + believed) / (white + believed);
+  return std::isfinite(ratio) ? std::sqrt(std::max(1.0, ratio)) : 1.0;
+}
+
+Interval widened(const OpenLimit& limit, double by) {
+  constexpr double of_95_percent = 1.96;
+  const double least = of_95_percent * limit.deviation;
+  const double down = by * std::max(limit.best - limit.lower, least);
+  const double up = by * std::max(limit.upper - limit.best, least);
+  return {std::exp(limit.best - down), std::exp(limit.best + up)};
+}
+
+}  // namespace zwidth::internal
