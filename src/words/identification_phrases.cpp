@@ -291,7 +291,7 @@ std::span<const Phrase> identification_phrases() {
       Phrase{friction_below_zero, "friction_below_zero", doubt,
              "{friction} friction comes out as {value:.3g}, below 0 by more than its interval: motion is too noisy, or "
              "another force acts",
-             "", "lower the cutoff, or identify the device from its motion"},
+             "", "lower the cutoff, or fit in time"},
       Phrase{force_unexplained, "force_unexplained", refusal,
              "{unexplained:percent} of the force stays unexplained by one rigid body with dry friction",
              "its parameters may be off by more than their intervals",

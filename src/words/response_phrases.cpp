@@ -171,20 +171,20 @@ std::span<const Phrase> response_phrases() {
              "the response depends on the force: {times:.2g} times the force changes it by {difference:percent} "
              "(median of {lines:n} lines that show it above the noise)",
              "so dry friction{?force| of about {force}} does: it holds a weak force more, and looks like damping",
-             "identify the device: its friction is fitted beside its damping"},
+             "fit in time with free friction"},
       Phrase{recordings_disagree_on_limit, "recordings_disagree_on_limit", doubt,
              "the recordings disagree on the critical stiffness: {stiffnesses}, outside the interval of all"},
       Phrase{motion_shows_friction, "motion_shows_friction", doubt,
              "the motion shows dry friction, which the response takes for damping: about {force} at least",
              "larger motions have less of it, and a lower critical stiffness",
-             "repeat it with several times the force and give both recordings, or identify the device: its friction is "
-             "fitted beside its damping"},
+             "repeat it with several times the force and give both recordings, or fit the device with its friction in "
+             "time"},
       Phrase{friction_would_pass_unseen, "friction_would_pass_unseen", doubt,
              "dry friction of {force} would pass unseen, and the critical stiffness without it {?stiffness|would be "
              "{stiffness}}{!stiffness|is not known}",
              "",
-             "repeat it with several times the force and give both recordings, or identify the device: its friction is "
-             "fitted beside its damping"},
+             "repeat it with several times the force and give both recordings, or fit the device with its friction in "
+             "time"},
       Phrase{repeating_force_hides_friction, "repeating_force_hides_friction", doubt,
              "a force that repeats hides dry friction, which makes a small motion look more damped and the critical "
              "stiffness too high",
@@ -193,14 +193,14 @@ std::span<const Phrase> response_phrases() {
              "the recordings do not show dry friction: how much of the damping is dry friction, and the critical "
              "stiffness too high, is not known",
              "",
-             "repeat it with several times the force and give both recordings, or identify the device: its friction is "
-             "fitted beside its damping"},
+             "repeat it with several times the force and give both recordings, or fit the device with its friction in "
+             "time"},
       Phrase{friction_unknown_of_resting, "friction_unknown_of_resting", doubt,
              "the motion is not what the response makes of the force, as where a device rests at times: how much of "
              "the damping is dry friction, and the critical stiffness too high, is not known",
              "",
-             "repeat it with several times the force and give both recordings, or identify the device: its friction is "
-             "fitted beside its damping"},
+             "repeat it with several times the force and give both recordings, or fit the device with its friction in "
+             "time"},
       Phrase{table_hides_friction, "table_hides_friction", doubt,
              "a table does not show dry friction, which makes a small motion look more damped and the critical "
              "stiffness too high",
