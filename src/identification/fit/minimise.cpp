@@ -27,7 +27,6 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
     }
     const Eigen::VectorXd there = found.z + move;
     const std::optional<double> cost = problem.cost(there);
-    ++found.tries;
     const double kept = cost ? (found.picture.cost - *cost) / promised : -1.0;
     if (kept > 1e-3) {
       std::optional<Picture> picture = problem.picture(there);
@@ -37,7 +36,6 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
       damping = std::max(1e-10, damping * std::max(0.1, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
       growth = 2.0;
       ++step;
-      found.steps = step;
     } else {
       damping *= growth;
       growth *= 2.0;

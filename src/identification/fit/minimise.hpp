@@ -16,7 +16,6 @@ struct Minimum {
   Eigen::VectorXd z;
   Picture picture;  ///< there
   bool settled = false;
-  int steps = 0, tries = 0;
 };
 
 /// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.
