@@ -217,29 +217,40 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   const auto begin = found_near(near, whole, model, linear, friction, first_noise(records, steps));
   std::optional<Minimum> best;
   if (begin) best = whole.from(*begin, rounds, {.most_steps = 15, .least_gain = 0.05});
+  // Where the device drifts, its limit is that of the record's end or beginning, whichever is the lower.
+  double moment = 0.0;
   const auto limit = [&](const Eigen::VectorXd& z) -> std::optional<double> {
-    DeviceParameters device = model.family().device_at(z);
+    DeviceParameters device = model.family().device_at(z, moment);
     device.wall.damping = 0.0;
     if (find_problem(device)) return std::nullopt;
     const CriticalStiffness found = critical_stiffness(Device(std::move(device)));
     const bool is_finite = found.status == StiffnessStatus::finite && found.stiffness > 0.0;
     return is_finite ? std::optional(std::log(found.stiffness)) : std::nullopt;
   };
-  if (!best || !limit(best->z)) return std::nullopt;
+  const auto take_moment = [&](const Eigen::VectorXd& z) {
+    moment = 0.0;
+    const std::optional<double> first = limit(z);
+    moment = 1.0;
+    const std::optional<double> last = limit(z);
+    if (first && (!last || *first < *last)) moment = 0.0;
+    return first || last;
+  };
+  if (!best || !take_moment(best->z)) return std::nullopt;
 
   // An end that is more likely than the best was none: the search goes on from there.
   constexpr int most_begins = 5;
   ProfileEnd low;
   ProfileEnd high;
   for (int begins = 0; begins < most_begins; ++begins) {
-    low = profile_end(whole.likelihood(), *best, limit, model.family().of_device(), -1.0, rise);
-    if (!low.found_better) high = profile_end(whole.likelihood(), *best, limit, model.family().of_device(), 1.0, rise);
+    low = profile_end(whole.likelihood(), *best, limit, model.family().of_limit(), -1.0, rise);
+    if (!low.found_better) high = profile_end(whole.likelihood(), *best, limit, model.family().of_limit(), 1.0, rise);
     const ProfileEnd& better = low.found_better ? low : high;
     if (!better.found_better) break;
     auto again = minimise(whole.likelihood(), better.z, {.most_steps = 15, .least_gain = 0.02});
     if (again) best = *std::move(again);
+    if (!take_moment(best->z)) return std::nullopt;
   }
-  return LikelihoodFit{model.family().device_at(best->z), std::exp(*limit(best->z)), std::exp(low.value),
+  return LikelihoodFit{model.family().device_at(best->z, moment), std::exp(*limit(best->z)), std::exp(low.value),
                        std::exp(high.value), low.settled && high.settled};
 }
 
