@@ -251,8 +251,8 @@ TEST(Rivals, SlopesOfPreslidingAreDifferences) {
       const PreslidingStep low = step(below);
       const double velocity = (high.velocity.value - low.velocity.value) / (2.0 * by);
       const double bend = (high.bend.value - low.bend.value) / (2.0 * by);
-      EXPECT_NEAR(slopes(here.velocity)[i], velocity, 1e-5 * (std::abs(velocity) + 1e-3 / at[i] * 1e-2)) << i;
-      EXPECT_NEAR(slopes(here.bend)[i], bend, 1e-5 * (std::abs(bend) + 1.0 / std::abs(at[i]) * 1e-2)) << i;
+      EXPECT_NEAR(slopes(here.velocity)[i], velocity, 1e-5 * (std::abs(velocity) + 1e-5 / std::abs(at[i]))) << i;
+      EXPECT_NEAR(slopes(here.bend)[i], bend, 1e-5 * (std::abs(bend) + 1e-2 / std::abs(at[i]))) << i;
     }
   }
 }
@@ -305,7 +305,7 @@ TEST(Rivals, PriorsAreOfTheRecord) {
   EXPECT_DOUBLE_EQ(sigma("damping_drift"), 0.3);
   EXPECT_DOUBLE_EQ(sigma("delay_drift"), 1e-4);
   EXPECT_DOUBLE_EQ(sigma("stiffening.cube") * std::pow(setting.rms_position, 3), setting.rms_force);
-  EXPECT_DOUBLE_EQ(sigma("presliding_length"), 1.5e-3 * setting.rms_position);
+  EXPECT_DOUBLE_EQ(sigma("presliding_length"), 1e-2 * setting.rms_position);
   EXPECT_DOUBLE_EQ(sigma("actuator.time_constant"), 2e-3);
   EXPECT_DOUBLE_EQ(sigma("body.handle.stiffness"), setting.rms_force / setting.rms_position);
   EXPECT_DOUBLE_EQ(sigma("saturation"), 0.1 * setting.rms_force);

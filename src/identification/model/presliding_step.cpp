@@ -65,12 +65,57 @@ PreslidingStep part(const PreslidingStep& from, const End& change, double limit,
   return to;
 }
 
+/// The whole step of a body that does not turn: its way is that of the mean velocity, its friction the mean over that way,
+///
+///     mean bend = s - (s - bend) (1 - e^-a) / a,  s: direction
+PreslidingStep slide(const PreslidingStep& from, const End& change, double limit, double compliance, double length,
+                     double duration) {
+  constexpr int most_steps = 60;
+  constexpr double close = 1e-14;
+  constexpr double small = 1e-3;
+  const double strength = compliance * limit;
+  const double sign = from.velocity.value < 0.0 ? -1.0 : 1.0;
+  const double rate = 0.5 * duration / length;
+  const End reach = sum(from.velocity, 1.0, change, 1.0);
+  const double unbent = 1.0 - sign * from.bend.value;
+  double speed = sign * reach.value - strength;  // below the root
+  double a = 0.0;
+  double left = 1.0;
+  double mean = 1.0;   // (1 - e^-a) / a
+  double slope = 0.5;  // - d mean / da
+  for (int step = 0; step < most_steps; ++step) {
+    a = rate * (std::abs(from.velocity.value) + speed);
+    left = std::exp(-a);
+    mean = a < small ? 1.0 - a / 2.0 + a * a / 6.0 : (1.0 - left) / a;
+    slope = a < small ? 0.5 - a / 3.0 + a * a / 8.0 : (1.0 - left * (1.0 + a)) / (a * a);
+    const double move =
+        (sign * reach.value - strength * (1.0 - unbent * mean) - speed) / (1.0 + strength * unbent * slope * rate);
+    if (!(move > close * std::abs(speed))) break;
+    speed += move;
+  }
+  const double by_way = sign * unbent * slope;  // of the mean bend
+  const double by_velocity = sign * rate;       // of the way over the length, former and later alike
+  const double by_length = -a / length;
+  const double mean_bend = sign * (1.0 - unbent * mean);
+  End pushed = sum(reach, 1.0, from.bend, -strength * mean);
+  pushed = sum(pushed, 1.0, from.velocity, -strength * by_way * by_velocity);
+  pushed.by_length -= strength * by_way * by_length;
+  pushed.by_limit -= mean_bend * compliance;
+  pushed.by_compliance -= mean_bend * limit;
+  PreslidingStep to;
+  to.velocity = sum(pushed, 1.0 / (1.0 + strength * by_way * by_velocity), {}, 0.0);
+  to.velocity.value = sign * speed;
+  to.bend = sum(from.bend, left, sum(from.velocity, 1.0, to.velocity, 1.0), sign * unbent * left * by_velocity);
+  to.bend.by_length += sign * unbent * left * by_length;
+  to.bend.value = sign * (1.0 - unbent * left);
+  return to;
+}
+
 }  // namespace
 
 PreslidingStep presliding_step(double before, double free, double limit, double compliance, double bend, double length,
                                double duration) {
-  constexpr int parts_of_turn = 8;
-  constexpr int parts_of_slide = 2;
+  constexpr int parts = 4;
   constexpr double slid = 1e-9;  // of the bend: less is left
   const double direction = bend < 0.0 ? -1.0 : 1.0;
   const double slides_to = free - direction * compliance * limit;
@@ -81,10 +126,9 @@ PreslidingStep presliding_step(double before, double free, double limit, double 
   }
   const double forward = before < 0.0 ? -1.0 : 1.0;
   const bool may_turn = before == 0.0 || free * forward <= compliance * limit;
-  const int parts = may_turn ? parts_of_turn : parts_of_slide;
   const End change{.value = free - before, .by_before = -1.0, .by_free = 1.0};
-  for (int i = 0; i < parts; ++i)
-    step = part(step, change, limit, compliance, length, duration, 1.0 / static_cast<double>(parts));
+  if (!may_turn) return slide(step, change, limit, compliance, length, duration);
+  for (int i = 0; i < parts; ++i) step = part(step, change, limit, compliance, length, duration, 1.0 / parts);
   return step;
 }
 

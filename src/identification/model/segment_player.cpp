@@ -47,8 +47,11 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   for (const FrictionTerm& term : terms.frictions) {
     frictions.push_back({index(term.body), place(term.number), value(place(term.number))});
     if (!term.presliding_length) continue;
-    frictions.back().length_number = place(*term.presliding_length);
-    frictions.back().length = value(*frictions.back().length_number);
+    constexpr double least_length = 0.01;  // of a unit: shorter, and it sticks
+    const Eigen::Index length = place(*term.presliding_length);
+    if (value(length) < least_length * numbers[static_cast<std::size_t>(length)].unit) continue;
+    frictions.back().length_number = length;
+    frictions.back().length = value(length);
   }
   if (terms.drive.dead_band) dead_band_number = place(*terms.drive.dead_band);
   if (terms.drive.saturation) saturation_number = place(*terms.drive.saturation);
