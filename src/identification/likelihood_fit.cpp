@@ -13,6 +13,7 @@
 #include "identification/fit/minimise.hpp"
 #include "identification/model/rivals/catalogue.hpp"
 #include "identification/verdict/profile.hpp"
+#include "identification/verdict/softest_moment.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -217,41 +218,42 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   const auto begin = found_near(near, whole, model, linear, friction, first_noise(records, steps));
   std::optional<Minimum> best;
   if (begin) best = whole.from(*begin, rounds, {.most_steps = 15, .least_gain = 0.05});
-  // Where the device drifts, its limit is that of the record's end or beginning, whichever is the lower.
-  double moment = 0.0;
-  const auto limit = [&](const Eigen::VectorXd& z) -> std::optional<double> {
-    DeviceParameters device = model.family().device_at(z, moment);
+  const auto limit_at = [&](const Eigen::VectorXd& z, double share) -> std::optional<double> {
+    DeviceParameters device = model.family().device_at(z, share);
     device.wall.damping = 0.0;
     if (find_problem(device)) return std::nullopt;
     const CriticalStiffness found = critical_stiffness(Device(std::move(device)));
     const bool is_finite = found.status == StiffnessStatus::finite && found.stiffness > 0.0;
     return is_finite ? std::optional(std::log(found.stiffness)) : std::nullopt;
   };
-  const auto take_moment = [&](const Eigen::VectorXd& z) {
-    moment = 0.0;
-    const std::optional<double> first = limit(z);
-    moment = 1.0;
-    const std::optional<double> last = limit(z);
-    if (first && (!last || *first < *last)) moment = 0.0;
-    return first || last;
+  const auto limit_then = [&](double share) {
+    return [&limit_at, share](const Eigen::VectorXd& z) { return limit_at(z, share); };
   };
-  if (!best || !take_moment(best->z)) return std::nullopt;
+  const auto moments_at = [&](const Minimum& minimum) {
+    return limit_moments(limit_at, minimum, model.family().of_device(), model.family().of_limit());
+  };
+  std::optional<LimitMoments> moments;
+  if (best) moments = moments_at(*best);
+  if (!moments) return std::nullopt;
 
   // An end that is more likely than the best was none: the search goes on from there.
   constexpr int most_begins = 5;
   ProfileEnd low;
   ProfileEnd high;
   for (int begins = 0; begins < most_begins; ++begins) {
-    low = profile_end(whole.likelihood(), *best, limit, model.family().of_limit(), -1.0, rise);
-    if (!low.found_better) high = profile_end(whole.likelihood(), *best, limit, model.family().of_limit(), 1.0, rise);
+    low = profile_end(whole.likelihood(), *best, limit_then(moments->softest), model.family().of_limit(), -1.0, rise);
+    if (!low.found_better)
+      high = profile_end(whole.likelihood(), *best, limit_then(moments->likely), model.family().of_limit(), 1.0, rise);
     const ProfileEnd& better = low.found_better ? low : high;
     if (!better.found_better) break;
     auto again = minimise(whole.likelihood(), better.z, {.most_steps = 15, .least_gain = 0.02});
     if (again) best = *std::move(again);
-    if (!take_moment(best->z)) return std::nullopt;
+    moments = moments_at(*best);
+    if (!moments) return std::nullopt;
   }
-  return LikelihoodFit{model.family().device_at(best->z, moment), std::exp(*limit(best->z)), std::exp(low.value),
-                       std::exp(high.value), low.settled && high.settled};
+  return LikelihoodFit{model.family().device_at(best->z, moments->likely),
+                       std::exp(*limit_at(best->z, moments->likely)), std::exp(low.value), std::exp(high.value),
+                       low.settled && high.settled};
 }
 
 }  // namespace zwidth::internal

@@ -302,7 +302,7 @@ TEST(Rivals, PriorsAreOfTheRecord) {
   };
   EXPECT_DOUBLE_EQ(sigma("friction.motor"), 0.1 * setting.rms_force);
   EXPECT_DOUBLE_EQ(sigma("drag.motor") * setting.largest_speed, 0.7);
-  EXPECT_DOUBLE_EQ(sigma("damping_drift"), 0.3);
+  EXPECT_DOUBLE_EQ(sigma("damping_drift"), 0.2);
   EXPECT_DOUBLE_EQ(sigma("delay_drift"), 1e-4);
   EXPECT_DOUBLE_EQ(sigma("stiffening.cube") * std::pow(setting.rms_position, 3), setting.rms_force);
   EXPECT_DOUBLE_EQ(sigma("presliding_length"), 1e-2 * setting.rms_position);

@@ -77,7 +77,10 @@ DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, double share)
   DeviceParameters values = values_at(x);
   if (has_damping_drift_) {
     const double left = std::max(0.0, 1.0 + value_of(key_of_damping_drift, x) * (share - middle));
-    for (Body& body : values.bodies) body.damping *= left;
+    for (Body& body : values.bodies) {
+      if (std::ranges::find(numbers_, "body." + body.name + ".damping", &Number::key) != numbers_.end())
+        body.damping *= left;
+    }
   }
   if (has_delay_drift_) values.loop.delay = std::max(0.0, values.loop.delay + value_of(key_of_delay_drift, x) * share);
   return finished(std::move(values), x);

@@ -23,7 +23,7 @@ struct FurtherBody {
 };
 
 /// Keys of numbers by which a device changes while it is recorded; they move nothing but what device_at() says of a moment.
-inline constexpr const char* key_of_damping_drift = "damping_drift";  ///< share of all dampings to the ground
+inline constexpr const char* key_of_damping_drift = "damping_drift";  ///< share of all free dampings to the ground
 inline constexpr const char* key_of_delay_drift = "delay_drift";      ///< s
 
 /// The devices that a fit looks among: a structure, and the numbers of it that are free.
