@@ -10,23 +10,6 @@
 namespace zwidth::internal {
 namespace {
 
-/// By differences within a share of each coordinate's deviation.
-Eigen::VectorXd gradient_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied,
-                            const Eigen::VectorXd& lowest) {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(z.size());
-  for (Eigen::Index i = 0; i < varied; ++i) {
-    const double step = 1e-4 * std::max(1e-2, std::abs(z(i)));
-    Eigen::VectorXd above = z;
-    Eigen::VectorXd below = z;
-    above(i) += step;
-    below(i) = std::max(lowest(i), z(i) - step);
-    const auto high = number(above);
-    const auto low = number(below);
-    if (high && low) gradient(i) = (*high - *low) / (above(i) - below(i));
-  }
-  return gradient;
-}
-
 /// The move d that changes a number most, by slope'd, at a cost of `allowed`:
 ///
 ///     min w slope'd + g'd + d'(H + damping diag H) d / 2,    w by bisection
@@ -49,15 +32,6 @@ Eigen::VectorXd step_to_cost(const Picture& here, const Eigen::VectorXd& slope, 
   return move_at(0.5 * (low + high));
 }
 
-/// H^-1 v, in units in which the diagonal of H is 1.
-Eigen::VectorXd covariance_times(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& vector) {
-  constexpr double least = 1e-13;
-  const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
-  scaled.diagonal().array() += least;
-  return unit.cwiseProduct(scaled.ldlt().solve(unit.cwiseProduct(vector)));
-}
-
 }  // namespace
 
 ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
@@ -76,7 +50,7 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   double damping = 0.0;
   const double allowed = minimum.picture.cost + rise;
   for (int step = 0; step < most_steps;) {
-    const Eigen::VectorXd slope = -direction * gradient_of(number, z, varied, lowest);
+    const Eigen::VectorXd slope = -direction * slope_of(number, z, varied, lowest);
     const Eigen::VectorXd move = step_to_cost(here, slope, lowest - z, damping, allowed);
     const double worst = std::max(here.cost, allowed) + rise;
     const std::optional<double> cost = problem.cost(z + move);
@@ -113,9 +87,33 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   return end;
 }
 
-double deviation_of(const Minimum& minimum, const LogOf& number, Eigen::Index varied, const Eigen::VectorXd& lowest) {
-  const Eigen::VectorXd slope = gradient_of(number, minimum.z, varied, lowest);
-  return std::sqrt(std::max(0.0, slope.dot(covariance_times(minimum.picture.hessian, slope))));
+Eigen::VectorXd slope_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied,
+                         const Eigen::VectorXd& lowest) {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(z.size());
+  for (Eigen::Index i = 0; i < varied; ++i) {
+    const double step = 1e-4 * std::max(1e-2, std::abs(z(i)));
+    Eigen::VectorXd above = z;
+    Eigen::VectorXd below = z;
+    above(i) += step;
+    below(i) = std::max(lowest(i), z(i) - step);
+    const auto high = number(above);
+    const auto low = number(below);
+    if (high && low) gradient(i) = (*high - *low) / (above(i) - below(i));
+  }
+  return gradient;
+}
+
+Eigen::VectorXd covariance_times(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& vector) {
+  return covariance_of(hessian) * vector;
+}
+
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& hessian) {
+  constexpr double least = 1e-13;
+  const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
+  scaled.diagonal().array() += least;
+  const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+  return unit.asDiagonal() * inverse * unit.asDiagonal();
 }
 
 }  // namespace zwidth::internal

@@ -12,11 +12,14 @@ namespace zwidth::internal {
 // A rival a file, named for it: what it is, its numbers, what is believed of them and why.
 [[nodiscard]] Rival constant_force();
 [[nodiscard]] Rival coulomb_friction();
+[[nodiscard]] Rival presliding();
 [[nodiscard]] Rival drag();
 [[nodiscard]] Rival asymmetric_damping();
 [[nodiscard]] Rival damping_drift();
+[[nodiscard]] Rival delay_drift();
 [[nodiscard]] Rival actuator_lag();
 [[nodiscard]] Rival ground_spring();
+[[nodiscard]] Rival stiffening_spring();
 [[nodiscard]] Rival further_body();
 [[nodiscard]] Rival drive_saturation();
 [[nodiscard]] Rival drive_dead_band();
@@ -32,7 +35,8 @@ struct AddedRival {
   RivalMeasure measure = RivalMeasure::force;  ///< of theirs
 };
 
-/// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them.
+/// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them,
+/// behind them its drifts.
 std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts);
 
 }  // namespace zwidth::internal
