@@ -83,7 +83,8 @@ class LimitOfMotion {
 std::vector<FittedMotion> motions_of(const FoundMotion& found, std::span<const Recording> recordings,
                                      const FoundDevice& device) {
   const auto numbers = static_cast<Eigen::Index>(found.model->numbers().size());
-  const auto left = found.evidence->residuals(found.best.z.head(numbers), found.best.z.tail(found.best.z.size() - numbers));
+  const auto left =
+      found.evidence->residuals(found.best.z.head(numbers), found.best.z.tail(found.best.z.size() - numbers));
   std::vector<FittedMotion> motions;
   for (std::size_t record = 0; record < recordings.size(); ++record) {
     const Recording& recording = recordings[record];
@@ -163,16 +164,16 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   found.device = motion->model->family().device_at(motion->best.z, range->moments.likely);
   found.rivals = start.rivals;
   found.settled = motion->best.settled && range->low.settled && range->high.settled;
-  found.best = {.numbers = numbers,
-                .x = motion->best.z.head(count),
-                .covariance = covariance_of(motion->best.picture.hessian).topLeftCorner(count, count),
-                .stiffness_slope = slope.head(count),
-                .stiffness = std::exp(range->best),
-                .interval = widened({range->best, range->low.value, range->high.value,
-                                     std::sqrt(std::max(0.0, slope.dot(covariance_times(
-                                                                 motion->best.picture.hessian, slope))))},
-                                    wider),
-                .motion = structure.parameters().motion};
+  found.best = {
+      .numbers = numbers,
+      .x = motion->best.z.head(count),
+      .covariance = covariance_of(motion->best.picture.hessian).topLeftCorner(count, count),
+      .stiffness_slope = slope.head(count),
+      .stiffness = std::exp(range->best),
+      .interval = widened({range->best, range->low.value, range->high.value,
+                           std::sqrt(std::max(0.0, slope.dot(covariance_times(motion->best.picture.hessian, slope))))},
+                          wider),
+      .motion = structure.parameters().motion};
   fit.motions = motions_of(*motion, recordings, found);
   fit.delay = given_delay_of(*motion, found.best, limit, range->moments.likely);
   return fit;

@@ -39,8 +39,7 @@ struct LikelihoodFit {
 /// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.
 /// Source: theory, section 10; Venzon & Moolgavkar 1988.
 [[nodiscard]] std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> recordings,
-                                                             const FrequencyResponse& response,
-                                                             const Device& structure,
+                                                             const FrequencyResponse& response, const Device& structure,
                                                              const LikelihoodFitOptions& options);
 
 }  // namespace zwidth::internal
