@@ -12,8 +12,8 @@
 #include "identification/evidence/time_evidence.hpp"
 #include "identification/fit/minimise.hpp"
 #include "identification/model/rivals/catalogue.hpp"
+#include "identification/verdict/limit_moment.hpp"
 #include "identification/verdict/profile.hpp"
-#include "identification/verdict/softest_moment.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -226,34 +226,30 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
     const bool is_finite = found.status == StiffnessStatus::finite && found.stiffness > 0.0;
     return is_finite ? std::optional(std::log(found.stiffness)) : std::nullopt;
   };
-  const auto limit_then = [&](double share) {
-    return [&limit_at, share](const Eigen::VectorXd& z) { return limit_at(z, share); };
+  const auto moment_of = [&](const Minimum& minimum) {
+    return limit_moment(limit_at, minimum, model.family().of_device(), model.family().of_limit());
   };
-  const auto moments_at = [&](const Minimum& minimum) {
-    return limit_moments(limit_at, minimum, model.family().of_device(), model.family().of_limit());
-  };
-  std::optional<LimitMoments> moments;
-  if (best) moments = moments_at(*best);
-  if (!moments) return std::nullopt;
+  std::optional<double> moment;
+  if (best) moment = moment_of(*best);
+  if (!moment) return std::nullopt;
+  const auto limit = [&](const Eigen::VectorXd& z) { return limit_at(z, *moment); };
 
   // An end that is more likely than the best was none: the search goes on from there.
   constexpr int most_begins = 5;
   ProfileEnd low;
   ProfileEnd high;
   for (int begins = 0; begins < most_begins; ++begins) {
-    low = profile_end(whole.likelihood(), *best, limit_then(moments->softest), model.family().of_limit(), -1.0, rise);
-    if (!low.found_better)
-      high = profile_end(whole.likelihood(), *best, limit_then(moments->likely), model.family().of_limit(), 1.0, rise);
+    low = profile_end(whole.likelihood(), *best, limit, model.family().of_limit(), -1.0, rise);
+    if (!low.found_better) high = profile_end(whole.likelihood(), *best, limit, model.family().of_limit(), 1.0, rise);
     const ProfileEnd& better = low.found_better ? low : high;
     if (!better.found_better) break;
     auto again = minimise(whole.likelihood(), better.z, {.most_steps = 15, .least_gain = 0.02});
     if (again) best = *std::move(again);
-    moments = moments_at(*best);
-    if (!moments) return std::nullopt;
+    moment = moment_of(*best);
+    if (!moment) return std::nullopt;
   }
-  return LikelihoodFit{model.family().device_at(best->z, moments->likely),
-                       std::exp(*limit_at(best->z, moments->likely)), std::exp(low.value), std::exp(high.value),
-                       low.settled && high.settled};
+  return LikelihoodFit{model.family().device_at(best->z, *moment), std::exp(*limit(best->z)), std::exp(low.value),
+                       std::exp(high.value), low.settled && high.settled};
 }
 
 }  // namespace zwidth::internal
