@@ -20,10 +20,10 @@ struct LikelihoodFitOptions {
 /// A device found by likelihood, and the range of its limit.
 struct LikelihoodFit {
   DeviceParameters device;  ///< at the moment of the record that the limit is of (limit_moment())
-  double stiffness = 0.0;  ///< K_CR of the most likely device, nobody holding, no damper; N/m or N m/rad
-  double lower = 0.0;      ///< least K_CR within 1.92 of the best log-likelihood, all rivals refitted
-  double upper = 0.0;      ///< the largest
-  bool settled = false;    ///< both ends were reached
+  double stiffness = 0.0;   ///< K_CR of the most likely device, nobody holding, no damper; N/m or N m/rad
+  double lower = 0.0;       ///< least K_CR within 1.92 of the best log-likelihood, all rivals refitted
+  double upper = 0.0;       ///< the largest
+  bool settled = false;     ///< both ends were reached
 };
 
 /// The most likely device of a structure, with all that may explain its records beside it (add_rivals()), and the least and
