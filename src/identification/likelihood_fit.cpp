@@ -8,7 +8,7 @@
 #include "identification/motion_search.hpp"
 #include "identification/verdict/left_over.hpp"
 #include "identification/verdict/profile.hpp"
-#include "identification/verdict/softest_moment.hpp"
+#include "identification/verdict/limit_moment.hpp"
 #include "identification/verdict/widening.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -19,8 +19,8 @@ constexpr double half_of_chi_squared = 1.92;  // 95 %: half the quantile with on
 
 /// The limit over the fits that are as likely, before what is left is asked.
 struct LimitRange {
-  LimitMoments moments;
-  double best = 0.0;  ///< logarithms
+  double moment = 0.5;  ///< share of a record
+  double best = 0.0;    ///< logarithms
   ProfileEnd low;
   ProfileEnd high;
 };
@@ -46,10 +46,10 @@ class LimitOfMotion {
     constexpr MinimiseOptions fine{.most_steps = 15, .least_gain = 0.02};
     std::optional<LimitRange> range;
     for (int begins = 0; begins < most_begins; ++begins) {
-      const auto moments = moments_at_best();
-      if (!moments) return std::nullopt;
-      range = LimitRange{*moments, at(found_.best.z, moments->likely).value_or(0.0), end(moments->softest, -1.0), {}};
-      if (!range->low.found_better) range->high = end(moments->likely, 1.0);
+      const auto moment = moment_at_best();
+      if (!moment) return std::nullopt;
+      range = LimitRange{*moment, at(found_.best.z, *moment).value_or(0.0), end(*moment, -1.0), {}};
+      if (!range->low.found_better) range->high = end(*moment, 1.0);
       const ProfileEnd& better = range->low.found_better ? range->low : range->high;
       if (!better.found_better) return range;
       auto again = minimise(*found_.likelihood, better.z, fine);
@@ -66,10 +66,10 @@ class LimitOfMotion {
   }
 
  private:
-  [[nodiscard]] std::optional<LimitMoments> moments_at_best() const {
+  [[nodiscard]] std::optional<double> moment_at_best() const {
     const DeviceFamily& family = found_.model->family();
-    return limit_moments([&](const Eigen::VectorXd& z, double share) { return at(z, share); }, found_.best,
-                         family.of_device(), family.of_limit());
+    return limit_moment([&](const Eigen::VectorXd& z, double share) { return at(z, share); }, found_.best,
+                        family.of_device(), family.of_limit());
   }
   [[nodiscard]] ProfileEnd end(double share, double direction) const {
     return profile_end(
@@ -152,7 +152,7 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
 
   const std::vector<Number>& numbers = motion->model->numbers();
   const auto count = static_cast<Eigen::Index>(numbers.size());
-  const Eigen::VectorXd slope = limit.slope(range->moments.likely);
+  const Eigen::VectorXd slope = limit.slope(range->moment);
   Eigen::VectorXd precision(count);
   for (Eigen::Index i = 0; i < count; ++i)
     precision(i) = std::pow(numbers[static_cast<std::size_t>(i)].prior_deviation, -2.0);
@@ -161,7 +161,7 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   const double wider = left ? widening(*left, {slope.head(count), precision}) : 1.0;
   if (left) fit.left = omnibus(*left);
   FoundDevice& found = fit.found;
-  found.device = motion->model->family().device_at(motion->best.z, range->moments.likely);
+  found.device = motion->model->family().device_at(motion->best.z, range->moment);
   found.rivals = start.rivals;
   found.settled = motion->best.settled && range->low.settled && range->high.settled;
   found.best = {
@@ -175,7 +175,7 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
                           wider),
       .motion = structure.parameters().motion};
   fit.motions = motions_of(*motion, recordings, found);
-  fit.delay = given_delay_of(*motion, found.best, limit, range->moments.likely);
+  fit.delay = given_delay_of(*motion, found.best, limit, range->moment);
   return fit;
 }
 
