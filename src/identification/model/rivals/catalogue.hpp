@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +35,11 @@ struct AddedRival {
 
 /// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them.
 std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts);
+
+/// The device as it is at the end of its records, whose damping has drifted by half of damping_drift()'s since their middle: the
+/// one that is on the bench now. The fitted numbers are those of the middle.
+[[nodiscard]] DeviceParameters at_record_end(DeviceParameters device, const std::vector<Number>& numbers,
+                                             const Eigen::VectorXd& x);
 
 /// A factor of 28 either way at one sigma: what is believed of a mass or a link's stiffness before its record, as the deviation of
 /// its logarithm. An assumption, weak on purpose.
