@@ -51,13 +51,11 @@ class RecordFile {
   std::filesystem::path path_;
 };
 
-std::string fitted_file(const std::string& path, const Device& structure, const ParameterFitOptions& fit) {
+std::string fitted_file(const std::string& path, const Device& structure, const IdentifyOptions& identify_options) {
   RecordingOptions options;
   options.columns = {{"force", 1.0}, {"position", 1.0}};
   const auto recording = read_recording(path, options);
-  const RecordFit found = fit_record(structure, recording->channels[0].samples, recording->channels[1].samples,
-                                     recording->sampling_period, {}, fit);
-  return write_device(found.fit.device.parameters());
+  return write_device(identify(*recording, structure, identify_options).fit.device.parameters());
 }
 
 void locked_device_to_file(benchmark::State& state) {
@@ -65,10 +63,10 @@ void locked_device_to_file(benchmark::State& state) {
   const RecordFile record(locked_device(device, {1}), 10.0);
   DeviceParameters structure = test::lhifam_parameters();
   structure.links[0] = {.first = 0, .second = 1, .stiffness = 1e4, .damping = 1.0};
-  ParameterFitOptions fit;
-  fit.locked = {"handle"};
-  fit.free = {"link.stiffness", "link.damping"};
-  for (auto _ : state) benchmark::DoNotOptimize(fitted_file(record.path(), Device(structure), fit));
+  IdentifyOptions options;
+  options.fit.locked = {"handle"};
+  options.fit.free = {"link.stiffness", "link.damping"};
+  for (auto _ : state) benchmark::DoNotOptimize(fitted_file(record.path(), Device(structure), options));
 }
 
 void free_device_to_file(benchmark::State& state) {
@@ -79,7 +77,9 @@ void free_device_to_file(benchmark::State& state) {
   DeviceParameters structure = device;
   for (Body& body : structure.bodies) body.mass = body.damping = 1.0;
   for (Link& link : structure.links) link.stiffness = link.damping = 1.0;
-  for (auto _ : state) benchmark::DoNotOptimize(fitted_file(record.path(), Device(structure), {}));
+  IdentifyOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  for (auto _ : state) benchmark::DoNotOptimize(fitted_file(record.path(), Device(structure), options));
 }
 
 BENCHMARK(locked_device_to_file)->Unit(benchmark::kMillisecond);

@@ -1,7 +1,7 @@
 // How often identify() is right: records of some sixty kinds, linear and not, from a simulator that shares nothing with it.
 //
 //   record_campaign [--kinds A,B] [--seeds FIRST:COUNT] [--noises N] [--results FILE] [--time-limit S] [--budget S]
-//                   [--method time|frf] [--reasons] [--require] [--list]
+//                   [--method lines|frf] [--reasons] [--require] [--list]
 //
 // One line a record: kind, seed, noise, verdict, lower end, value, upper end, truth, processor seconds, bodies, samples.
 // Then, by kind and of all, the figures that the answers are held to. The same seed is the same device and force, whatever
@@ -9,7 +9,7 @@
 // that stand there, and counts them all: files of several runs may be joined, and `--seeds 1:0` only counts. No record
 // begins after the time limit (processor seconds of all); one that takes longer than its budget is `late`. `--require`: exit
 // status 1 where a figure is missed. `--method frf`: the limit that the response shows without a structure, of devices that
-// nothing holds still; `time`: identify_in_time(); `likelihood`: fit_by_likelihood().
+// nothing holds still; `lines`: identify() from the lines of the response.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -68,9 +68,8 @@ Options options_of(int argc, char** argv) {
       options.judge.budget = std::strtod(value().c_str(), nullptr);
     } else if (name == "--method") {
       const std::string method = value();
-      if (method == "time") options.judge.method = Method::in_time;
+      if (method == "lines") options.judge.method = Method::lines;
       if (method == "frf") options.judge.method = Method::response;
-      if (method == "likelihood") options.judge.method = Method::likelihood;
     } else if (name == "--reasons") {
       options.judge.reasons = true;
     } else if (name == "--require") {

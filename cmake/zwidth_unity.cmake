@@ -11,8 +11,8 @@ function(zwidth_unity target)
   # tests that name their seed, cases or period as their neighbours do
   list(APPEND alone absolute_stability_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
     diagnosis_property_test drive_gains_test export_test hybrid_loop_linear_test hybrid_loop_property_test
-    identify_in_time_test inverse_dynamics_test nonlinear_records_test
-    pooled_response_test record_fit_test relay_trials_test same_answer_on_recordings_test simulate_test study_test
+    inverse_dynamics_test
+    pooled_response_test relay_trials_test same_answer_on_recordings_test simulate_test study_test
     time_axis_test uff_recording_test velocity_filter_test wall_filter_file_test)
   foreach(source IN LISTS ARGN)
     cmake_path(GET source STEM name)

@@ -2,29 +2,20 @@
 # which takes more than half a second of processor, waits as long, or is one of many alike.
 set(slow
   # identification: fits of whole records
-  "^(Identification|TimeDomain|LostRows)Property\\."
-  "^Finding/IdentifiedSeedProperty\\."
-  "^Identification\\.(OfANamed|Rounded|AHand|ARounding|ARight|AnInertia|ADelay|AStructure|AReversed|TheBasis|AFit|APeriod)"
-  "^Identification\\.(Counts|AnExtrapolated)"
-  "^HiddenFriction\\.(OfAThousandth|UnderThree|ThatExplains|BesideAShort)"
-  "^(RingingMode|DoubtedRecording|IdentifiedPeriods|Agreement)\\."
-  "^SuspectedMotions\\."
+  "^IdentificationProperty\\."
+  "^Identification\\.(ARight|An|ADelay|AReversed|Separates|Two|TheInterval|TheFile|OfNoise|Counts)"
+  "^(Devices/)?CampaignRecords"
+  "^Suite/KnownRecord\\."
+  "^IdentifiedPeriods\\."
   "^PooledResponse\\.(Identifies|Intervals|TwoRecordings|ASine|Lines)"
-  "^LightMode\\."
-  "^WeakDefects\\."
   "^RigidBodyIdentification\\.(ALimit|AMode|ADelay|ARigid)"
-  "^RecordFit\\.(Intervals|WhatDies|Recovers)"
+  "^LineFit\\.(TheInterval|Deviations|ALagIs)"
   "^All/FreeDevice\\."
-  "^MotorBench\\.(Admits|HasTheModes)"
-  "^Nonlinearity\\."
+  "^MotorBench\\.Its"
   "^SeveralRates\\."
-  "^GivenNumber\\."
-  "^FewLines\\."
   "^ResponseFriction\\.(NoStiffness|ALinear|IsNotSeen)"
   "^MeasuredStiffness\\.(Distortions|NoiseThatHides)"
-  "^TimeDomain\\.(OfNoise|FileKeeps)"
   "^InverseDynamics\\.Intervals"
-  "^OpenInterval\\.WhereThere"
   "^EncoderRounding\\.IsTaken"
   "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
@@ -76,12 +67,12 @@ set(slow
   "^ServedErrors\\.WhatARequest"
   "^Verdicts/TrustedOrNot\\.IsSaidByEvery"
   "^Serve\\.WorkOfEveryKind"
-  "^Identify\\.(WhatTheData|FindsTheCable|FitsTheMotor|Writes|DrawsData|SetsKeys)"
+  "^Identify\\.(What|Finds|Fits|Writes|Draws|SetsKeys|ItsMethods|TakesSeveral)"
   "^(Frf\\.TheUnits|Relay\\.AVeryLong)"
   "^Design\\.(ADamperAlone|Slopes)"
   "^SameAnswerOfRecordings\\."
   "^Commands/SameAnswerOn\\.EveryDeviceFile"
-  "^Commands/SameAnswerOnRecordings\\..*/(Rigid|LinkOfTwoBodies|InTime)$"
+  "^Commands/SameAnswerOnRecordings\\..*/(Rigid|LinkOfTwoBodies|Lines)$"
   "^Devices/(Export|ExportWall)\\..*(Octave|Python|Scipy).*/(lhifam|three_masses|.*_delay|filters|one_filter|lag|transfer_function)$"
   # the loop in real time, which waits; of the drives one, of the devices on the bench three
   "^Rig\\.(EveryAction|Identify|TheReport|TheFlight|TheKnock|TheDefault|ATerminal|TellsWhatItCannotDo|Rounding)"
@@ -94,8 +85,6 @@ set(slow
   "^(Drive/OnDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc)$"
   "^Bench/OnDevice\\..*/([3-9]|1[0-9])$"
   "^Bench/IdentifiedDevice\\.")
-# Fast all the same: of the findings of the identification campaign those of short records.
-set(fast_findings "/(ASofterCrossover|WhatWasNarrowed|AWideInterval|ALackingBody|ResidualsBeyond|FrictionThatShows)")
 # What is skipped where something is missing: published recordings beside the project, MPI, a right to mount.
 set(skipped
   "MotorBench"

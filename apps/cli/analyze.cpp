@@ -15,7 +15,6 @@
 #include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/analysed_device.hpp"
 #include "report/analysis_report.hpp"
@@ -123,7 +122,7 @@ std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& optio
   }
   std::vector<report::AnalysedDevice> analysed;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    ProgressLine line("analysing " + options.devices.files[i]);
+    ProgressLine line(*options.devices.command, "analysing " + options.devices.files[i]);
     asked[i].progress = line.progress();
     analysed.push_back(worked(options.devices.files[i], [&] {
       report::AnalysedDevice each = report::analysed_device(std::move(devices[i]), asked[i]);
@@ -175,7 +174,7 @@ void check_walls(const AnalyzeOptions& options, const std::vector<report::Analys
 }
 
 void run_analyze(const AnalyzeOptions& options) {
-  Outputs outputs;
+  Outputs outputs(*options.devices.command);
   outputs.add("--report", options.report, Ending::page);
   outputs.keep(options.devices.files, "device file");
   const std::vector<report::AnalysedDevice> analysed = analysed_devices(options);
@@ -187,10 +186,10 @@ void run_analyze(const AnalyzeOptions& options) {
     for (const report::AnalysedDevice& each : analysed)
       lines +=
           results::line(results::analysis_json(each.device, each.analysis, options.walls ? each.walls : std::nullopt));
-    write_standard_output(lines);
+    outputs.print(lines);
   } else {
-    write_text(report::analysis_text(analysed));
-    if (!options.report.empty()) write_standard_output("\nThe report is in " + options.report + "\n");
+    outputs.print_text(report::analysis_text(analysed));
+    if (!options.report.empty()) outputs.print("\nThe report is in " + options.report + "\n");
   }
   if (options.require_stable) require_stable(options, analysed);
 }

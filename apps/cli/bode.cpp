@@ -10,7 +10,6 @@
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/device_bode_figure.hpp"
 #include "report/text/analysis_tables.hpp"
@@ -66,9 +65,9 @@ void check_devices(const std::vector<AnalysedDevice>& devices, bool in_one_figur
 }
 
 void run_bode(const BodeArguments& arguments) {
-  Outputs outputs(arguments.output);
+  Outputs outputs(*arguments.devices.command, arguments.output);
   outputs.keep(arguments.devices.files, "device file");
-  ProgressLine line("computing the responses");
+  ProgressLine line(*arguments.devices.command, "computing the responses");
   AnalysisOptions of_analysis = limit_and_wall_only();
   of_analysis.progress = line.progress(0.0, analysis_share);
   const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, of_analysis);
@@ -86,9 +85,9 @@ void run_bode(const BodeArguments& arguments) {
   if (arguments.output.json) {
     std::string lines;
     for (const AnalysedDevice& each : devices) lines += results::line(results::bode_json(each.device, bode_of(each)));
-    write_standard_output(lines);
+    outputs.print(lines);
   } else if (arguments.output.figure.empty()) {
-    write_text(crossovers_text(devices));
+    outputs.print_text(crossovers_text(devices));
   }
 }
 

@@ -17,7 +17,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/refused_answer.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/design_text.hpp"
@@ -93,11 +92,12 @@ SweepAxis sweep_axis(const std::string& argument, Motion motion) {
 void run_sensitivities(const DesignArguments& arguments) {
   if (!arguments.output.figure.empty())
     throw BadInput("--output", "is for a sweep or a notch", "add --sweep KEY=FIRST:LAST:COUNT or --notch");
+  const Outputs outputs(*arguments.devices.command);
   const std::vector<Device> devices = read_devices(arguments.devices);
   std::string text;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const Design answer = worked(arguments.devices.files[i], [&] {
-      ProgressLine line("moving the numbers of " + arguments.devices.files[i]);
+      ProgressLine line(*arguments.devices.command, "moving the numbers of " + arguments.devices.files[i]);
       return design(devices[i], {.progress = line.progress()});
     });
     if (arguments.output.json) {
@@ -106,7 +106,7 @@ void run_sensitivities(const DesignArguments& arguments) {
       text += (i > 0 ? "\n" : "") + report::for_medium(report::design_text(devices[i], answer));
     }
   }
-  write_standard_output(text);
+  outputs.print(text);
 }
 
 Device only_device(const DesignArguments& arguments, const std::string& option) {
@@ -115,7 +115,7 @@ Device only_device(const DesignArguments& arguments, const std::string& option) 
 }
 
 void run_sweep(const DesignArguments& arguments) {
-  Outputs outputs(arguments.output);
+  Outputs outputs(*arguments.devices.command, arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   const Device device = only_device(arguments, "--sweep");
   std::vector<SweepAxis> axes;
@@ -127,19 +127,19 @@ void run_sweep(const DesignArguments& arguments) {
   const bool is_curve = outputs.figure("--output").has_value() && axes.size() == 1;
   const SweepOptions options{arguments.any_user || (is_curve && device.has_bodies()), is_curve};
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
-  ProgressLine line("sweeping");
+  ProgressLine line(*arguments.devices.command, "sweeping");
   const ParameterSweep sweep =
       worked(arguments.devices.files.front(), [&] { return parameter_sweep(device, axes, options, line.progress()); });
   if (sweep.trust.refused()) {
-    return print_refused(sweep.trust, device.name(),
+    return print_refused(outputs, sweep.trust, device.name(),
                          arguments.output.json ? results::line(results::sweep_json(device, sweep)) : "",
                          {arguments.output.figure});
   }
   outputs.put("--output", [&] { return results::sweep_csv(sweep); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(device, sweep, format); });
   outputs.commit();
-  write_standard_output(arguments.output.json ? results::line(results::sweep_json(device, sweep))
-                                              : report::for_medium(report::sweep_text(device, sweep)));
+  outputs.print(arguments.output.json ? results::line(results::sweep_json(device, sweep))
+                                      : report::for_medium(report::sweep_text(device, sweep)));
 }
 
 void run_comparison(const DesignArguments& arguments) {
@@ -164,12 +164,13 @@ void run_comparison(const DesignArguments& arguments) {
     user = {number(0, Measure::mass), number(1, Measure::damping), number(2, Measure::stiffness)};
   }
   if (const auto problem = find_problem(*variants, user)) refuse(*problem, options_of_design);
+  const Outputs outputs(*arguments.devices.command);
   const auto comparison = worked(arguments.devices.files.front(), [&] {
-    ProgressLine line("judging the designs");
+    ProgressLine line(*arguments.devices.command, "judging the designs");
     return compare_designs(*variants, user, line.progress());
   });
-  write_standard_output(arguments.output.json ? results::line(results::comparison_json(comparison))
-                                              : report::for_medium(report::comparison_text(comparison)));
+  outputs.print(arguments.output.json ? results::line(results::comparison_json(comparison))
+                                      : report::for_medium(report::comparison_text(comparison)));
 }
 
 /// The whole text as a number, whatever its size: who knows the range tells what is out of it.
@@ -221,13 +222,13 @@ void run_target(const DesignArguments& arguments) {
   set_goal(arguments, options);
   set_target(*arguments.target, device.parameters().motion, options);
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
-  ProgressLine line("searching the numbers");
+  ProgressLine line(*arguments.devices.command, "searching the numbers");
   options.progress = line.progress();
+  const Outputs outputs(*arguments.devices.command);
   const DesignTargets targets =
       worked(arguments.devices.files.front(), [&] { return design_targets(device, options); });
-  write_standard_output(arguments.output.json
-                            ? results::line(results::design_target_json(device, options, targets))
-                            : report::for_medium(report::design_target_text(device, options, targets)));
+  outputs.print(arguments.output.json ? results::line(results::design_target_json(device, options, targets))
+                                      : report::for_medium(report::design_target_text(device, options, targets)));
 }
 
 void run_design(const CLI::App& command, const DesignArguments& arguments) {

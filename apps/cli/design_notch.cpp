@@ -11,7 +11,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/refused_answer.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/design_text.hpp"
@@ -48,9 +47,9 @@ constexpr std::pair<std::string_view, std::string_view> options_of_notch_design[
     {"goal", "--goal"},
     {"notch", "--notch"}};
 
-NotchDesign designed(const Device& device, NotchOptions options, const std::string& file) {
+NotchDesign designed(const CLI::App& command, const Device& device, NotchOptions options, const std::string& file) {
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_notch_design, file);
-  ProgressLine line("designing the notch");
+  ProgressLine line(command, "designing the notch");
   options.progress = line.progress();
   return worked(file, [&] { return design_notch(device, options); });
 }
@@ -103,15 +102,15 @@ void refuse_notch_options(const CLI::App& command, bool goal_is_used) {
 }
 
 void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const OutputArguments& output) {
-  Outputs outputs;
+  Outputs outputs(*devices.command);
   outputs.add("--output", output.figure, Ending::figure);
   outputs.add("--write", arguments.write);
   outputs.keep(devices.files, "device file");
   const Device device = read_devices(devices).front();
   const NotchOptions options = notch_options(arguments);
-  const NotchDesign notch = designed(device, options, devices.files.front());
+  const NotchDesign notch = designed(*devices.command, device, options, devices.files.front());
   if (notch.trust.refused()) {
-    return print_refused(notch.trust, device.name(),
+    return print_refused(outputs, notch.trust, device.name(),
                          output.json ? results::line(results::notch_json(device, options, notch)) : "",
                          {arguments.write, output.figure});
   }
@@ -122,8 +121,8 @@ void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, 
   outputs.draw("--output",
                [&](report::FigureFormat format) { return report::draw_notch(device, options, notch, format); });
   outputs.commit();
-  write_standard_output(output.json ? results::line(results::notch_json(device, options, notch))
-                                    : report::for_medium(report::notch_text(device, options, notch)));
+  outputs.print(output.json ? results::line(results::notch_json(device, options, notch))
+                            : report::for_medium(report::notch_text(device, options, notch)));
 }
 
 }  // namespace zwidth::cli

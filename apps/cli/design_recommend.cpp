@@ -11,7 +11,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/refused_answer.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
@@ -51,9 +50,10 @@ constexpr std::pair<std::string_view, std::string_view> options_of_recommendatio
     {"modal_frequency_uncertainty", "--drift-percent"},
     {"goal", "--goal"}};
 
-WallRecommendation recommended(const Device& device, const RecommendationOptions& options, const std::string& file) {
+WallRecommendation recommended(const CLI::App& command, const Device& device, const RecommendationOptions& options,
+                               const std::string& file) {
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_recommendation, file);
-  ProgressLine line("searching the wall for " + file);
+  ProgressLine line(command, "searching the wall for " + file);
   RecommendationOptions asked = options;
   asked.progress = line.progress();
   return worked(file, [&] { return recommend_wall(device, asked); });
@@ -81,14 +81,14 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
     if (command.count(option) > 0) throw BadInput(option, "is for a notch", "add --notch");
   }
   const RecommendationOptions options = recommendation_options(arguments, shared);
-  Outputs outputs;
+  Outputs outputs(command);
   outputs.add("--write", shared.write);
   outputs.keep(devices.files, "device file");
   const std::string& file = devices.files.front();
   const Device device = read_devices(devices).front();
-  const WallRecommendation recommendation = recommended(device, options, file);
+  const WallRecommendation recommendation = recommended(command, device, options, file);
   if (recommendation.status == WallRecommendation::Status::refused) {
-    return print_refused(recommendation.trust, device.name(),
+    return print_refused(outputs, recommendation.trust, device.name(),
                          json ? results::line(results::wall_recommendation_json(device, options, recommendation)) : "",
                          {shared.write});
   }
@@ -101,8 +101,8 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
     return write_device(walled);
   });
   outputs.commit();
-  write_standard_output(json ? results::line(results::wall_recommendation_json(device, options, recommendation))
-                             : report::for_medium(report::wall_recommendation_text(device, options, recommendation)));
+  outputs.print(json ? results::line(results::wall_recommendation_json(device, options, recommendation))
+                     : report::for_medium(report::wall_recommendation_text(device, options, recommendation)));
 }
 
 }  // namespace zwidth::cli

@@ -30,7 +30,7 @@ std::vector<Device> read_devices(const DeviceArguments& arguments) {
   std::vector<Device> devices;
   std::vector<InputProblem> problems;
   for (const std::string& file : arguments.files) {
-    if (auto device = read_named_device(file, arguments.overrides)) {
+    if (auto device = read_named_device(*arguments.command, file, arguments.overrides)) {
       devices.push_back(*std::move(device));
     } else {
       std::ranges::move(problems_in(device.error()), std::back_inserter(problems));

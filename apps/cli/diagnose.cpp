@@ -14,7 +14,6 @@
 #include "cli/recording_arguments.hpp"
 #include "cli/refused_answer.hpp"
 #include "cli/request_context.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/diagnosis_text.hpp"
 #include "results/diagnosis_json.hpp"
@@ -39,8 +38,8 @@ Recording read_position(const RecordingArguments& arguments) {
   reading.columns = {arguments.position};
   constexpr std::pair<std::string_view, std::string_view> scale[] = {{"columns.0.scale", "--position-scale"}};
   if (const auto problem = find_problem(reading)) refuse(*problem, scale);
-  ProgressLine line("reading " + arguments.file);
-  auto recording = read_named_recording(arguments.file, reading, line.progress());
+  ProgressLine line(*arguments.command, "reading " + arguments.file);
+  auto recording = read_named_recording(*arguments.command, arguments.file, reading, line.progress());
   if (!recording) {
     const std::string& key = recording.error().place.key;
     const bool is_of_option = recording.error().place.line == 0 && key == arguments.position.name;
@@ -55,9 +54,9 @@ constexpr std::pair<std::string_view, std::string_view> options_of_diagnosis[] =
                                                                                   {"stiffness", "--stiffness"},
                                                                                   {"damping", "--damping"}};
 
-Diagnosis diagnosed(const Device& device, const std::optional<Recording>& recording, DiagnosisOptions options,
-                    const std::string& file) {
-  ProgressLine line("diagnosing " + file);
+Diagnosis diagnosed(const CLI::App& command, const Device& device, const std::optional<Recording>& recording,
+                    DiagnosisOptions options, const std::string& file) {
+  ProgressLine line(command, "diagnosing " + file);
   options.progress = line.progress();
   return worked(file, [&] { return recording ? diagnose(device, *recording, options) : diagnose(device, options); });
 }
@@ -87,11 +86,12 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   if (!recorded) options.frequency = radians_per_second(*arguments.oscillates_hz);
   const auto problem = recording ? find_problem(options, device, *recording) : find_problem(options, device);
   if (problem) refuse(*problem, options_of_diagnosis, file);
-  const Diagnosis diagnosis = diagnosed(device, recording, options, file);
+  const Diagnosis diagnosis = diagnosed(command, device, recording, options, file);
   const std::string document = arguments.output.json ? results::line(results::diagnosis_json(device, diagnosis)) : "";
-  if (diagnosis.trust.refused()) return print_refused(diagnosis.trust, device.name(), document, {});
-  if (arguments.output.json) return write_standard_output(document);
-  write_text(report::diagnosis_text(device, diagnosis));
+  const Outputs outputs(command);
+  if (diagnosis.trust.refused()) return print_refused(outputs, diagnosis.trust, device.name(), document, {});
+  if (arguments.output.json) return outputs.print(document);
+  outputs.print_text(report::diagnosis_text(device, diagnosis));
 }
 
 }  // namespace

@@ -9,9 +9,7 @@
 #include "cli/device_arguments.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
-#include "cli/remark_lines.hpp"
 #include "cli/request_context.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/excitation_text.hpp"
@@ -44,18 +42,19 @@ Excitation made_excitation(const ExciteArguments& arguments) {
   options.kind = results::Json(arguments.kind).get<ExcitationKind>();
   if (arguments.device.empty()) {
     if (const auto problem = find_problem(options)) refuse(*problem, options_of_excitation);
-    check_samples("--duration", options.duration * options.rate.value_or(default_excitation_rate));
+    check_samples(*arguments.command, "--duration", options.duration * options.rate.value_or(default_excitation_rate));
     return excite(options);
   }
   const Device device = std::move(read_devices({{arguments.device}, arguments.overrides, arguments.command}).front());
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_excitation);
-  check_samples("--duration", options.duration * options.rate.value_or(1.0 / device.loop().sampling_period));
+  check_samples(*arguments.command, "--duration",
+                options.duration * options.rate.value_or(1.0 / device.loop().sampling_period));
   return excite(options, device);
 }
 
-void check_limits(const ExciteArguments& arguments, const Excitation& excitation) {
+void check_limits(const ExciteArguments& arguments, const Excitation& excitation, const Outputs& outputs) {
   if (!excitation.check || excitation.check->exceeded.empty()) return;
-  if (arguments.beyond_limits) return write_warnings(excitation.check->exceeded);
+  if (arguments.beyond_limits) return outputs.warn(excitation.check->exceeded);
   std::string problems;
   for (const Remark& remark : excitation.check->exceeded) problems += remark_line(remark) + "\n";
   throw WorkFailed(CommandText(problems) + CommandText("nothing is written; --beyond-limits writes it all the same"));
@@ -68,13 +67,13 @@ void check(const ExciteArguments& arguments) {
 }
 
 void run_excite(const ExciteArguments& arguments) {
-  Outputs outputs;
+  Outputs outputs(*arguments.command);
   if (arguments.samples != "-") outputs.add("--output", arguments.samples);
   outputs.add(arguments.output);
   outputs.keep(arguments.device, "device file");
   check(arguments);
   const Excitation excitation = made_excitation(arguments);
-  check_limits(arguments, excitation);
+  check_limits(arguments, excitation, outputs);
   const auto samples = [&](const report::Sink& sink) { results::write_excitation_csv(excitation, sink); };
   const bool only_asked_for_others =
       arguments.samples.empty() && (arguments.output.json || !arguments.output.figure.empty());
@@ -82,18 +81,18 @@ void run_excite(const ExciteArguments& arguments) {
   outputs.put("--output", samples);
   outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_excitation(excitation, format); });
   outputs.commit();
-  hand_over_series("samples", excitation.samples);
-  if (to_standard_output) samples(write_standard_output);
+  hand_over_series(*arguments.command, "samples", excitation.samples);
+  if (to_standard_output) samples([&](std::string_view rows) { outputs.print(rows); });
   if (arguments.output.json) {
-    write_standard_output(results::line(results::excitation_json(excitation)));
+    outputs.print(results::line(results::excitation_json(excitation)));
   } else if (to_standard_output) {
-    write_standard_error(report::excitation_text(excitation));
+    outputs.tell(report::excitation_text(excitation));
   } else {
-    write_text(report::excitation_text(excitation));
+    outputs.print_text(report::excitation_text(excitation));
   }
   if (arguments.output.json) return;  // which has them
-  write_warnings(excitation.remarks);
-  if (excitation.check) write_warnings(excitation.check->remarks);
+  outputs.warn(excitation.remarks);
+  if (excitation.check) outputs.warn(excitation.check->remarks);
 }
 
 /// Options that only some kinds of signal have are refused with the others.

@@ -14,7 +14,6 @@
 #include "cli/input_problem.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "export/export_c.hpp"
 #include "export/export_chai3d.hpp"
@@ -132,16 +131,16 @@ report::CodedWall coded_wall(const ExportArguments& arguments) {
           std::move(source)};
 }
 
-std::string exported_c(const ExportArguments& arguments) {
+std::string exported_c(const ExportArguments& arguments, const Outputs& outputs) {
   const report::CodedWall wall = coded_wall(arguments);
   if (const std::string holders = unstable_with(*wall.wall.analysis.wall_stable_for); !holders.empty()) {
-    write_standard_error(fmt::format("zwidth: {}: the wall is UNSTABLE by linear analysis, {}; the code says so too\n",
-                                     arguments.devices.files.front(), holders));
+    outputs.tell(fmt::format("zwidth: {}: the wall is UNSTABLE by linear analysis, {}; the code says so too\n",
+                             arguments.devices.files.front(), holders));
   }
   return report::export_c(wall);
 }
 
-std::string exported_for_drive(const ExportArguments& arguments) {
+std::string exported_for_drive(const ExportArguments& arguments, const Outputs& outputs) {
   const std::string& file = arguments.devices.files.front();
   const WallToRun wall = released_wall(arguments);
   if (const auto problem = find_problem(*arguments.units, wall.device)) {
@@ -160,7 +159,7 @@ std::string exported_for_drive(const ExportArguments& arguments) {
   const Trust& trust = gains.on_drive.trust;
   if (trust.refused()) throw WorkFailed(file, "closed on the drive: " + report::verdict_text(trust));
   if (const std::string holders = unstable_with(*gains.on_drive.wall_stable_for); !holders.empty()) {
-    write_standard_error(
+    outputs.tell(
         fmt::format("zwidth: {}: closed on the drive, the wall is UNSTABLE by linear analysis, {}\n", file, holders));
   }
   return report::export_drive(wall.device, gains, source_of(arguments, wall));
@@ -176,9 +175,9 @@ std::string exported_chai3d(const ExportArguments& arguments) {
   return report::export_chai3d(device, wall, options.safety_factor);
 }
 
-std::string exported(const ExportArguments& arguments) {
-  if (arguments.units) return exported_for_drive(arguments);
-  if (arguments.format == "c") return exported_c(arguments);
+std::string exported(const ExportArguments& arguments, const Outputs& outputs) {
+  if (arguments.units) return exported_for_drive(arguments, outputs);
+  if (arguments.format == "c") return exported_c(arguments, outputs);
   if (arguments.format == "chai3d") return exported_chai3d(arguments);
   const DeviceModel model = device_model(read_devices(arguments.devices).front());
   if (arguments.format == "octave") return report::export_octave(model);
@@ -188,13 +187,13 @@ std::string exported(const ExportArguments& arguments) {
 
 void run_export(const ExportArguments& arguments) {
   const bool to_file = !arguments.output.empty() && arguments.output != "-";
-  Outputs outputs;
+  Outputs outputs(*arguments.devices.command);
   if (to_file) outputs.add("--output", arguments.output);
   outputs.keep(arguments.devices.files, "device file");
-  const std::string text = exported(arguments);
+  const std::string text = exported(arguments, outputs);
   outputs.put("--output", [&] { return text; });
   outputs.commit();
-  if (!to_file) write_standard_output(text);
+  if (!to_file) outputs.print(text);
 }
 
 }  // namespace

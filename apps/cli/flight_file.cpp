@@ -42,7 +42,7 @@ std::vector<fs::path> directories() {
   return found;
 }
 
-void keep(const rig::FlightRecorder& recorder) {
+void keep(const CLI::App& command, const rig::FlightRecorder& recorder) {
   const std::string name =
       fmt::format("flight-{:%Y%m%d-%H%M%S}-{}.csv", fmt::gmtime(std::time(nullptr)), static_cast<long>(getpid()));
   std::string failures;
@@ -51,7 +51,7 @@ void keep(const rig::FlightRecorder& recorder) {
     std::error_code reported_by_the_write;
     fs::create_directories(directory, reported_by_the_write);
     try {
-      Outputs file;
+      Outputs file(command);
       file.add(flight_option, path);
       file.put(flight_option, [&](const report::Sink& sink) { recorder.write(sink); });
       file.commit();
@@ -65,9 +65,9 @@ void keep(const rig::FlightRecorder& recorder) {
 
 }  // namespace
 
-void keep_flight_record(const rig::FlightRecorder& recorder) noexcept {
+void keep_flight_record(const CLI::App& command, const rig::FlightRecorder& recorder) noexcept {
   try {
-    keep(recorder);
+    keep(command, recorder);
   } catch (const std::exception& failure) {
     write_standard_error("zwidth: flight record: is lost: ");
     write_standard_error(failure.what());

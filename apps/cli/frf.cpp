@@ -10,7 +10,6 @@
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/response_arguments.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/frf_text.hpp"
@@ -42,7 +41,7 @@ results::FrfUnits units_of(const FrfArguments& arguments, const MeasuredResponse
 void run_frf(const FrfArguments& arguments) {
   const RecordingArguments& recording = arguments.response.recording;
   if (recording.list) return write_contents(recording, arguments.output.json);
-  Outputs outputs(arguments.output);
+  Outputs outputs(*arguments.response.command, arguments.output);
   if (arguments.points && !arguments.output.json)
     throw BadInput("--points", "is for JSON", "add --json, or use --csv FILE");
   outputs.keep(recording.file, "recording");
@@ -55,9 +54,9 @@ void run_frf(const FrfArguments& arguments) {
   outputs.commit();
   if (arguments.output.json) {
     const auto content = arguments.points ? results::FrfContent::with_lines : results::FrfContent::summary;
-    write_standard_output(results::line(results::frf_json(frf, units, content)));
+    outputs.print(results::line(results::frf_json(frf, units, content)));
   } else {
-    write_text(report::frf_text(frf, units, arguments.output.findings));
+    outputs.print_text(report::frf_text(frf, units, arguments.output.findings));
   }
 }
 

@@ -10,13 +10,12 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/limit_argument.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/remark_lines.hpp"
 #include "cli/request_context.hpp"
 #include "cli/response_arguments.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/structure_arguments.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/identification_figure.hpp"
@@ -25,7 +24,6 @@
 #include "results/identification_json.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
-#include "zwidth/identification/time_domain.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/remark.hpp"
 
@@ -33,32 +31,55 @@ namespace zwidth::cli {
 namespace {
 
 struct IdentifyArguments {
-  std::string method = "frequency-response";
+  std::string method;  ///< empty: the library chooses
   InverseDynamicsOptions inverse_dynamics;
   ResponseArguments response;
   StructureArguments structure;
-  TimeDomainOptions in_time;  ///< the length of a segment
+  double segment = IdentifyOptions{}.segment;
+  std::vector<std::string> limits;
   bool from_structure = false;
   bool no_hold = false;
   std::string output_device;
   OutputArguments output{.figure_option = "--figure"};
   bool points = false;
+
+  [[nodiscard]] bool has_recording() const { return !response.recording.file.empty(); }
 };
 
-constexpr const char* in_time_group = "Fit in time";
+constexpr const char* motion_fit_group = "Fit of the motion";
 constexpr const char* inverse_dynamics_group = "Inverse dynamics";
 
 /// What a method does, for who gives it an option that it does not have; nothing where it has it.
 std::optional<std::string_view> why_not(const CLI::Option& option, std::string_view method) {
   const std::string name = option.get_name();
   const std::string group = option.get_group();
-  const bool of_response = group == "Estimate" || group == "Table of a response" || name == "--velocity" ||
-                           name == "--acceleration" || name == "--from-structure" || name == "--no-hold" ||
-                           name == "--points";
+  const bool of_response = group == "Table of a response" || name == "--velocity" || name == "--acceleration" ||
+                           name == "--from-structure" || name == "--no-hold";
   if (method == "time-domain" && of_response) return "fits force and position";
-  const bool of_structure = group == "Structure" && name != "--motion" && name != "--sampling-period";
-  if (method == "inverse-dynamics" && (of_response || of_structure)) return "fits one rigid body to its position";
+  const bool of_device = group == "Estimate" || name == "--points" || name == "--limit" ||
+                         (group == "Structure" && name != "--motion" && name != "--sampling-period");
+  if (method == "inverse-dynamics" && (of_response || of_device)) return "fits one rigid body to its position";
   return std::nullopt;
+}
+
+/// Throws BadInput where there is nothing to fit to.
+void check_recording(const CLI::App& command, const IdentifyArguments& arguments) {
+  if (arguments.has_recording()) return;
+  if (arguments.limits.empty()) {
+    throw BadInput("FILE", "missing", "a recording to fit to, or a measured limit with --limit");
+  }
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string group = option->get_group();
+    const bool of_recording = group == recording_group || group == "Estimate" || group == "Table of a response" ||
+                              group == motion_fit_group || option->get_name() == "--method" ||
+                              option->get_name() == "--points";
+    if (option->count() > 0 && of_recording) {
+      throw BadInput(option->get_name(), "is for a recording", "name the recording, or leave the option out");
+    }
+  }
+  if (!arguments.output.figure.empty()) {
+    throw BadInput("--figure", "draws the response of a recording", "name the recording, or leave the option out");
+  }
 }
 
 void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
@@ -67,11 +88,10 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
     if (option->count() == 0) continue;
     const std::string name = option->get_name();
     const std::string group = option->get_group();
-    for (const auto& [only, of_group] :
-         {std::pair{"time-domain", in_time_group}, std::pair{"inverse-dynamics", inverse_dynamics_group}}) {
-      if (group == of_group && method != only)
-        throw BadInput(name, CommandText("is for --method ") + std::string(only));
-    }
+    if (group == motion_fit_group && !method.empty() && method != "time-domain")
+      throw BadInput(name, "is for --method time-domain");
+    if (group == inverse_dynamics_group && method != "inverse-dynamics")
+      throw BadInput(name, "is for --method inverse-dynamics");
     if (const auto why = why_not(*option, method)) {
       throw BadInput(name, CommandText("is not for --method ") + fmt::format("{}, which {}", method, *why),
                      "leave it out, or the method");
@@ -99,54 +119,49 @@ void check(const IdentifyArguments& arguments, Outputs& outputs) {
   }
 }
 
-IdentifyOptions identify_options(const IdentifyArguments& arguments, const FrequencyResponseOptions& response,
-                                 IdentifyOptions::StructureValues values) {
+IdentifyOptions identify_options(const IdentifyArguments& arguments, const Structure& structure) {
   IdentifyOptions options;
-  options.response = response;
-  options.structure_values = values;
+  options.structure_values = structure.values;
   options.fit.free = arguments.structure.free;
   options.fit.locked = arguments.structure.locked;
   if (arguments.from_structure) options.fit.start = ParameterFitOptions::Start::from_structure;
-  if (arguments.no_hold) options.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
+  if (arguments.method == "time-domain") options.method = IdentifyOptions::Method::motion;
+  if (arguments.method == "frequency-response") options.method = IdentifyOptions::Method::lines;
+  options.segment = arguments.segment;
+  const Motion motion = structure.device.parameters().motion;
+  for (const std::string& each : arguments.limits) options.limits.push_back(measured_limit(each, motion));
+  constexpr std::pair<std::string_view, std::string_view> own_options[] = {{"segment", "--segment-duration"}};
+  if (const auto problem = find_problem(options)) refuse(*problem, own_options);
   return options;
 }
 
 /// The library's work, with progress.
 template <typename Work>
-auto fitted(const std::string& name, const Work& work, OptionsByMember options) {
+auto fitted(const CLI::App& command, const std::string& name, const Work& work, OptionsByMember options) {
   const auto with_progress = [&] {
-    ProgressLine line("identifying");
+    ProgressLine line(command, "identifying");
     return work(line.progress());
   };
   return worked(name, with_progress, options);
 }
 
 Identification identified_device(const IdentifyArguments& arguments) {
+  if (!arguments.has_recording()) {
+    const Structure fitted_structure = structure(arguments.structure, {}, {});
+    const IdentifyOptions options = identify_options(arguments, fitted_structure);
+    return fitted(*arguments.response.command, "",
+                  [&](const Progress&) { return identify_from_limits(fitted_structure.device, options); }, {});
+  }
   const ResponseSource source = response_source(arguments.response);
   const Structure fitted_structure = structure(arguments.structure, source.sampling_period(), source.recordings);
-  const IdentifyOptions options = identify_options(arguments, source.options, fitted_structure.values);
+  IdentifyOptions options = identify_options(arguments, fitted_structure);
+  options.response = source.options;
   const auto identified = [&](const Progress& progress) {
     return !source.recordings.empty() ? identify(source.recordings, fitted_structure.device, options, progress)
                                       : identify(source.table, fitted_structure.device, options);
   };
-  return fitted(source.recordings.size() > 1 ? "" : source.name, identified, options_of_response());
-}
-
-TimeDomainIdentification device_fitted_in_time(const IdentifyArguments& arguments) {
-  const StructureArguments& given = arguments.structure;
-  const std::vector<Recording> recordings = read_motions(arguments.response.recording).recordings;
-  const Structure fitted_structure = structure(given, recordings.front().sampling_period, recordings);
-  TimeDomainOptions options = arguments.in_time;
-  options.free = given.free;
-  options.locked = given.locked;
-  options.structure_values = fitted_structure.values;
-  constexpr std::pair<std::string_view, std::string_view> own_options[] = {{"segment", "--segment-duration"},
-                                                                           {"free", "--free"}};
-  if (const auto problem = find_problem(options)) refuse(*problem, own_options);
-  const auto identified = [&](const Progress& progress) {
-    return identify_in_time(recordings, fitted_structure.device, options, progress);
-  };
-  return fitted(arguments.response.recording.file, identified, own_options);
+  return fitted(*arguments.response.command, source.recordings.size() > 1 ? "" : source.name, identified,
+                options_of_response());
 }
 
 RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
@@ -163,7 +178,7 @@ RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
   const auto identified = [&](const Progress& progress) {
     return identify_rigid_body(motion.recording, options, progress);
   };
-  return fitted(arguments.response.recording.file, identified, own_options);
+  return fitted(*arguments.response.command, arguments.response.recording.file, identified, own_options);
 }
 
 std::string device_hint(const IdentifyArguments& arguments) {
@@ -173,9 +188,10 @@ std::string device_hint(const IdentifyArguments& arguments) {
 
 /// Writes the files that were asked for.
 template <typename Identified>
-void put(Outputs& outputs, const Identified& identified, const std::string& device) {
+void put(const IdentifyArguments& arguments, Outputs& outputs, const Identified& identified,
+         const std::string& device) {
   outputs.put("--output-device", [&] { return device; });
-  hand_over_device(device);
+  hand_over_device(*arguments.response.command, device);
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
   outputs.commit();
@@ -183,15 +199,15 @@ void put(Outputs& outputs, const Identified& identified, const std::string& devi
 
 /// What a method found, as a document, as the device file alone, or in words.
 template <typename Identified, typename Document>
-void print(const IdentifyArguments& arguments, const Identified& identified, const std::string& device,
-           const Document& document) {
+void print(const IdentifyArguments& arguments, const Outputs& outputs, const Identified& identified,
+           const std::string& device, const Document& document) {
   if (arguments.output.json) {
-    write_standard_output(results::line(document()));
+    outputs.print(results::line(document()));
   } else if (arguments.output_device == "-") {
-    write_warnings(identified.remarks);
-    write_standard_output(device);
+    outputs.warn(identified.remarks);
+    outputs.print(device);
   } else {
-    write_text(report::identification_text(identified, arguments.output.findings) + device_hint(arguments));
+    outputs.print_text(report::identification_text(identified, arguments.output.findings) + device_hint(arguments));
   }
 }
 
@@ -199,31 +215,22 @@ void print(const IdentifyArguments& arguments, const Identified& identified, con
 void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
   const RigidBodyIdentification identified = fitted_rigid_body(arguments);
   const std::string device = write_device(identified.device.parameters(), identified.remarks);
-  put(outputs, identified, device);
-  print(arguments, identified, device, [&] { return results::identification_json(identified); });
-}
-
-/// `identify --method time-domain`.
-void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
-  const TimeDomainIdentification identified = device_fitted_in_time(arguments);
-  const std::string device = write_device(identified.device.parameters(), identified.remarks);
-  put(outputs, identified, device);
-  print(arguments, identified, device, [&] { return results::identification_json(identified); });
+  put(arguments, outputs, identified, device);
+  print(arguments, outputs, identified, device, [&] { return results::identification_json(identified); });
 }
 
 void run_identify(const IdentifyArguments& arguments) {
   if (arguments.response.recording.list) {
     return write_contents(arguments.response.recording, arguments.output.json);
   }
-  Outputs outputs;
+  Outputs outputs(*arguments.response.command);
   check(arguments, outputs);
   if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments, outputs);
-  if (arguments.method == "time-domain") return run_in_time(arguments, outputs);
   const Identification identified = identified_device(arguments);
   const std::string device = write_device(identified.fit.device.parameters(), identified.remarks);
-  put(outputs, identified, device);
+  put(arguments, outputs, identified, device);
   const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
-  print(arguments, identified, device, [&] { return results::identification_json(identified, points); });
+  print(arguments, outputs, identified, device, [&] { return results::identification_json(identified, points); });
 }
 
 }  // namespace
@@ -233,7 +240,9 @@ void add_identify(CLI::App& app) {
   CLI::App* command = app.add_subcommand("identify", "Parameters of a device from a recording, with their uncertainty");
   add_response_arguments(*command, arguments->response);
   add_structure_arguments(*command, arguments->structure);
-  command->get_option("--structure")->required(false);  // check_method() asks for it where it is needed
+  // check_method() and check_recording() ask for them where they are needed.
+  command->get_option("--structure")->required(false);
+  command->get_option("FILE")->required(false);
   command
       ->add_option("--cutoff-hz", arguments->inverse_dynamics.cutoff_hz, "Of the low-pass; else chosen from the motion")
       ->type_name("HZ")
@@ -243,16 +252,22 @@ void add_identify(CLI::App& app) {
                    "Every N-th sample is kept; else chosen from the cutoff")
       ->type_name("N")
       ->group(inverse_dynamics_group);
-  command->add_option("--segment-duration", arguments->in_time.segment, "Each segment begins in a state of its own")
+  command->add_option("--segment-duration", arguments->segment, "Each segment begins in a state of its own")
       ->type_name("S")
       ->capture_default_str()
-      ->group(in_time_group);
+      ->group(motion_fit_group);
   command
       ->add_option("--method", arguments->method,
-                   "frequency-response, time-domain (with dry friction), or\ninverse-dynamics (one rigid body)")
+                   "time-domain (the motion itself; the default of a recording),\n"
+                   "frequency-response (its lines; the default of a table), or\ninverse-dynamics (one rigid body)")
       ->type_name("NAME")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"frequency-response", "time-domain", "inverse-dynamics"}));
+      ->check(CLI::IsMember({"time-domain", "frequency-response", "inverse-dynamics"}));
+  command
+      ->add_option("--limit", arguments->limits,
+                   "A wall at which the device was seen to oscillate:\n\"K=3, B=0, hz=40\"; may be repeated; with or "
+                   "without a recording")
+      ->type_name("LIMIT")
+      ->allow_extra_args(false);
   command->add_flag("--from-structure", arguments->from_structure,
                     "Start from the structure's values instead of what the data suggest");
   command->add_flag("--no-hold", arguments->no_hold, "Do not hold an imperfect fit to the measured critical stiffness");
@@ -267,8 +282,10 @@ void add_identify(CLI::App& app) {
       "  zwidth identify recordings/locked_chirp.csv --force force --position position \\\n"
       "    --structure devices/lhifam.toml --free link.stiffness,link.damping --locked handle\n"
       "  zwidth identify recordings/free_motion.csv --force force --position position \\\n"
-      "    --method inverse-dynamics");
+      "    --method inverse-dynamics\n"
+      "  zwidth identify --structure devices/lhifam.toml --free body.handle.damping --limit \"K=8000, hz=6\"");
   command->callback([arguments, command] {
+    check_recording(*command, *arguments);
     check_method(*command, *arguments);
     run_identify(*arguments);
   });

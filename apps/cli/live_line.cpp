@@ -9,7 +9,6 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
 #include "report/text/text_table.hpp"
 
@@ -74,7 +73,6 @@ void LiveLine::wipe() {
 }
 
 void LiveLine::show(const rig::LiveState& state) {
-  if (request_context() != nullptr) return;
   const std::string text = text_of(state, units_);
   if (!terminal_) {
     const auto now = std::chrono::steady_clock::now();

@@ -98,7 +98,7 @@ std::string force_column(const MotionArguments& arguments) {
   if (arguments.force_column != MotionArguments{}.force_column || arguments.user_force == "-") {
     return arguments.force_column;
   }
-  const auto contents = list_named_recording(arguments.user_force, {});
+  const auto contents = list_named_recording(*arguments.command, arguments.user_force, {});
   for (const char* name : {"force", "force_N", "torque_N_m"}) {
     if (contents && std::ranges::count(contents->columns, name, &RecordingColumn::name) == 1) return name;
   }
@@ -109,8 +109,8 @@ UserForce recorded_force(const MotionArguments& arguments) {
   RecordingOptions options;
   options.columns = {{force_column(arguments), arguments.force_scale}};
   options.rate = arguments.force_rate;
-  ProgressLine line("reading " + arguments.user_force);
-  const auto recording = read_named_recording(arguments.user_force, options, line.progress());
+  ProgressLine line(*arguments.command, "reading " + arguments.user_force);
+  const auto recording = read_named_recording(*arguments.command, arguments.user_force, options, line.progress());
   if (!recording) refuse_input(recording.error(), "--user-force");
   UserForce force;
   force.kind = UserForce::Kind::recorded;
@@ -142,6 +142,7 @@ UserForce user_force(const MotionArguments& arguments) {
 }  // namespace
 
 void add_motion_arguments(CLI::App& command, MotionArguments& arguments) {
+  arguments.command = &command;
   const auto add_bodies = [&](const std::string& name, std::vector<std::string>& target, const std::string& what) {
     command.add_option(name, target, what)->type_name("BODY=X")->allow_extra_args(false)->group(motion_group);
   };

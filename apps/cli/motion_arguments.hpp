@@ -16,8 +16,9 @@ struct MotionArguments {
   std::string user_force;               ///< "step:5@0.1", ..., or a recording's name
   std::string force_column = "force";
   double force_scale = 1.0;
-  double force_start = 0.0;          ///< s
-  std::optional<double> force_rate;  ///< Hz
+  double force_start = 0.0;           ///< s
+  std::optional<double> force_rate;   ///< Hz
+  const CLI::App* command = nullptr;  ///< whose options these are
 };
 
 /// Declares the options; `arguments` must outlive the parsing.

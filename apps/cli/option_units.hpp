@@ -12,6 +12,8 @@
 
 namespace zwidth::cli {
 
+struct RequestContext;
+
 /// An option that was given with a unit, and why the motions that have no such unit refuse it.
 struct GivenUnit {
   std::string option;
@@ -19,10 +21,11 @@ struct GivenUnit {
   std::optional<UnitProblem> rotary;
 };
 
-/// A command line. Options come before the device, and so before its motion is known: their units are kept.
+/// A command line, or a request's. Options come before the device, and so before its motion is known: their units are kept.
 struct Program : CLI::App {
   using CLI::App::App;
   std::vector<GivenUnit> given_units;
+  RequestContext* request = nullptr;  ///< whose commands these are; null on the command line
 };
 
 /// Lets every option of the program's commands whose value is shown as S (s), HZ, W (rad/s), M (m or rad), F or FORCE, K

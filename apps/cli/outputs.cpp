@@ -8,7 +8,9 @@
 #include <system_error>
 
 #include "cli/request_context.hpp"
+#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
+#include "report/text/text_medium.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -47,6 +49,29 @@ void add_output_options(CLI::App& command, OutputArguments& arguments, const Out
   command.add_option(names, arguments.figure, help.figure)->type_name("FILE");
 }
 
+Outputs::Outputs(const CLI::App& command) : request_(request_of(command)) {}
+
+void Outputs::print(std::string_view answer) const {
+  if (request_ == nullptr) return write_standard_output(answer);
+  if (request_->output.size() + answer.size() > request_->bounds.answer) {
+    throw BadInput("", fmt::format("the answer is longer than {} bytes", request_->bounds.answer),
+                   "ask for less, or on the command line");
+  }
+  request_->output += answer;
+}
+
+void Outputs::print_text(std::string_view text) const { print(report::for_medium(text)); }
+
+void Outputs::tell(std::string_view text) const noexcept {
+  if (request_ == nullptr) write_standard_error(text);  // else what matters of it is in the answer
+}
+
+void Outputs::warn(std::span<const Remark> remarks) const {
+  for (const Remark& remark : remarks) {
+    if (remark.severity == Remark::Severity::warning) tell("zwidth: " + remark_line(remark) + "\n");
+  }
+}
+
 void Outputs::add(const OutputArguments& arguments) {
   add("--csv", arguments.csv);
   add(arguments.figure_option, arguments.figure, arguments.ending);
@@ -54,8 +79,7 @@ void Outputs::add(const OutputArguments& arguments) {
 
 void Outputs::add(const std::string& option, const std::string& path, Ending ending) {
   if (path.empty()) return;
-  if (request_context() != nullptr)
-    throw BadInput(option, "writes a file", "a request is answered with its document alone");
+  if (request_ != nullptr) throw BadInput(option, "writes a file", "a request is answered with its document alone");
   if (path == "-") throw BadInput(option, "-: is not written to standard output", "name a file");
   Output output{option, path, std::nullopt};
   const std::string given = ending_of(path);

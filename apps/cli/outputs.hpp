@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,8 +11,11 @@
 #include "report/figure/canvas.hpp"
 #include "report/output_file.hpp"
 #include "report/text/findings_text.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
+
+struct RequestContext;
 
 /// What the ending of a file name may be.
 enum class Ending { any, figure, figure_or_csv, page, hdf5 };
@@ -39,12 +43,21 @@ struct OutputHelp {
 /// Declares --json, --csv, --explain and the figure's option (--output is -o too); `arguments` must outlive the parsing.
 void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help);
 
-/// The files that a command writes, each asked for with an option: checked before the work, written after it, all or
-/// none of them.
+/// What a command gives out. The files, each asked for with an option: checked before the work, written after it, all or
+/// none of them. What it prints: of a request that is its answer, and what is for standard error is left out.
 class Outputs {
  public:
-  Outputs() = default;
-  explicit Outputs(const OutputArguments& arguments) { add(arguments); }
+  explicit Outputs(const CLI::App& command);
+  Outputs(const CLI::App& command, const OutputArguments& arguments) : Outputs(command) { add(arguments); }
+
+  /// Prints all of `answer`. Throws WorkFailed, and BadInput where a request's answer is too long.
+  void print(std::string_view answer) const;
+  /// The same of text for people: in ASCII where the locale has no other letters.
+  void print_text(std::string_view text) const;
+  /// Writes `text` for people to standard error.
+  void tell(std::string_view text) const noexcept;
+  /// Tells every warning as "zwidth: what; meaning". Notes belong into the report.
+  void warn(std::span<const Remark> remarks) const;
 
   void add(const OutputArguments& arguments);
   /// Declares an output; an empty `path` is not asked for. Throws BadInput where its ending is not allowed, where it is
@@ -78,6 +91,7 @@ class Outputs {
   };
   [[nodiscard]] const Output* find(std::string_view option) const;
 
+  RequestContext* request_;
   std::vector<Output> outputs_;
   report::OutputFiles files_;
 };

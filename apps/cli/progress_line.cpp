@@ -18,8 +18,9 @@ constexpr std::string_view back_and_wipe = "\r\x1b[K";
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string work)
-    : work_(std::move(work)),
+ProgressLine::ProgressLine(const CLI::App& command, std::string work)
+    : request_(request_of(command)),
+      work_(std::move(work)),
       terminal_(::isatty(STDERR_FILENO) == 1),
       next_(std::chrono::steady_clock::now() + quiet_for) {}
 
@@ -30,9 +31,9 @@ void ProgressLine::wipe() {
 }
 
 Progress ProgressLine::progress(double from, double to) {
-  if (const RequestContext* own = request_context()) {
-    if (!own->progress) return {};
-    return [own, from, to](double fraction) { own->progress(from + fraction * (to - from)); };
+  if (request_ != nullptr) {
+    if (!request_->progress) return {};
+    return [own = request_, from, to](double fraction) { own->progress(from + fraction * (to - from)); };
   }
   if (!terminal_) return {};
   return [this, from, to](double fraction) { show(from + fraction * (to - from)); };

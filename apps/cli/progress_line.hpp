@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -8,11 +9,14 @@
 
 namespace zwidth::cli {
 
+struct RequestContext;
+
 /// One line on a terminal's standard error that shows how far long work is, and is wiped when it ends. Nothing is
 /// written where standard error is no terminal, nor for work of less than half a second.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::string work);  ///< "reading run.csv"
+  /// `work`: "reading run.csv". Of a request it is the request's own progress that is told.
+  ProgressLine(const CLI::App& command, std::string work);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -27,6 +31,7 @@ class ProgressLine {
   void show(double fraction);
   void wipe();
 
+  const RequestContext* request_;
   std::string work_;
   std::string note_;
   bool terminal_;

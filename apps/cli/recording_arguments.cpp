@@ -9,9 +9,9 @@
 #include "cli/input_problem.hpp"
 #include "cli/number_text.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/request_context.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/text_table.hpp"
 #include "results/recording_json.hpp"
@@ -58,7 +58,7 @@ RecordingFormat format_of(const std::string& text) {
 /// "; FILE has: a, b, c", or nothing where the file cannot be listed (its own error is then better).
 std::string columns_of(const RecordingArguments& arguments) {
   if (arguments.file == "-") return "";
-  const auto contents = list_named_recording(arguments.file, recording_options(arguments));
+  const auto contents = list_named_recording(*arguments.command, arguments.file, recording_options(arguments));
   if (!contents) refuse_input(contents.error());
   constexpr std::size_t most = 30;
   std::string names;
@@ -127,6 +127,7 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
 }
 
 void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
+  arguments.command = &command;
   command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(recording_group);
   add_column(command, "force", arguments.force, "Commanded force: a column's name, or its number from 1", "F");
   add_column(command, "position", arguments.position, "Sensed position", "M");
@@ -198,8 +199,8 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   const std::pair<std::string_view, std::string_view> scales[] = {{"columns.0.scale", "--force-scale"},
                                                                   {"columns.1.scale", motion.scale_option}};
   if (const auto problem = find_problem(options)) refuse(*problem, scales);
-  ProgressLine line("reading " + arguments.file);
-  auto recording = read_named_recording(arguments.file, options, line.progress());
+  ProgressLine line(*arguments.command, "reading " + arguments.file);
+  auto recording = read_named_recording(*arguments.command, arguments.file, options, line.progress());
   if (!recording) refuse_input(recording.error(), option_of_column(recording.error(), arguments, motion));
   check_that_columns_differ(*recording, arguments.force, motion);
   recording->source = arguments.file;
@@ -218,9 +219,10 @@ RecordedMotions read_motions(const RecordingArguments& arguments) {
 }
 
 void write_contents(const RecordingArguments& arguments, bool as_json) {
-  const auto contents = list_named_recording(arguments.file, recording_options(arguments));
+  const auto contents = list_named_recording(*arguments.command, arguments.file, recording_options(arguments));
   if (!contents) refuse_input(contents.error());
-  if (as_json) return write_standard_output(results::line(results::recording_json(*contents)));
+  const Outputs outputs(*arguments.command);
+  if (as_json) return outputs.print(results::line(results::recording_json(*contents)));
   using report::Align;
   report::TextTable table{{Align::right, Align::left, Align::right, Align::left}, {{"", "column", "samples", ""}}};
   for (std::size_t i = 0; i < contents->columns.size(); ++i) {
@@ -231,7 +233,7 @@ void write_contents(const RecordingArguments& arguments, bool as_json) {
   for (const Remark& remark : contents->remarks) {
     text += remark_line(remark) + "\n";
   }
-  write_text(text);
+  outputs.print_text(text);
 }
 
 }  // namespace zwidth::cli

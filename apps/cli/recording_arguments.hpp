@@ -28,6 +28,7 @@ struct RecordingArguments {
   std::string decimal_mark;
   bool header = false;
   bool no_header = false;
+  const CLI::App* command = nullptr;  ///< whose options these are
 };
 
 /// Declares FILE and the options; `arguments` must outlive the parsing.

@@ -4,18 +4,17 @@
 
 #include <string>
 
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
 
 namespace zwidth::cli {
 
-void print_refused(const Trust& trust, const std::string& device_name, const std::string& document,
-                   std::initializer_list<std::string> files) {
+void print_refused(const Outputs& outputs, const Trust& trust, const std::string& device_name,
+                   const std::string& document, std::initializer_list<std::string> files) {
   const std::string verdict = report::verdict_text(trust);
-  write_standard_output(document.empty() ? report::for_medium(fmt::format("{}\n  trust  {}\n", device_name, verdict))
-                                         : document);
+  outputs.print(document.empty() ? report::for_medium(fmt::format("{}\n  trust  {}\n", device_name, verdict))
+                                 : document);
   for (const std::string& file : files) {
     if (!file.empty()) throw WorkFailed(fmt::format("{}: is not written: {}", file, verdict));
   }

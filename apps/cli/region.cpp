@@ -11,7 +11,6 @@
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/refused_answer.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/region_text.hpp"
@@ -30,8 +29,8 @@ struct RegionArguments {
 };
 
 /// Bound to its progress line, which is gone before anything is printed.
-WallRegion found_region(const Device& device, const std::string& file) {
-  ProgressLine line("following the boundary of " + file);
+WallRegion found_region(const CLI::App& command, const Device& device, const std::string& file) {
+  ProgressLine line(command, "following the boundary of " + file);
   return region(device, {.progress = line.progress()});
 }
 
@@ -43,14 +42,14 @@ std::optional<Wall> recommended_wall(const Device& device) {
 }
 
 void run_region(const RegionArguments& arguments) {
-  Outputs outputs(arguments.output);
+  Outputs outputs(*arguments.devices.command, arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   if (arguments.raster && arguments.output.csv.empty())
     throw BadInput("--raster", "is for a csv file", "add --csv FILE");
   const Device device = std::move(read_devices(arguments.devices).front());
-  const WallRegion walls = found_region(device, arguments.devices.files.front());
+  const WallRegion walls = found_region(*arguments.devices.command, device, arguments.devices.files.front());
   if (walls.trust.refused()) {
-    return print_refused(walls.trust, device.name(),
+    return print_refused(outputs, walls.trust, device.name(),
                          arguments.output.json ? results::line(results::region_json(device, walls)) : "",
                          {arguments.output.csv, arguments.output.figure});
   }
@@ -62,8 +61,8 @@ void run_region(const RegionArguments& arguments) {
     return report::draw_region(device, walls, format, recommended_wall(device));
   });
   outputs.commit();
-  write_standard_output(arguments.output.json ? results::line(results::region_json(device, walls))
-                                              : report::for_medium(report::region_text(device, walls)));
+  outputs.print(arguments.output.json ? results::line(results::region_json(device, walls))
+                                      : report::for_medium(report::region_text(device, walls)));
 }
 
 }  // namespace

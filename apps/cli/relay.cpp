@@ -18,7 +18,6 @@
 #include "cli/recording_arguments.hpp"
 #include "cli/refused_answer.hpp"
 #include "cli/request_context.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/relay_text.hpp"
@@ -64,7 +63,7 @@ std::optional<Device> delayed_device(const RelayArguments& arguments) {
 
 RelayResult simulated(const RelayArguments& arguments, const Device& device) {
   if (const auto problem = find_problem(arguments.experiment, device)) refuse(*problem, options_of_relay);
-  ProgressLine line("simulating");
+  ProgressLine line(*arguments.devices.command, "simulating");
   return relay(device, arguments.experiment, line.progress());
 }
 
@@ -86,19 +85,19 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
     const std::string key = problem->member.substr(of_device.size());
     refuse_key(arguments.devices.files.front(), key, problem->what, problem->allowed);
   }
-  ProgressLine line("predicting");
+  ProgressLine line(*arguments.devices.command, "predicting");
   return relay(std::move(motion.recording), options, line.progress());
 }
 
 void run_relay(const RelayArguments& arguments) {
-  Outputs outputs(arguments.output);
+  Outputs outputs(*arguments.devices.command, arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   outputs.keep(arguments.recording.file, "recording");
   std::optional<Device> device = delayed_device(arguments);
   const RelayResult result =
       arguments.recording.file.empty() ? simulated(arguments, *device) : recorded(arguments, std::move(device));
   if (result.trials.empty()) {  // of a device that is refused
-    return print_refused(result.trust, result.device->name(),
+    return print_refused(outputs, result.trust, result.device->name(),
                          arguments.output.json ? results::line(results::relay_json(result))
                                                : report::for_medium(report::relay_text(result)),
                          {arguments.output.csv, arguments.output.figure});
@@ -107,11 +106,11 @@ void run_relay(const RelayArguments& arguments) {
   outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_relay(result, format); });
   outputs.commit();
   for (std::size_t i = 0; i < result.trials.size(); ++i) {
-    hand_over_series(fmt::format("force_{}", i + 1), result.trials[i].force);
-    hand_over_series(fmt::format("position_{}", i + 1), result.trials[i].position);
+    hand_over_series(*arguments.devices.command, fmt::format("force_{}", i + 1), result.trials[i].force);
+    hand_over_series(*arguments.devices.command, fmt::format("position_{}", i + 1), result.trials[i].position);
   }
-  write_standard_output(arguments.output.json ? results::line(results::relay_json(result))
-                                              : report::for_medium(report::relay_text(result)));
+  outputs.print(arguments.output.json ? results::line(results::relay_json(result))
+                                      : report::for_medium(report::relay_text(result)));
 }
 
 /// Options of what is not done would be ignored: refused instead.

@@ -78,7 +78,7 @@ bool put_recording(const CommandRequest::Recorded& recorded, RequestContext& own
   return true;
 }
 
-/// What a request names is in its surroundings; the arguments name it.
+/// What a request names is in its context; the arguments name it.
 void put_inputs(const CommandRequest& request, const OfferedCommand& command, RequestContext& own,
                 std::vector<std::string>& arguments) {
   if (request.device) {
@@ -153,6 +153,7 @@ RequestAnswer answer_in(RequestContext& own) {
 
 RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offered, RequestContext& own) {
   Program app("", "zwidth");
+  app.request = &own;
   app.require_subcommand(1);
   offered.add(app);
   const CLI::App& command = *app.get_subcommand(std::string(offered.name));
@@ -239,7 +240,6 @@ tl::expected<RequestAnswer, Problem> RequestCommands::answer(const CommandReques
   RequestContext own;
   own.progress = progress;
   own.bounds = bounds_;
-  const InRequestContext inside(own);
   return answer_or_problem(request, *offered, own).map_error([&](Problem&& problem) {
     CLI::App app("", "zwidth");
     offered->add(app);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
@@ -44,40 +45,34 @@ struct RequestContext {
   std::map<std::string, std::vector<double>> series;  ///< samples by name
 };
 
-/// Those of the command that this thread runs; null: the disk and the standard streams.
-[[nodiscard]] RequestContext* request_context();
+/// That of the command's Program; null: the disk and the standard streams.
+[[nodiscard]] RequestContext* request_of(const CLI::App& command);
 
 /// Throws BadInput, naming the option, where a request asks for more samples than it may.
-void check_samples(const char* option, double samples);
+void check_samples(const CLI::App& command, const char* option, double samples);
 
 /// The same of threads.
-void check_threads(const char* option, std::size_t threads);
+void check_threads(const CLI::App& command, const char* option, std::size_t threads);
 
 /// Keeps what a document does not hold; nothing is done on the command line.
-void hand_over_device(const std::string& text);
-void hand_over_series(const std::string& name, const std::vector<double>& samples);
+void hand_over_device(const CLI::App& command, const std::string& text);
+void hand_over_series(const CLI::App& command, const std::string& name, const std::vector<double>& samples);
 
-/// Sets them for its lifetime.
-class InRequestContext {
- public:
-  explicit InRequestContext(RequestContext& own);
-  ~InRequestContext();
-  InRequestContext(const InRequestContext&) = delete;
-  InRequestContext& operator=(const InRequestContext&) = delete;
-};
-
-// The library's readers, of files by their name, or of what the request context has by that name. The commands read
+// The library's readers, of files by their name, or of what the command's request has by that name. The commands read
 // nothing in another way.
-[[nodiscard]] tl::expected<Device, InputError> read_named_device(const std::string& name,
+[[nodiscard]] tl::expected<Device, InputError> read_named_device(const CLI::App& command, const std::string& name,
                                                                  std::span<const std::string> overrides);
 /// A study of the device.
-[[nodiscard]] tl::expected<StudyFile, InputError> read_named_study(const std::string& name, const Device& device);
-[[nodiscard]] tl::expected<Recording, InputError> read_named_recording(const std::string& name,
+[[nodiscard]] tl::expected<StudyFile, InputError> read_named_study(const CLI::App& command, const std::string& name,
+                                                                   const Device& device);
+[[nodiscard]] tl::expected<Recording, InputError> read_named_recording(const CLI::App& command, const std::string& name,
                                                                        const RecordingOptions& options,
                                                                        const Progress& progress = {});
-[[nodiscard]] tl::expected<RecordingContents, InputError> list_named_recording(const std::string& name,
+[[nodiscard]] tl::expected<RecordingContents, InputError> list_named_recording(const CLI::App& command,
+                                                                               const std::string& name,
                                                                                const RecordingOptions& options);
-[[nodiscard]] tl::expected<FrequencyResponse, InputError> read_named_table(const std::string& name,
+[[nodiscard]] tl::expected<FrequencyResponse, InputError> read_named_table(const CLI::App& command,
+                                                                           const std::string& name,
                                                                            const ResponseTableOptions& options,
                                                                            const Progress& progress = {});
 

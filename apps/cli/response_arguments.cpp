@@ -184,8 +184,8 @@ ResponseSource from_table(const ResponseArguments& arguments) {
   options.lowest = angular(arguments.lowest_hz);
   options.highest = angular(arguments.highest_hz);
   if (const auto problem = find_problem(options)) refuse(*problem, response_options);
-  ProgressLine line("reading " + arguments.recording.file);
-  auto response = read_named_table(arguments.recording.file, options, line.progress());
+  ProgressLine line(*arguments.command, "reading " + arguments.recording.file);
+  auto response = read_named_table(*arguments.command, arguments.recording.file, options, line.progress());
   if (!response) refuse_input(response.error());
   ResponseSource source;
   source.name = arguments.recording.file;
@@ -217,13 +217,15 @@ std::optional<double> ResponseSource::sampling_period() const {
 }
 
 ResponseSource response_source(const ResponseArguments& arguments) {
-  return arguments.is_table ? from_table(arguments) : from_recording(arguments);
+  ResponseSource source = arguments.is_table ? from_table(arguments) : from_recording(arguments);
+  source.command = arguments.command;
+  return source;
 }
 
 MeasuredResponse measured_response(const ResponseSource& source) {
   if (source.recordings.empty()) return source.table;
   const auto estimated = [&] {
-    ProgressLine line("estimating the response");
+    ProgressLine line(*source.command, "estimating the response");
     return frequency_response(source.recordings, source.options, line.progress());
   };
   return worked(source.recordings.size() == 1 ? source.name : "", estimated, response_options);

@@ -43,6 +43,7 @@ struct ResponseSource {
   std::vector<Recording> recordings;  ///< none for a table
   FrequencyResponseOptions options;   ///< of the recordings' estimate
   MeasuredResponse table;             ///< where there is no recording
+  const CLI::App* command = nullptr;  ///< whose options named it
   [[nodiscard]] std::optional<double> sampling_period() const;
 };
 

@@ -13,9 +13,7 @@
 #include "cli/live_line.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/remark_lines.hpp"
 #include "cli/rig_arguments.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/page/rig_page.hpp"
 #include "report/text/rig_text.hpp"
@@ -127,15 +125,15 @@ void answer(
     lost = failure.what();
   }
   if (rig.arguments.output.json) {
-    write_warnings(session.remarks);
-    if constexpr (requires { result.remarks; }) write_warnings(result.remarks);
-    write_standard_output(results::line(results::rig_json(rig.device, result)));
+    rig.outputs.warn(session.remarks);
+    if constexpr (requires { result.remarks; }) rig.outputs.warn(result.remarks);
+    rig.outputs.print(results::line(results::rig_json(rig.device, result)));
   } else {
-    write_text(report::rig_text(rig.device, result));
+    rig.outputs.print_text(report::rig_text(rig.device, result));
   }
   if (session.stop == StopReason::none && lost.empty()) return;
   if (session.stop == StopReason::none) throw report::OutputFailed(lost);
-  if (!lost.empty()) write_standard_error(fmt::format("zwidth: {}\n", lost));
+  if (!lost.empty()) rig.outputs.tell(fmt::format("zwidth: {}\n", lost));
   throw WorkFailed("the rig stopped: " + explanation(session));
 }
 
@@ -195,7 +193,7 @@ void run_check(const Rig& rig) {
 
 void run_measure(const Rig& rig) {
   const rig::MeasureOptions options = measure_options(rig);
-  ProgressLine line("measuring");
+  ProgressLine line(*rig.arguments.devices.command, "measuring");
   const RigMeasurement result = rig::measure(rig.device, *rig.driver, rig.options, options, line.progress());
   answer(rig, result, result.session, [&] {
     if (result.response) rig.outputs.put("--recording", [&] { return recording_csv(result.recording); });
@@ -204,7 +202,7 @@ void run_measure(const Rig& rig) {
 
 void run_identify(const Rig& rig) {
   const rig::MeasureOptions options = measure_options(rig);
-  ProgressLine line("identifying");
+  ProgressLine line(*rig.arguments.devices.command, "identifying");
   const RigIdentification result = rig::identify_on_rig(rig.device, *rig.driver, rig.options, options, line.progress());
   answer(rig, result, result.measurement.session, [&] {
     if (!result.identification) return;
@@ -226,7 +224,7 @@ void run_relay_on_rig(const Rig& rig) {
   simulated.duration = options.duration;
   simulated.trials = options.trials;
   if (const auto problem = find_problem(simulated, rig.device)) refuse(*problem, options_of_rig);
-  ProgressLine line("relay");
+  ProgressLine line(*rig.arguments.devices.command, "relay");
   const RigRelay result = rig::relay_on_rig(rig.device, *rig.driver, rig.options, options, line.progress());
   answer(rig, result, result.session);
 }
@@ -317,11 +315,12 @@ void add_outputs(const RigArguments& arguments, Outputs& outputs) {
 }
 
 void run_rig(const RigArguments& arguments) {
-  Outputs outputs;
-  Outputs flight;  // by itself: what goes wrong with the rest must not lose it
+  const CLI::App& command = *arguments.devices.command;
+  Outputs outputs(command);
+  Outputs flight(command);  // by itself: what goes wrong with the rest must not lose it
   flight.add("--flight-record", arguments.flight_record);
   add_outputs(arguments, outputs);
-  Outputs all;  // each is a file of its own
+  Outputs all(command);  // each is a file of its own
   add_outputs(arguments, all);
   all.add("--flight-record", arguments.flight_record);
   all.keep(arguments.devices.files, "device file");
@@ -336,19 +335,19 @@ void run_rig(const RigArguments& arguments) {
   std::string lost_record;
   options.record = [&](const rig::FlightRecorder& recorder, StopReason stop) {
     if (arguments.flight_record.empty()) {
-      if (stop != StopReason::none) keep_flight_record(recorder);
+      if (stop != StopReason::none) keep_flight_record(command, recorder);
       return;
     }
     try {
       flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
       flight.commit();
     } catch (const report::OutputFailed& failure) {
-      keep_flight_record(recorder);  // it cannot be made again
+      keep_flight_record(command, recorder);  // it cannot be made again
       lost_record = failure.what();
       return;
     }
     if (stop != StopReason::none) {
-      write_standard_error(fmt::format("zwidth: flight record: {}\n", arguments.flight_record));
+      outputs.tell(fmt::format("zwidth: flight record: {}\n", arguments.flight_record));
     }
   };
   Rig rig{arguments,          device,

@@ -17,7 +17,6 @@
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/request_context.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/simulation_text.hpp"
@@ -81,19 +80,20 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   options.keep_every = has_table || has_figure || arguments.points ? arguments.every : 0;
   if (!has_table) options.keep_at_most = arguments.points ? most_points_in_json : most_drawn_points;
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_simulation);
-  check_samples("--duration", options.duration.value_or(0.0) / device.loop().sampling_period);
+  check_samples(*arguments.device.command, "--duration",
+                options.duration.value_or(0.0) / device.loop().sampling_period);
   return options;
 }
 
 void run_simulate(const SimulateArguments& arguments) {
-  Outputs outputs(arguments.output);
+  Outputs outputs(*arguments.device.command, arguments.output);
   outputs.keep(arguments.device.files, "device file");
   outputs.keep(arguments.motion.user_force, "recording");
   const Device device = read_devices(arguments.device).front();
   const std::string& file = arguments.device.files.front();
   const Simulation result = worked(file, [&] {
     const SimulationOptions options = options_of(arguments, device);
-    ProgressLine line("simulating " + file);
+    ProgressLine line(*arguments.device.command, "simulating " + file);
     return simulate(device, options, line.progress());
   });
   outputs.put("--csv", [&] { return results::simulation_csv(device, result); });
@@ -102,9 +102,9 @@ void run_simulate(const SimulateArguments& arguments) {
   outputs.commit();
   if (arguments.output.json) {
     const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
-    write_standard_output(results::line(results::simulation_json(device, result, points)));
+    outputs.print(results::line(results::simulation_json(device, result, points)));
   } else {
-    write_text(report::simulation_text(device, result));
+    outputs.print_text(report::simulation_text(device, result));
   }
 }
 

@@ -16,7 +16,6 @@
 #include <optional>
 #include <string>
 
-#include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/text_medium.hpp"
 
@@ -86,14 +85,6 @@ void prepare_standard_output() {
 }
 
 void write_standard_output(std::string_view text) {
-  if (RequestContext* own = request_context()) {
-    if (own->output.size() + text.size() > own->bounds.answer) {
-      throw BadInput("", fmt::format("the answer is longer than {} bytes", own->bounds.answer),
-                     "ask for less, or on the command line");
-    }
-    own->output += text;
-    return;
-  }
   const int failure = write_all(STDOUT_FILENO, text);
   if (failure == EPIPE) std::_Exit(0);
   if (failure != 0) throw WorkFailed(fmt::format("standard output: cannot write: {}", std::strerror(failure)));
@@ -102,7 +93,6 @@ void write_standard_output(std::string_view text) {
 void write_text(std::string_view text) { write_standard_output(report::for_medium(text)); }
 
 void write_standard_error(std::string_view text) noexcept {
-  if (request_context() != nullptr) return;  // what matters of it is in the answer
   try {
     write_all(STDERR_FILENO, report::for_medium(text));
   } catch (const std::bad_alloc&) {

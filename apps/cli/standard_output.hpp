@@ -9,6 +9,8 @@ namespace zwidth::cli {
 /// line is broken where standard output is no terminal and $COLUMNS not set.
 void prepare_standard_output();
 
+// Commands that a request may name print with Outputs.
+
 /// Writes all of `text` to standard output, or throws WorkFailed (full disk, closed descriptor).
 /// A reader that has closed its end of the pipe ends the program quietly, as done.
 void write_standard_output(std::string_view text);

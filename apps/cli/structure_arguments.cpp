@@ -52,7 +52,7 @@ Device structure_from_file(const StructureArguments& arguments) {
     check(NamedStructureOptions{.sampling_period = arguments.sampling_period});
     overrides.push_back(fmt::format("loop.sampling_period={}", *arguments.sampling_period));
   }
-  auto device = read_named_device(arguments.structure, overrides);
+  auto device = read_named_device(*arguments.command, arguments.structure, overrides);
   if (!device) {
     const InputPlace& place = device.error().place;
     const bool is_no_device = place.line == 0 && place.key.empty();  // there is no file of the name
@@ -72,6 +72,7 @@ std::optional<Motion> asked_motion(const StructureArguments& arguments) {
 }
 
 void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
+  arguments.command = &command;
   command.add_option("--structure", arguments.structure, "Device file to fit, or rigid, two-body or three-body")
       ->type_name("DEVICE")
       ->required()

@@ -20,6 +20,7 @@ struct StructureArguments {
   std::optional<double> sampling_period;  ///< s, of the loop to judge; else the structure's, else the record's
   std::vector<std::string> free;          ///< keys, or "all"
   std::vector<std::string> locked;        ///< names of bodies
+  const CLI::App* command = nullptr;      ///< whose options these are
 };
 
 /// Declares --structure, --set, --motion, --sampling-period, --free and --locked; `arguments` must outlive the parsing.

@@ -14,7 +14,6 @@
 #include "cli/progress_line.hpp"
 #include "cli/refused_answer.hpp"
 #include "cli/request_context.hpp"
-#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/study_report.hpp"
 #include "report/text/text_medium.hpp"
@@ -94,12 +93,12 @@ std::string rate_text(double done, double of, double seconds) {
 
 std::optional<Study> studied(const StudyRun& run, const StudyArguments& arguments) {
   if (arguments.result.empty()) {
-    ProgressLine line("studying " + arguments.devices.files.front());
+    ProgressLine line(*arguments.devices.command, "studying " + arguments.devices.files.front());
     return study(run.device(), run.distributions(), run.options(), line.progress());
   }
   using Clock = std::chrono::steady_clock;
   const auto begun = Clock::now();
-  ProgressLine line("studying " + arguments.devices.files.front());
+  ProgressLine line(*arguments.devices.command, "studying " + arguments.devices.files.front());
   const Progress computing = line.progress(0.0, 0.9);
   const auto of_ranks = static_cast<double>(study_engine::team().size());
   const auto progress = [&](std::uint64_t done, std::uint64_t of) {
@@ -119,7 +118,7 @@ std::optional<Study> studied(const StudyRun& run, const StudyArguments& argument
 }
 
 void run_study(const StudyArguments& arguments) {
-  Outputs outputs;
+  Outputs outputs(*arguments.devices.command);
   outputs.add("--output", arguments.result, Ending::hdf5);
   outputs.add("--report", arguments.report, Ending::page);
   outputs.add("--output-device", arguments.worst);
@@ -133,7 +132,7 @@ void run_study(const StudyArguments& arguments) {
   }
   if (!arguments.result.empty()) study_engine::require_writer();
   Device device = std::move(read_devices(arguments.devices).front());
-  auto file = read_named_study(arguments.study, device);
+  auto file = read_named_study(*arguments.devices.command, arguments.study, device);
   if (!file) refuse_input(file.error());
   const StudyOptions options = options_of(arguments, *file);
   if (const auto problem = find_problem(options, device, file->distributions)) refuse(*problem, options_of_study);
@@ -142,13 +141,13 @@ void run_study(const StudyArguments& arguments) {
                    CommandText(fmt::format("at most {}", most_samples_in_memory)) +
                        CommandText(" without --output, which keeps them on the disk"));
   }
-  check_threads("--threads", options.threads);
-  check_samples("--samples", units_of(options, file->distributions.parameters.size()));
+  check_threads(*arguments.devices.command, "--threads", options.threads);
+  check_samples(*arguments.devices.command, "--samples", units_of(options, file->distributions.parameters.size()));
   const StudyRun run(std::move(device), std::move(file->distributions), options);
   const std::optional<Study> study = studied(run, arguments);
   if (!study) return;  // the first rank tells
   if (study->trust.refused()) {
-    return print_refused(study->trust, run.device().name(),
+    return print_refused(outputs, study->trust, run.device().name(),
                          arguments.output.json ? results::line(results::study_json(run, *study)) : "",
                          {arguments.report, arguments.worst});
   }
@@ -156,10 +155,10 @@ void run_study(const StudyArguments& arguments) {
     throw WorkFailed("--output-device: no unit has a limit: there is no worst one");
   outputs.put("--report", [&] { return report::study_page(run, *study); });
   outputs.put("--output-device", [&] { return report::worst_device_file(run, *study); });
-  if (study->worst) hand_over_device(report::worst_device_file(run, *study));
+  if (study->worst) hand_over_device(*arguments.devices.command, report::worst_device_file(run, *study));
   outputs.commit();
-  write_standard_output(arguments.output.json ? results::line(results::study_json(run, *study))
-                                              : report::for_medium(report::study_text(run, *study)));
+  outputs.print(arguments.output.json ? results::line(results::study_json(run, *study))
+                                      : report::for_medium(report::study_text(run, *study)));
 }
 
 }  // namespace

@@ -5,8 +5,7 @@
 // for each (stand_ins.cpp), which asks the module; all others that link with the library have the functions themselves.
 
 #include "batch/kernel/stiffness_kernel.hpp"
-#include "identification/least_squares.hpp"
-#include "identification/shot_fit.hpp"
+#include "identification/linear_fit/least_squares.hpp"
 #include "io/mat73_file.hpp"
 #include "model/exact_modal_form.hpp"
 #include "sampling/exact_sampling.hpp"
@@ -30,9 +29,6 @@ struct Fits {
   static constexpr const char* file = "fits-" ZWIDTH_VERSION ".so";
   static constexpr const char* name = "zwidth_fits";
   decltype(internal::least_squares)* least_squares;
-  decltype(internal::shot_slopes)* shot_slopes;
-  decltype(internal::fit_shots)* fit_shots;
-  decltype(internal::shot_residuals)* shot_residuals;
   decltype(internal::open_mat73_file)* open_mat73_file;
   decltype(study_engine::write_result)* write_result;
 };

@@ -43,24 +43,6 @@ LeastSquares least_squares(const FitModel& model, const FitData& data, const Eig
   return loaded<on_demand::Fits>().least_squares(model, data, start, options, pull);
 }
 
-std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<Shot>& shots,
-                                      const std::vector<ShotNoise>& noise, const Eigen::VectorXd& x,
-                                      const std::vector<Eigen::VectorXd>& states) {
-  return loaded<on_demand::Fits>().shot_slopes(model, shots, noise, x, states);
-}
-
-std::optional<ShotFit> fit_shots(const ShotModel& model, const std::vector<Shot>& shots,
-                                 const std::vector<ShotNoise>& noise, ShotFit start, const Eigen::VectorXd& towards,
-                                 const ShotFitOptions& options) {
-  return loaded<on_demand::Fits>().fit_shots(model, shots, noise, std::move(start), towards, options);
-}
-
-std::optional<ShotPositions> shot_residuals(const ShotModel& model, const std::vector<Shot>& shots,
-                                            const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& states,
-                                            const PlayOn& play_on) {
-  return loaded<on_demand::Fits>().shot_residuals(model, shots, x, states, play_on);
-}
-
 tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
   return loaded<on_demand::Fits>().open_mat73_file(path);
 }

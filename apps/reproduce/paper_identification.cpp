@@ -10,7 +10,8 @@
 
 #include "report/text/quantity.hpp"
 #include "zwidth/identification/excitation.hpp"
-#include "zwidth/identification/record_fit.hpp"
+#include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/simulation/synthetic_record.hpp"
 
 namespace zwidth::report {
@@ -43,8 +44,12 @@ Identification identified_cable(const DeviceParameters& parameters, const PaperC
   fit_options.lowest = 2.0 * std::numbers::pi * chirp.lowest_hz;
   fit_options.highest = 2.0 * std::numbers::pi * chirp.highest_hz;
   fit_options.locked = {device.bodies()[handle].name};
-  RecordFit fit = fit_record(device, record.force, record.position, record.sampling_period, {}, fit_options);
-  return {"a synthetic chirp", std::move(fit.response), std::move(fit.fit)};
+  FrequencyResponse response = frequency_response(record.force, record.position, record.sampling_period);
+  ParameterFit fit = fit_parameters(device, response, fit_options);
+  return {.source = "a synthetic chirp",
+          .method = IdentifyOptions::Method::lines,
+          .response = std::move(response),
+          .fit = std::move(fit)};
 }
 
 }  // namespace zwidth::report

@@ -51,42 +51,6 @@ Json points_json(const ParameterFit& fit) {
 
 }  // namespace
 
-/// The limit that an identification gives, none where it is refused, and how far it is to be trusted.
-template <typename Identified>
-static void put_limit(Json& json, const Identified& identified, const Json& analysis) {
-  for (const char* key : {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz",
-                          "limited_by", "limits"}) {
-    json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
-  }
-  json["modes"] = analysis["modes"];
-  json["basis"] = identified.basis;
-  add_findings(json, identified);
-}
-
-Json identification_json(const Identification& identified, PointsInJson points) {
-  const ParameterFit& fit = identified.fit;
-  const Json analysis = analysis_json(fit.device, identified.analysis);
-  Json json = document("zwidth.identification/1");
-  json["source"] = identified.source;
-  json["device"] = fit.device.name();
-  json["units"] = analysis["units"];
-  json["recorded_sampling_period_s"] = identified.response.sampling_period;
-  json["band_hz"] = {hertz(fit.frequencies.front()), hertz(fit.frequencies.back())};
-  json["point_count"] = fit.frequencies.size();
-  json["parameters"] = estimates_json(fit.estimates, fit.device.parameters().motion);
-  json["correlations"] = fit.correlations;
-  json["unidentifiable"] = Json::array();
-  for (const UnidentifiableCombination& each : fit.unidentifiable) json["unidentifiable"].push_back(each.parameters);
-  json["misfit"] = fit.misfit;
-  json["model_error"] = fit.model_error;
-  json["held_to_measured_critical_point"] = fit.stiffness_without_hold.has_value();
-  json["critical_stiffness_without_hold"] = fit.stiffness_without_hold;
-  put_limit(json, identified, analysis);
-  if (points == PointsInJson::included) json["points"] = points_json(fit);
-  json["device_toml"] = write_device(fit.device.parameters(), identified.remarks);
-  return json;
-}
-
 static void to_json(Json& json, const FittedMotion& motion) {
   json = {{"source", motion.source},
           {"recorded_sampling_period_s", motion.sampling_period},
@@ -96,27 +60,57 @@ static void to_json(Json& json, const FittedMotion& motion) {
           {"unexplained", motion.unexplained}};
 }
 
-Json identification_json(const TimeDomainIdentification& identified) {
-  const Json analysis = analysis_json(identified.device, identified.analysis);
-  Json json = document("zwidth.identification/1");
-  json["method"] = "time-domain";
-  json["source"] = identified.motions.front().source;
-  json["recordings"] = identified.motions;
-  json["device"] = identified.device.name();
-  json["units"] = analysis["units"];
-  json["recorded_sampling_period_s"] = identified.motions.front().sampling_period;
-  json["band_hz"] = {hertz(identified.lowest), hertz(identified.highest)};
-  json["parameters"] = estimates_json(identified.estimates, identified.device.parameters().motion);
-  json["correlations"] = identified.correlations;
-  json["unidentifiable"] = Json::array();
-  for (const UnidentifiableCombination& each : identified.unidentifiable) {
-    json["unidentifiable"].push_back(each.parameters);
+static void to_json(Json& json, const RivalEstimate& rival) {
+  json = {{"code", rival.code},
+          {"parameter", rival.parameter},
+          {"unit", rival.unit},
+          {"value", rival.value},
+          {"standard_deviation", rival.standard_deviation},
+          {"log_likelihood_gain", rival.log_likelihood_gain},
+          {"critical_stiffness_interval", nullptr}};
+  if (const auto& range = rival.stiffness_interval) {
+    json["critical_stiffness_interval"] = {Json(range->lower), Json(range->upper)};
   }
-  for (const char* key : {"point_count", "misfit", "critical_stiffness_without_hold"}) json[key] = nullptr;
-  json["model_error"] = identified.model_error;
-  json["held_to_measured_critical_point"] = false;
-  put_limit(json, identified, analysis);
-  json["device_toml"] = write_device(identified.device.parameters(), identified.remarks);
+}
+
+Json identification_json(const Identification& identified, PointsInJson points) {
+  const ParameterFit& fit = identified.fit;
+  const Json analysis = analysis_json(fit.device, identified.analysis);
+  const bool has_response = !fit.frequencies.empty();
+  Json json = document("zwidth.identification/1");
+  json["method"] = identified.motions.empty() && !has_response            ? "limits"
+                   : identified.method == IdentifyOptions::Method::motion ? "time-domain"
+                                                                          : "frequency-response";
+  json["source"] = identified.source;
+  json["recordings"] = identified.motions;
+  json["device"] = fit.device.name();
+  json["units"] = analysis["units"];
+  json["recorded_sampling_period_s"] = identified.response.sampling_period;
+  json["band_hz"] =
+      has_response ? Json::array({hertz(fit.frequencies.front()), hertz(fit.frequencies.back())}) : Json(nullptr);
+  json["point_count"] = fit.frequencies.size();
+  json["parameters"] = estimates_json(fit.estimates, fit.device.parameters().motion);
+  json["correlations"] = fit.correlations;
+  json["unidentifiable"] = Json::array();
+  for (const UnidentifiableCombination& each : fit.unidentifiable) json["unidentifiable"].push_back(each.parameters);
+  json["misfit"] = fit.misfit;
+  json["model_error"] = fit.model_error;
+  json["held_to_measured_critical_point"] = fit.stiffness_without_hold.has_value();
+  json["critical_stiffness_without_hold"] = fit.stiffness_without_hold;
+  json["rivals"] = identified.rivals;
+  // The limit, none where it is refused, and how far it is to be trusted.
+  if (identified.trust.refused()) {
+    for (Json& rival : json["rivals"]) rival["critical_stiffness_interval"] = nullptr;
+  }
+  for (const char* key : {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz",
+                          "limited_by", "limits"}) {
+    json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
+  }
+  json["modes"] = analysis["modes"];
+  json["basis"] = identified.basis;
+  add_findings(json, identified);
+  if (points == PointsInJson::included) json["points"] = points_json(fit);
+  json["device_toml"] = write_device(fit.device.parameters(), identified.remarks);
   return json;
 }
 

@@ -3,7 +3,6 @@
 #include "results/json.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
-#include "zwidth/identification/time_domain.hpp"
 
 namespace zwidth::results {
 
@@ -12,9 +11,6 @@ void to_json(Json& json, const StiffnessBasis& basis);
 
 /// The document of `identify --json`, schema zwidth.identification/1 (docs/identification.md).
 [[nodiscard]] Json identification_json(const Identification& identified, PointsInJson points = PointsInJson::left_out);
-
-/// The same of a fit in time: what it has not is null, `method` and `recordings` are added.
-[[nodiscard]] Json identification_json(const TimeDomainIdentification& identified);
 
 /// That of inverse dynamics, schema zwidth.inverse_dynamics/1 (docs/inverse_dynamics.md).
 [[nodiscard]] Json identification_json(const RigidBodyIdentification& identified);

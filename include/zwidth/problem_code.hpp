@@ -78,6 +78,7 @@ enum class ProblemCode : std::uint16_t {
   no_mode_to_tune_to,          ///< the device has no resonance
   drift_out_of_range,          ///< a drift is not from 0 to 90 %
   no_modes_to_drift,           ///< the device has no link
+  band_without_line,           ///< a band holds no line of a periodic signal
   gain_margin_out_of_range,    ///< a gain margin is not from 0 to 100 dB
   phase_margin_out_of_range,   ///< a phase margin is not from 0 to 90 degrees
 
@@ -89,6 +90,8 @@ enum class ProblemCode : std::uint16_t {
   samples_of_trials,                 ///< trials have too few or too many samples
   no_longer_than_delay,              ///< a trial is over before a force arrives
   duration_out_of_range,             ///< a run has no sample or too many
+  excitation_samples_out_of_range,   ///< duration and rate make too few or too many samples
+  transform_too_long,                ///< one transform would be of too many samples
   no_force_would_arrive,             ///< a run is over before a force arrives
   over_before_user_force,            ///< a run is over before the user pushes
   no_points_kept,                    ///< no point would be kept
@@ -115,6 +118,21 @@ enum class ProblemCode : std::uint16_t {
   delay_out_of_range,                ///< a delay is out of its range
   no_estimator,                      ///< a firmware without an estimator
   estimator_bandwidth_out_of_range,  ///< an estimator's bandwidth is out of its range
+
+  // fits
+  locking_transfer_function,  ///< a transfer function has no body to lock
+  no_body_to_lock,            ///< the device has no body of this number
+  locked_body_needed,         ///< the actuated or the sensed body is locked
+  locked_bodies_part_device,  ///< between the actuated and the sensed body all stand still
+  fit_needs_bodies,           ///< a transfer function is no structure to fit
+  response_point_unusable,    ///< a point of a response cannot be fitted
+  too_few_points_to_fit,      ///< no more points than free parameters
+  no_number_of_structure,     ///< no number of the structure is called that
+  not_in_response,            ///< a number does not show in a response
+  free_twice,                 ///< a number is free twice
+  nothing_free,               ///< no number is free
+  too_many_free,              ///< too many numbers are free
+  structure_never_fits,       ///< a fit finds no start
 
   // studies
   damping_varies,    ///< regions are over every damping
@@ -178,6 +196,11 @@ enum class ProblemCode : std::uint16_t {
   too_many_bodies_with_friction,      ///< too many bodies rub
   motion_too_fast,                    ///< a motion is too fast to follow in time
   force_and_position_of_two_lengths,  ///< force and position have different lengths
+  body_does_not_move,                 ///< a position is constant
+  moves_one_way,                      ///< a motion never reverses
+  too_few_equations,                  ///< filtering, decimation and rests leave too few samples
+  equations_not_told_apart,           ///< a motion does not tell mass, friction and offset apart
+  force_against_motion,               ///< a fitted mass is not above 0
   period_or_samples_not_possible,     ///< a period or a sample is not possible
   ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
   transform_of_nothing,               ///< a transform of no samples

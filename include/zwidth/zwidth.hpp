@@ -36,7 +36,6 @@
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
-#include "zwidth/identification/record_fit.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
 #include "zwidth/input_problem.hpp"
 #include "zwidth/io/device_file.hpp"

@@ -1,39 +1,45 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "identification/found_device.hpp"
+#include "identification/motion_start.hpp"
+#include "identification/verdict/omnibus.hpp"
+#include "identification/verdict/verdict.hpp"
+#include "zwidth/identification/identification.hpp"
+#include "zwidth/identification/measured_limit.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/signal/frequency_response.hpp"
 #include "zwidth/signal/recording.hpp"
 
 namespace zwidth::internal {
 
-/// What is free in a fit by likelihood.
 struct LikelihoodFitOptions {
-  std::vector<std::string> free = {};    ///< as ParameterFitOptions::free
-  std::vector<std::string> locked = {};  ///< bodies held still, by name
-  bool known = false;                    ///< the structure's numbers are the device's, its delay too
+  FreeNumbers free;
+  double segment = 10.0;                   ///< s
+  std::vector<MeasuredLimit> limits = {};  ///< observed beside the records
+  std::function<void()> tell = {};         ///< at each step; what it throws ends the work
 };
 
-/// A device found by likelihood, and the range of its limit.
+/// A device found by likelihood from its motion, and the range of its limit.
 struct LikelihoodFit {
-  DeviceParameters device;
-  double stiffness = 0.0;  ///< K_CR of the most likely device, nobody holding, no damper; N/m or N m/rad
-  double lower = 0.0;      ///< least K_CR within 1.92 of the best log-likelihood, all rivals refitted
-  double upper = 0.0;      ///< the largest
-  bool settled = false;    ///< both ends were reached
+  FoundDevice found;
+  Omnibus left;                       ///< of what it leaves
+  std::vector<FittedMotion> motions;  ///< by recording
+  std::optional<GivenDelay> delay;    ///< where the structure's was taken
 };
 
 /// The most likely device of a structure, with all that may explain its records beside it (add_rivals()), and the least and
-/// the largest critical stiffness that the records allow. A linear fit of the response is the start; segments of half a
-/// second with the record's own states find what is near, then the records whole under the noise of their own residuals.
+/// the largest critical stiffness that the records allow, nobody holding, no damper.
 ///
-/// Nothing where no start can be played or the found device has no limit. Throws Error as frequency_response() and
-/// fit_parameters() do.
+/// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.
 /// Source: theory, section 10; Venzon & Moolgavkar 1988.
 [[nodiscard]] std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> recordings,
+                                                             const FrequencyResponse& response,
                                                              const Device& structure,
                                                              const LikelihoodFitOptions& options);
 

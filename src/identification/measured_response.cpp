@@ -7,16 +7,18 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "counted.hpp"
-#include "identification/friction_doubt.hpp"
-#include "identification/plausibility.hpp"
-#include "identification/pooled_response.hpp"
-#include "identification/response_choice.hpp"
-#include "identification/stated_units.hpp"
-#include "identification/welch.hpp"
+#include "identification/response/hidden_friction.hpp"
+#include "identification/response/plausibility.hpp"
+#include "identification/response/pooled_response.hpp"
+#include "identification/response/response_choice.hpp"
+#include "identification/response/stated_units.hpp"
+#include "identification/response/welch.hpp"
+#include "identification/verdict/calibration.hpp"
 #include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "words/phrase.hpp"
@@ -75,6 +77,8 @@ Trust trust_of(const MeasuredStiffness& stiffness) {
   for (const Remark& remark : stiffness.remarks) {
     if (remark.severity != Remark::Severity::warning) continue;
     has_reason = true;
+    // Its interval is as wide as the lines leave the peak open.
+    if (found && remark.finding->code == FindingCode::lines_too_far_apart) continue;
     found ? trust.doubt(remark.finding.value()) : trust.refuse(remark.finding.value());
   }
   if (!found && !has_reason) trust.refuse({.code = FindingCode::no_limit_proven});
@@ -182,6 +186,58 @@ void inherit(MeasuredResponse& measured, const Trust& source) {
     measured.stiffness->status = MeasuredStiffnessStatus::undetermined;
 }
 
+bool is_narrow(const Interval& interval) { return interval.upper <= Calibration::widest_interval * interval.lower; }
+
+/// Doubts a critical stiffness whose interval is too wide.
+void judge_width(MeasuredResponse& measured) {
+  if (!measured.stiffness || measured.trust.refused()) return;
+  const auto interval = stiffness_interval(*measured.stiffness);
+  if (!interval || is_narrow(*interval)) return;
+  Finding open{
+      .code = FindingCode::data_leave_interval_open,
+      .evidence = {{"lower", interval->lower}, {"upper", interval->upper}, {"threshold", Calibration::widest_interval}},
+      .effect = {{"critical_stiffness", interval->lower}}};
+  if (interval->lower > 0.0) open.evidence.push_back({"factor", interval->upper / interval->lower});
+  measured.trust.doubt(std::move(open));
+}
+
+/// The interval reaches down to the critical stiffness without as much friction as the recordings leave open: a response takes
+/// friction for damping. Friction that shows, and makes the interval too wide, is the doubt's reason.
+void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recording> recordings,
+                               std::span<const FrequencyResponse> each, const FrequencyResponseOptions& options) {
+  if (!measured.stiffness || measured.trust.refused() || !stiffness_interval(*measured.stiffness)) return;
+  const auto friction = hidden_friction(recordings, each, options);
+  if (!friction) {
+    measured.remarks.push_back(note({.code = FindingCode::friction_unknown}));
+    return judge_width(measured);
+  }
+  constexpr double clear = 3.5;  // deviations
+  const bool shows = friction->force > clear * friction->deviation;
+  if (measured.dependence && measured.dependence->grows_with_force && shows) {
+    measured.dependence->friction = friction->force;
+    measured.dependence->friction_deviation = friction->deviation;
+  }
+  const auto before = stiffness_interval(*measured.stiffness);
+  const auto without = measured_stiffness(without_friction(measured.response, friction->most(), recordings, options));
+  const bool is_known = without.status == MeasuredStiffnessStatus::found && without.limit.has_value();
+  const double least = is_known ? std::min(before->lower, without.limit->stiffness) : 0.0;
+  MeasuredCrossover& limit = *measured.stiffness->limit;
+  for (MeasuredCrossover& crossover : measured.stiffness->crossovers) {
+    if (crossover.frequency == limit.frequency) crossover.stiffness_interval.lower = least;
+  }
+  limit.stiffness_interval.lower = std::min(limit.stiffness_interval.lower, least);
+  if (!is_narrow(*before) || is_narrow({least, before->upper})) return judge_width(measured);
+  const double size = shows ? friction->force : friction->most();
+  Finding found{.code = shows ? FindingCode::motion_shows_friction : FindingCode::friction_would_pass_unseen,
+                .evidence = {{"friction", size}},
+                .subjects = {{"force", force_in_words(size, measured)}}};
+  if (is_known) {
+    found.subjects.push_back({"stiffness", stiffness_in_words(without.limit->stiffness, measured)});
+    found.effect.push_back({"critical_stiffness", without.limit->stiffness});
+  }
+  measured.trust.doubt(std::move(found));
+}
+
 /// The response and what it shows of the critical stiffness.
 MeasuredResponse judged(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured{std::move(source), std::move(response), std::nullopt, std::move(remarks), {}};
@@ -242,8 +298,9 @@ std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& option
 MeasuredResponse judged_response(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured = judged(std::move(source), std::move(response), std::move(remarks));
   if (!measured.response.trust && measured.stiffness && !measured.trust.refused()) {
-    measured.trust.doubt({.code = FindingCode::table_hides_friction});
+    measured.remarks.push_back(note({.code = FindingCode::table_hides_friction}));
   }
+  judge_width(measured);
   return measured;
 }
 
@@ -305,10 +362,11 @@ MeasuredResponse frequency_response(const Recording& recording, const FrequencyR
   return frequency_response(std::span(&recording, 1), options, progress);
 }
 
-MeasuredResponse frequency_response(std::span<const Recording> recordings, const FrequencyResponseOptions& options,
-                                    const Progress& progress) {
-  FrequencyResponseOptions decided = options;
-  decided.excitation = excitation_of(options);
+namespace {
+
+/// The response in segments as these options say, judged.
+MeasuredResponse judged(std::span<const Recording> recordings, const FrequencyResponseOptions& decided,
+                        const Progress& progress) {
   std::vector<FrequencyResponse> each = responses(recordings, decided, progress);
   std::vector<Remark> remarks;
   std::vector<Finding> doubts;
@@ -330,10 +388,42 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     measured.dependence = pooled.dependence;
   }
   state_units(measured, recordings);
-  judge_friction(measured, recordings, each, decided);
+  judge_width_with_friction(measured, recordings, each, decided);
   if (measured.dependence) judge_dependence(measured, recordings, each);
   for (const Finding& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
+}
+
+/// Of the interval's upper end to its lower one; infinite where there is none.
+double width_of(const MeasuredResponse& measured) {
+  const auto interval = measured.stiffness ? stiffness_interval(*measured.stiffness) : std::nullopt;
+  return interval && interval->lower > 0.0 ? interval->upper / interval->lower
+                                           : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+MeasuredResponse frequency_response(std::span<const Recording> recordings, const FrequencyResponseOptions& options,
+                                    const Progress& progress) {
+  FrequencyResponseOptions decided = options;
+  decided.excitation = excitation_of(options);
+  MeasuredResponse best = judged(recordings, decided, progress);
+  if (options.segment_length || best.response.points.size() < 2 || is_of_lines(recordings, decided)) return best;
+  // Longer segments have closer lines, and fewer averages: where the shorter ones leave the critical stiffness open.
+  constexpr std::size_t least_segments = 4;
+  const double period = recordings.front().sampling_period;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Recording& each : recordings)
+    shortest = std::min(shortest, static_cast<double>(each.channels[0].samples.size()) * each.sampling_period / period);
+  auto length = static_cast<std::size_t>(std::lround(segment_duration(best.response) / period));
+  while (width_of(best) > Calibration::widest_interval) {
+    length *= 2;
+    if (static_cast<double>(length * least_segments) > shortest) break;
+    decided.segment_length = length;
+    MeasuredResponse longer = judged(recordings, decided, {});
+    if (width_of(longer) < width_of(best)) best = std::move(longer);
+  }
+  return best;
 }
 
 std::vector<ResponseLine> response_lines(const FrequencyResponse& response) {

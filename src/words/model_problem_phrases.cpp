@@ -63,7 +63,37 @@ std::span<const ProblemPhrase> model_problem_phrases() {
       ProblemPhrase{frequency_of_digital_filter, "frequency_of_digital_filter", is,
                     "a digital filter runs as it stands: leave it out"},
       ProblemPhrase{filter_frequency_out_of_range, "filter_frequency_out_of_range", is,
-                    "must be at least {least:exact} and below the Nyquist frequency, {nyquist:.6g} Hz"}};
+                    "must be at least {least:exact} and below the Nyquist frequency, {nyquist:.6g} Hz"},
+
+      // Fits of models to a response
+      ProblemPhrase{locking_transfer_function, "locking_transfer_function",
+                    "a transfer function has no bodies that could be locked", ""},
+      ProblemPhrase{no_body_to_lock, "no_body_to_lock", "there is no body number {body:n} to lock", ""},
+      ProblemPhrase{locked_body_needed, "locked_body_needed", "the {role} body \"{name}\" is locked",
+                    "lock another one"},
+      ProblemPhrase{locked_bodies_part_device, "locked_bodies_part_device",
+                    "the locked bodies part the sensed body from the actuated one", ""},
+      ProblemPhrase{fit_needs_bodies, "fit_needs_bodies", "the structure is a transfer function",
+                    "it must be a device of bodies"},
+      ProblemPhrase{response_point_unusable, "response_point_unusable",
+                    "the response at {frequency:exact} rad/s is not a frequency > 0 with a finite value that is not 0 "
+                    "and a variance >= 0",
+                    ""},
+      ProblemPhrase{too_few_points_to_fit, "too_few_points_to_fit",
+                    "the response has {points:n} points for {parameters:n} free parameters, and must have more",
+                    "leave fewer parameters free, widen the band, or record for longer (more lines)"},
+      ProblemPhrase{no_number_of_structure, "no_number_of_structure", "no parameter of the structure is called {key}",
+                    ""},
+      ProblemPhrase{not_in_response, "not_in_response", "{key} does not show in a frequency response",
+                    "it cannot be free"},
+      ProblemPhrase{free_twice, "free_twice", "{key} is given twice as free", ""},
+      ProblemPhrase{nothing_free, "nothing_free", "no parameter is free", ""},
+      ProblemPhrase{too_many_free, "too_many_free", "{free:n} parameters are free",
+                    "at most {most:n} can be fitted at once"},
+      ProblemPhrase{structure_never_fits, "structure_never_fits",
+                    "the fit finds no values for which the structure answers at all like the record",
+                    "name a structure with other bodies, free fewer parameters, or start from values that are nearly "
+                    "right"}};
   return phrases;
 }
 

@@ -168,35 +168,32 @@ std::span<const Phrase> response_phrases() {
              "the response depends on the force: {times:.2g} times the force changes it by {difference:percent} "
              "(median of {lines:n} lines that show it above the noise)",
              "so dry friction{?force| of about {force}} does: it holds a weak force more, and looks like damping",
-             "identify the device: its friction is fitted beside its damping"},
+             "identify the device, which fits friction"},
       Phrase{recordings_disagree_on_limit, "recordings_disagree_on_limit", doubt,
              "the recordings disagree on the critical stiffness: {stiffnesses}, outside the interval of all"},
       Phrase{motion_shows_friction, "motion_shows_friction", doubt,
              "the motion shows dry friction, which the response takes for damping: about {force} at least",
              "larger motions have less of it, and a lower critical stiffness",
-             "repeat it with several times the force and give both recordings, or identify the device: its friction is "
-             "fitted beside its damping"},
+             "repeat it with several times the force and give both recordings, or identify the device, which fits "
+             "friction"},
       Phrase{friction_would_pass_unseen, "friction_would_pass_unseen", doubt,
              "dry friction of {force} would pass unseen, and the critical stiffness without it {?stiffness|would be "
              "{stiffness}}{!stiffness|is not known}",
              "",
-             "repeat it with several times the force and give both recordings, or identify the device: its friction is "
-             "fitted beside its damping"},
-      Phrase{friction_unknown, "friction_unknown", doubt,
+             "repeat it with several times the force and give both recordings, or identify the device, which fits "
+             "friction"},
+      Phrase{friction_unknown, "friction_unknown", note,
              "the recordings do not show dry friction: how much of the damping is dry friction, and the critical "
              "stiffness too high, is not known",
              "",
-             "repeat it with several times the force and give both recordings, or identify the device: its friction is "
-             "fitted beside its damping"},
-      Phrase{table_hides_friction, "table_hides_friction", doubt,
+             "repeat it with several times the force and give both recordings, or identify the device, which fits "
+             "friction"},
+      Phrase{table_hides_friction, "table_hides_friction", note,
              "a table does not show dry friction, which makes a small motion look more damped and the critical "
              "stiffness too high",
              "", "give the recordings themselves"},
       Phrase{table_gives_no_reason, "table_gives_no_reason", refusal,
-             "the table says so of its critical stiffness, and not why: see the recording"},
-      Phrase{table_doubts_itself, "table_doubts_itself", doubt, "of the table's own critical stiffness: {reason}"},
-      Phrase{recordings_averaged, "recordings_averaged", doubt,
-             "the recordings differ by more than their noise: a linear device is an average of them"}};
+             "the table says so of its critical stiffness, and not why: see the recording"}};
   return phrases;
 }
 

@@ -129,11 +129,11 @@ TEST_F(Excite, DrawsTheSignal) {
 
 TEST_F(Excite, Refusals) {
   expect_refusal("", 2, "--amplitude is required");
-  expect_refusal("--amplitude 0", 2, "--amplitude: is 0; a force > 0");
+  expect_refusal("--amplitude 0", 2, "--amplitude: is 0; must be a force > 0");
   expect_refusal("--amplitude 1e40", 2, "--amplitude: is 1e+40; must be from 1e-30 to 1e+30");
   expect_refusal("--amplitude 1 --rate 1e40", 2, "--rate: times the duration is 2e+41; 2 to 1e+08 samples");
   expect_refusal("--amplitude nan", 2, "--amplitude: is nan");
-  expect_refusal("--amplitude 1 --highest-hz 600", 2, "--highest-hz: is 600; from the lowest, 10 Hz, to half");
+  expect_refusal("--amplitude 1 --highest-hz 600", 2, "--highest-hz: is 600 Hz; must be from 10 to 500");
   expect_refusal("--amplitude 1 --duration 1e9", 2, "2 to 1e+08 samples");
   expect_refusal("--amplitude 1 --fade-in 11", 2, "--fade-in: is 11");
   expect_refusal("--amplitude 1 --kind sweep", 2, "--kind");

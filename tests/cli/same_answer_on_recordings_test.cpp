@@ -19,7 +19,7 @@
 #include "results/identification_json.hpp"
 #include "results/relay_json.hpp"
 #include "zwidth/identification/excitation.hpp"
-#include "zwidth/identification/time_domain.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/recording_file.hpp"
 #include "zwidth/simulation/synthetic_record.hpp"
@@ -60,33 +60,27 @@ NamedStructure named(const std::string& structure, const Recorded& recorded) {
   return named_structure(structure, {.record_period = recorded.recording.sampling_period}).value();
 }
 
-Answer fitted(const Recorded& recorded, const std::string& name) {
+Answer fitted(const Recorded& recorded, const std::string& name, IdentifyOptions options = {}) {
   const NamedStructure structure = named(name, recorded);
-  const Device device(structure.parameters);
-  IdentifyOptions options;
   options.structure_values = structure.values;
-  return {results::line(
-      results::identification_json(identify(recorded.recording, device, options), results::PointsInJson::included))};
+  return {results::line(results::identification_json(
+      identify(recorded.recording, Device(structure.parameters), options), results::PointsInJson::included))};
 }
 
 Answer rigid(const Recorded& recorded) { return fitted(recorded, "rigid"); }
 
-/// The whole two-body structure takes a quarter of a second for each.
+Answer lines_of_rigid(const Recorded& recorded) {
+  IdentifyOptions options;
+  options.method = IdentifyOptions::Method::lines;
+  return fitted(recorded, "rigid", options);
+}
+
+/// The whole two-body structure takes seconds for each.
 Answer link_of_two_bodies(const Recorded& recorded) {
   IdentifyOptions options;
   options.fit.free = {"link.0.stiffness", "link.0.damping"};
   options.fit.start = ParameterFitOptions::Start::from_structure;
   return {results::line(results::identification_json(identify(recorded.recording, recorded.device, options)))};
-}
-
-Answer fitted_in_time(const Recorded& recorded) {
-  TimeDomainOptions options;
-  options.free = {"body.body.mass", "body.body.damping"};
-  const NamedStructure structure = named("rigid", recorded);
-  options.structure_values = structure.values;
-  const std::array recordings{recorded.recording};
-  return {
-      results::line(results::identification_json(identify_in_time(recordings, Device(structure.parameters), options)))};
 }
 
 /// Of the force as a relay's, whatever it was; predictions for a device are compared where one is simulated.
@@ -113,10 +107,10 @@ constexpr std::array commands = {
             "identify FILE --force force --position position --json --structure DEVICE "
             "--free link.stiffness,link.damping --from-structure",
             link_of_two_bodies, "two_mass", 1.0},
-    Command{"InTime",
-            "identify FILE --force force --position position --json --method time-domain --structure rigid "
-            "--free body.body.mass,body.body.damping",
-            fitted_in_time, "rigid", 1.0},
+    Command{
+        "Lines",
+        "identify FILE --force force --position position --json --points --method frequency-response --structure rigid",
+        lines_of_rigid},
     Command{"Relay", "relay --recording FILE --force force --position position --json --segment 256", relay_reading,
             "two_mass", 1.0},
     Command{"Diagnose", "diagnose DEVICE --recording FILE --position position --stiffness 300 --json", heard, "rigid",
@@ -154,15 +148,8 @@ TEST_F(SameAnswerOfRecordings, OfTheProject) {
   const std::string free_motion = "recordings/free_motion.csv";
   const std::string locked_chirp = "recordings/locked_chirp.csv";
   ask(of("identify", free_motion) + "--method inverse-dynamics", free_motion, inverse_dynamics);
-  ask(of("identify", free_motion) + "--method time-domain --structure rigid", free_motion,
-      [](const Recorded& recorded) -> Answer {
-        TimeDomainOptions options;
-        const NamedStructure structure = named("rigid", recorded);
-        options.structure_values = structure.values;
-        const std::array recordings{recorded.recording};
-        return {results::line(
-            results::identification_json(identify_in_time(recordings, Device(structure.parameters), options)))};
-      });
+  ask(of("identify", free_motion) + "--points --method frequency-response --structure rigid", free_motion,
+      lines_of_rigid);
   ask(of("identify", locked_chirp) + "--points --structure two-body", locked_chirp,
       [](const Recorded& recorded) { return fitted(recorded, "two-body"); });
   ask(of("identify", locked_chirp) +

@@ -1,5 +1,5 @@
 // What an encoder rounds off in step with a sweep, against sines that are rounded here.
-#include "identification/encoder_rounding.hpp"
+#include "identification/response/encoder_rounding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "identification/local_estimate.hpp"
+#include "identification/crossover/local_estimate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "identification/friction_body.hpp"
-#include "property/friction_recordings.hpp"
+#include "identification/simulated_record.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/measured_response.hpp"
@@ -142,7 +142,7 @@ Recording handle_rubs(double coulomb, std::uint64_t seed) {
   truth.loop = {0, 0, 1, 1e-3, 0.0};
   const std::vector<double> force = ten_seconds(ExcitationKind::noise, 5.0, 100.0, seed);
   Recording recording{"run", 1e-3, {{"force", force}, {"position", {}}}, {}};
-  recording.channels[1].samples = test::FrictionChain(truth).positions(recording.channels[0].samples);
+  recording.channels[1].samples = test::simulated_positions(test::plant_of(truth), recording.channels[0].samples);
   return recording;
 }
 
@@ -200,23 +200,6 @@ TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
       rigid.loop = {0, 0, 0, 1e-3, 0.0};
       EXPECT_EQ(identify(found, Device(rigid)).trust.verdict, Trust::Verdict::doubtful);
     }
-  }
-}
-
-// What a linear fit left of 573 N/m without the friction that it found was 10600 N/m.
-TEST(ResponseFriction, ALinearFitSaysNoStiffnessWithoutIt) {
-  DeviceParameters rigid;
-  rigid.bodies = {{"body", 1.0, 1.0, 0.0, 0.0}};
-  rigid.loop = {0, 0, 0, 1e-3, 0.0};
-  for (const double coulomb : {0.15, 0.75}) {
-    const Identification found = identify(rubbed(coulomb, ExcitationKind::noise, 1, 5.0), Device(rigid));
-    EXPECT_FALSE(found.trust.sound());
-    const auto of_friction = HasSubstr("dry friction");
-    ASSERT_THAT(found.trust.reasons, Contains(of_friction));
-    for (const std::string& reason : found.trust.reasons) {
-      EXPECT_THAT(reason, ::testing::Not(HasSubstr("without it the critical stiffness is")));
-    }
-    EXPECT_THAT(found.trust.reasons, Contains(HasSubstr("fit the friction too, in time")));
   }
 }
 

@@ -93,7 +93,6 @@ TEST(SeveralRates, TwiceTheRateCountsAtTheFirstOnes) {
 TEST(SeveralRates, IdentifyHoldsTheTruth) {
   IdentifyOptions options;
   options.fit.free = {"body.motor.mass", "body.motor.damping", "body.motor.stiffness"};
-  options.scrutiny = test::by_tier(IdentifyOptions::Scrutiny::brief, IdentifyOptions::Scrutiny::thorough);
   const double truth = critical_stiffness(filtered_plant(sampled_at(1000.0))).stiffness;
   const unsigned seeds = test::by_tier(2U, 5U);
   int held = 0;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/refused_problem.hpp"
+#include "io/problem_data.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth {

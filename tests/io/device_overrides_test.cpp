@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "io/device_texts.hpp"
-#include "io/refused_problem.hpp"
+#include "io/problem_data.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth {

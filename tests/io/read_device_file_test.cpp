@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "io/device_texts.hpp"
-#include "io/refused_problem.hpp"
+#include "io/problem_data.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth {

@@ -251,7 +251,7 @@ def test_what_a_structure_assumes_and_the_record_does_not_show_stays_assumed(lhi
     with pytest.warns(zwidth.DoubtfulResult, match="assumed, not measured: link.stiffness, body.handle.mass"):
         assert zwidth.analyze(assumed).assumed == ["link.stiffness", "body.handle.mass", "loop.sampling_period"]
     columns = {"force": "force", "position": "position", "free": "link.stiffness,link.damping", "locked": "handle"}
-    for more in ({}, {"method": "time-domain"}):
+    for more in ({}, {"method": "frequency-response"}):
         found = zwidth.identify("recordings/locked_chirp.csv", structure=assumed, **columns, **more)
         assert found.trust.verdict == "doubtful"
         assert "assumed, not measured: body.handle.mass, loop.sampling_period; give the device's own" in found.trust.reasons
@@ -265,7 +265,7 @@ def test_what_a_structure_is_doubtful_of_and_the_record_does_not_show_stays_doub
     warning = "\n[uncertainty]\nwarning = 'weighed by eye'\n"
     doubtful = zwidth.Device.from_toml(lhifam.to_toml() + warning)
     columns = {"force": "force", "position": "position"}
-    for more in ({}, {"method": "time-domain"}):
+    for more in ({}, {"method": "frequency-response"}):
         found = zwidth.identify("recordings/locked_chirp.csv", structure=doubtful, free="link.stiffness,link.damping",
                                 locked="handle", **columns, **more)  # fmt: skip
         assert found.trust.verdict == "doubtful" and "weighed by eye" in found.trust.reasons

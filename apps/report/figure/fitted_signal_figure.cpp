@@ -19,7 +19,6 @@ namespace {
 constexpr LineStyle measured_signal_style{blue, 3.0, "1"};
 constexpr LineStyle fitted_style{orange, 1.4, "1"};
 constexpr LineStyle residual_style{blue, 0.8, "1"};
-constexpr std::size_t most_signals = 4;
 /// Points drawn of a residual: lowest and highest of each of so many stretches of time.
 constexpr std::size_t stretches = 1200;
 
@@ -100,7 +99,7 @@ void add_signal_panels(std::vector<Panel>& panels, const Signal& signal) {
   const auto note = [](const std::string& text) {
     return [text](Canvas& canvas, const Box& frame) { canvas.text(frame_left, frame.top - 14.0, text); };
   };
-  panels.push_back({.above = panels.empty() ? 30.0 : 106.0,
+  panels.push_back({.above = 30.0,
                     .height = 180.0,
                     .axes = fmt::format("set xrange [{}:{}]\nset autoscale y\nset ytics autofreq\nset format x '%g'",
                                         signal.times[from], signal.times.back()),
@@ -118,58 +117,26 @@ void add_signal_panels(std::vector<Panel>& panels, const Signal& signal) {
                     .marks = note(left)});
 }
 
-std::string draw_signals(const std::string& title, const std::string& fitted, const std::string& subtitle,
-                         std::span<const Signal> signals, FigureFormat format) {
-  Figure figure{.title = title,
-                .subtitle = subtitle,
-                .legend = {{"measured", measured_signal_style}, {fitted, fitted_style}},
-                .below = 76.0};
-  for (const Signal& signal : signals.first(std::min(signals.size(), most_signals))) {
-    add_signal_panels(figure.panels, signal);
-  }
-  return draw(figure, format);
-}
-
-std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
-
 }  // namespace
-
-std::string draw_identification(const TimeDomainIdentification& identified, FigureFormat format) {
-  const Motion motion = identified.device.parameters().motion;
-  std::vector<Signal> signals;
-  for (const FittedMotion& each : identified.motions) {
-    const auto begin = std::ranges::find_if(each.residuals, [](double residual) { return residual != 0.0; });
-    const auto skipped = static_cast<std::size_t>(begin - each.residuals.begin()) % each.residuals.size();
-    Signal signal{file_name(each.source),
-                  "Position",
-                  motion == Motion::rotary ? "rad" : "m",
-                  {},
-                  std::span(each.recorded).subspan(skipped),
-                  std::span(each.residuals).subspan(skipped)};
-    for (std::size_t k = skipped; k < each.recorded.size(); ++k) {
-      signal.times.push_back(static_cast<double>(k) * each.sampling_period);
-    }
-    signals.push_back(std::move(signal));
-  }
-  return draw_signals(
-      fmt::format("{}, identified in time{}", display_name(identified.device), trust_mark(identified.trust)),
-      "fitted device with its dry friction",
-      signals.size() > most_signals ? fmt::format("The first {} of {} recordings.", most_signals, signals.size()) : "",
-      signals, format);
-}
 
 std::string draw_identification(const RigidBodyIdentification& identified, FigureFormat format) {
   const RigidBodyFit& fit = identified.fit;
   const Motion motion = identified.device.parameters().motion;
-  const Signal signal{
-      file_name(identified.source), "Force", motion == Motion::rotary ? "N m" : "N", fit.times, fit.forces,
-      fit.residual_forces};
-  return draw_signals(
-      fmt::format("{}, identified by inverse dynamics{}", display_name(identified.device),
-                  trust_mark(identified.trust)),
-      "mass, friction and offset of the fitted body",
-      fmt::format("Force behind a low-pass of {:.3g} Hz, as fitted; rests of the body are left out.", fit.cutoff_hz),
-      {&signal, 1}, format);
+  const Signal signal{std::filesystem::path(identified.source).filename().string(),
+                      "Force",
+                      motion == Motion::rotary ? "N m" : "N",
+                      fit.times,
+                      fit.forces,
+                      fit.residual_forces};
+  Figure figure{
+      .title = fmt::format("{}, identified by inverse dynamics{}", display_name(identified.device),
+                           trust_mark(identified.trust)),
+      .subtitle = fmt::format("Force behind a low-pass of {:.3g} Hz, as fitted; rests of the body are left out.",
+                              fit.cutoff_hz),
+      .legend = {{"measured", measured_signal_style}, {"mass, friction and offset of the fitted body", fitted_style}},
+      .below = 76.0};
+  add_signal_panels(figure.panels, signal);
+  return draw(figure, format);
 }
 
 }  // namespace zwidth::report

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "report/figure/figure.hpp"
+#include "report/output_file.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
@@ -43,7 +44,7 @@ std::vector<Row> fit_rows(const Identification& identified, bool has_noise) {
   auto point = identified.response.points.begin();
   for (std::size_t i = 0; i < fit.frequencies.size(); ++i) {
     // The fit uses the points of its band, in their order.
-    while (point->frequency < fit.frequencies[i]) ++point;
+    while (point->frequency < fit.frequencies[i] && point + 1 != identified.response.points.end()) ++point;
     const double size = std::abs(point->value);
     const double radius = point->variance > 0.0 ? confidence_radius(*point, identified.response.averages) : 0.0;
     const double part = std::min(radius / size, 0.999);  // a larger one leaves the magnitude's lower end open
@@ -95,6 +96,7 @@ std::string draw_identification(const Identification& identified, FigureFormat f
 
 std::string draw_identification(const Identification& identified, const IdentificationLabels& labels,
                                 FigureFormat format) {
+  if (identified.fit.frequencies.empty()) throw OutputFailed("there is no response to draw");
   const bool has_noise =
       std::ranges::all_of(identified.response.points, [](const ResponsePoint& point) { return point.variance > 0.0; });
   const std::vector<Row> data = fit_rows(identified, has_noise);

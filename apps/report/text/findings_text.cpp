@@ -36,7 +36,7 @@ FindingsText findings_text(const Trust& trust, std::span<const Remark> remarks, 
       rest += bullet_line(text(each.words), severity == Finding::Severity::warning);
     }
   }
-  FindingsText texts{trust_lines(said), rest.empty() ? "" : "\nRemarks\n" + rest};
+  FindingsText texts{trust_lines(said), reason_lines(said), rest.empty() ? "" : "\nRemarks\n" + rest};
   if (found.size() == most) return texts;
   const auto against = std::ranges::count_if(std::span(found).subspan(most), [](const RankedFinding& each) {
     return each.finding.severity >= Finding::Severity::warning;

@@ -18,6 +18,7 @@ enum class ShownFindings {
 /// notes.
 struct FindingsText {
   std::string against;  ///< the verdict, and below it what speaks against the answer; empty where that is sound
+  std::string reasons;  ///< those lines without the verdict
   std::string remarks;  ///< the rest as "Remarks", and how many more there are; may be empty
 };
 

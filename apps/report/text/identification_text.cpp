@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "report/text/explanation.hpp"
@@ -12,19 +14,41 @@
 namespace zwidth::report {
 namespace {
 
+constexpr std::size_t most_rivals = 6;
+constexpr std::size_t most_beside = 3;  ///< of pairs hardly told apart, and of recordings
+/// What moves the limit by less is not shown.
+constexpr double least_share_of_limit = 0.005;
+
+/// How many of them are shown.
+std::size_t shown_of(std::size_t count, std::size_t most, ShownFindings shown) {
+  return shown == ShownFindings::all ? count : std::min(count, most);
+}
+
 std::string fit_quality(const ParameterFit& fit) {
-  std::string text = fmt::format("{} points from {:.4g} to {:.4g} Hz", fit.frequencies.size(),
+  if (fit.frequencies.empty()) return "";
+  std::string text = fmt::format("Response: {} points from {:.4g} to {:.4g} Hz", fit.frequencies.size(),
                                  hertz(fit.frequencies.front()), hertz(fit.frequencies.back()));
   if (fit.misfit) text += fmt::format("; residuals {:.3g} times the noise (1: the noise explains them)", *fit.misfit);
   if (fit.model_error > 1e-4) {
     text += fmt::format("; {:.3g} % of the response unexplained beyond it", 100.0 * std::min(fit.model_error, 10.0));
   }
-  return text + ".";
+  return wrap(text + ".", line_width, 0);
 }
 
-std::string correlations(const std::vector<StrongCorrelation>& strong) {
+std::string motion_quality(std::span<const FittedMotion> motions, Motion motion, ShownFindings shown) {
   std::string text;
-  for (const StrongCorrelation& each : strong) {
+  for (const FittedMotion& each : motions.first(shown_of(motions.size(), most_beside, shown))) {
+    text += wrap(fmt::format("{}noise of {} per sample; {:.3g} % of the motion unexplained.",
+                             motions.size() > 1 ? each.source + ": " : "Motion: ",
+                             quantity(each.noise, units_of(motion).length), 100.0 * each.unexplained),
+                 line_width, 0);
+  }
+  return text;
+}
+
+std::string correlations(std::span<const StrongCorrelation> strong, ShownFindings shown) {
+  std::string text;
+  for (const StrongCorrelation& each : strong.first(shown_of(strong.size(), most_beside, shown))) {
     text += wrap(
         fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation),
         line_width, 2);
@@ -32,12 +56,11 @@ std::string correlations(const std::vector<StrongCorrelation>& strong) {
   return text.empty() ? "" : "\n" + text;
 }
 
-/// "without a virtual damper", "with the wall's damper of 5 N s/m closed": what a K_CR is given with.
+/// "no damper", "the wall's damper of 5 N s/m closed": what a K_CR is given with.
 std::string basis_text(const StiffnessBasis& basis, Motion motion) {
-  std::string text = "without a virtual damper";
+  std::string text = "no damper";
   if (basis.virtual_damping > 0.0) {
-    text =
-        fmt::format("with the wall's damper of {} closed", quantity(basis.virtual_damping, units_of(motion).damping));
+    text = fmt::format("the wall's damper of {} closed", quantity(basis.virtual_damping, units_of(motion).damping));
     if (basis.velocity_filter_hz > 0.0) {
       text += fmt::format(" behind its {} filter", quantity(basis.velocity_filter_hz, "Hz"));
     }
@@ -45,9 +68,6 @@ std::string basis_text(const StiffnessBasis& basis, Motion motion) {
   if (basis.filters > 0) text += fmt::format(", through the wall's {} filter(s)", basis.filters);
   return text;
 }
-
-/// The verdict of an answer that nothing speaks against.
-std::string sound_line(const Trust& trust) { return trust.sound() ? "Trust: sound.\n" : ""; }
 
 /// Value, unit, standard deviation and 95 % interval of each parameter.
 TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion) {
@@ -65,50 +85,82 @@ TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion mo
   return table;
 }
 
-/// K_CR with what it is given with, its interval and what limits it.
-std::string limit_text(const Device& device, const Analysis& analysis, const StiffnessBasis& basis) {
-  const AnalysedDevice analysed{device, analysis};
-  const Motion motion = device.parameters().motion;
-  std::string text = wrap(fmt::format("Critical stiffness of this device as recorded, {}: {}.",
-                                      basis_text(basis, motion), critical_stiffness_text(analysis.critical, motion)),
-                          line_width, 0);
-  if (const auto interval = interval_note(analysed)) text += wrap("95 % interval: " + *interval + ".", line_width, 0);
-  if (const auto limit = what_limits(analysed)) text += wrap("Limited by " + *limit + ".", line_width, 0);
+/// Whether it moves the limit, or is clearly there.
+bool matters(const RivalEstimate& rival, double limit) {
+  const auto moves = [&](double end) { return !(std::abs(end / limit - 1.0) < least_share_of_limit); };
+  const auto& range = rival.stiffness_interval;
+  if (range && (moves(range->lower) || moves(range->upper))) return true;
+  return rival.standard_deviation && std::abs(rival.value) > 2.0 * *rival.standard_deviation;
+}
+
+/// What else explains the records, and the critical stiffness over the range of each.
+std::string rivals_text(const Identification& identified, ShownFindings shown) {
+  if (identified.rivals.empty()) return "";
+  const double limit = identified.analysis.critical.stiffness;
+  const Units units = units_of(identified.fit.device.parameters().motion);
+  std::vector<RivalEstimate> listed = identified.rivals;
+  if (shown != ShownFindings::all) std::erase_if(listed, [&](const auto& each) { return !matters(each, limit); });
+  listed.resize(shown_of(listed.size(), most_rivals, shown));
+  TextTable table{{Align::left, Align::left, Align::right, Align::right, Align::right, Align::right},
+                  {{"what else explains the record", "", "size", "+-1 sigma", "K_CR from", "to"}}};
+  for (const RivalEstimate& each : listed) {
+    const auto size = [&](double value) {
+      const bool takes_prefix = !each.unit.empty() && each.unit.find_first_of(" /") == std::string::npos;
+      return takes_prefix ? quantity(value, each.unit) : number(value) + (each.unit.empty() ? "" : " " + each.unit);
+    };
+    const auto range = identified.trust.refused() ? std::nullopt : each.stiffness_interval;
+    const auto end = [&](double stiffness) { return limit_value_text(stiffness, units.stiffness); };
+    std::string name = each.code;
+    std::ranges::replace(name, '_', ' ');
+    table.rows.push_back({std::move(name), each.parameter, size(each.value),
+                          each.standard_deviation ? size(*each.standard_deviation) : "not determined",
+                          range ? end(range->lower) : "-", range ? end(range->upper) : "-"});
+  }
+  std::string text = listed.empty() ? "" : "\n" + layout(table);
+  if (const std::size_t rest = identified.rivals.size() - listed.size(); rest > 0) {
+    text += listed.empty()
+                ? wrap(fmt::format("None of the {} other explanations fitted with it moves the limit by {:g} %: "
+                                   "--explain lists them.",
+                                   rest, 100.0 * least_share_of_limit),
+                       line_width, 0)
+                : fmt::format("  ... {} more that hardly count: add --explain\n", rest);
+  }
   return text;
+}
+
+/// "sound: critical stiffness 8.849 kN/m, 95 % from 8.7 kN/m to 9.01 kN/m (nobody holding, no damper)".
+std::string limit_line(const Identification& identified) {
+  if (identified.trust.refused()) return "refused: no critical stiffness\n";
+  const Analysis& analysis = identified.analysis;
+  const Motion motion = identified.fit.device.parameters().motion;
+  const auto value = [&](double stiffness) { return limit_value_text(stiffness, units_of(motion).stiffness); };
+  std::string text = fmt::format("{}: critical stiffness {}", identified.trust.sound() ? "sound" : "doubtful",
+                                 value(analysis.critical.stiffness));
+  if (analysis.interval) {
+    text += fmt::format(", 95 % from {} to {}", value(analysis.interval->lower), value(analysis.interval->upper));
+  }
+  return wrap(fmt::format("{} ({}, {})", text, analysis.alone ? "the file's user holding" : "nobody holding",
+                          basis_text(identified.basis, motion)),
+              line_width, 0);
 }
 
 }  // namespace
 
 std::string identification_text(const Identification& identified, ShownFindings shown) {
   const ParameterFit& fit = identified.fit;
-  std::string text = fmt::format("{}, identified from {}\n", display_name(fit.device), identified.source);
+  const Motion motion = fit.device.parameters().motion;
   const FindingsText findings = findings_text(identified.trust, identified.remarks, shown);
-  text += findings.against;
-  text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit.correlations) +
-          "\n" + wrap(fit_quality(fit), line_width, 0) + "\n";
-  if (identified.trust.refused()) return text + findings.remarks;
-  return text + limit_text(fit.device, identified.analysis, identified.basis) + sound_line(identified.trust) +
-         findings.remarks;
-}
-
-std::string identification_text(const TimeDomainIdentification& identified, ShownFindings shown) {
-  const Motion motion = identified.device.parameters().motion;
-  std::string text =
-      fmt::format("{}, identified in time from {}", display_name(identified.device), identified.motions.front().source);
+  std::string text = limit_line(identified);
+  text += fmt::format("{}, identified from {}", display_name(fit.device), identified.source);
   if (identified.motions.size() > 1) text += fmt::format(" and {} more", identified.motions.size() - 1);
-  const FindingsText findings = findings_text(identified.trust, identified.remarks, shown);
-  text += "\n" + findings.against;
-  text += layout(estimate_table(identified.estimates, motion)) + correlations(identified.correlations) + "\n";
-  for (const FittedMotion& each : identified.motions) {
-    text +=
-        wrap(fmt::format("{}: {:.3g} {} of noise per sample; {:.3g} % of the linear response unexplained beyond it.",
-                         each.source, each.noise, motion == Motion::rotary ? "rad" : "m", 100.0 * each.unexplained),
-             line_width, 0);
+  text += "\n" + findings.reasons + "\n";
+  text += layout(estimate_table(fit.estimates, motion)) + correlations(fit.correlations, shown);
+  text += rivals_text(identified, shown) + "\n";
+  if (const auto limit = what_limits(AnalysedDevice{fit.device, identified.analysis});
+      limit && !identified.trust.refused()) {
+    text += wrap("Limited by " + *limit + ".", line_width, 0);
   }
-  text += "\n";
-  if (identified.trust.refused()) return text + findings.remarks;
-  return text + limit_text(identified.device, identified.analysis, identified.basis) + sound_line(identified.trust) +
-         findings.remarks;
+  return text + motion_quality(identified.motions, motion, shown) + fit_quality(fit) + findings.remarks;
 }
 
 std::string identification_text(const RigidBodyIdentification& identified, ShownFindings shown) {
@@ -122,7 +174,7 @@ std::string identification_text(const RigidBodyIdentification& identified, Shown
                            "correlated in time.",
                            fit.cutoff_hz, fit.decimation, fit.equations, 100.0 * fit.relative_residual),
                line_width, 0);
-  return text + sound_line(identified.trust) + findings.remarks;
+  return text + (identified.trust.sound() ? "Trust: sound.\n" : "") + findings.remarks;
 }
 
 }  // namespace zwidth::report

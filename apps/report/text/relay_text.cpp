@@ -175,6 +175,10 @@ std::string remarks(const RelayResult& result) {
 std::string relay_text(const RelayResult& result) {
   if (result.trials.empty()) return heading(result);
   std::string text = heading(result) + trial_table(result) + spectra_note(result);
+  if (result.mean && result.trust.sound()) {  // else friction may hold what a wall of that stiffness does not
+    text += fmt::format("  for identify: --limit \"K={:.4g}, hz={:.4g}\"\n", result.mean->stiffness,
+                        hertz(result.mean->frequency));
+  }
   if (result.prediction) text += "\n" + prediction_table(result);
   if (!result.explanation.empty()) text += "\nWhat it means\n";
   for (const Finding& each : result.explanation) text += bulleted(zwidth::text(each));

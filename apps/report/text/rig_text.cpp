@@ -166,6 +166,12 @@ std::string rig_text(const Device& device, const RigLimit& limit) {
       text += labelled("  between", fmt::format("{} and {}", quantity(measured.interval->lower, units.stiffness),
                                                 quantity(measured.interval->upper, units.stiffness)));
     }
+    const double damping = device.parameters().wall.damping;
+    text +=
+        labelled("  for identify",
+                 fmt::format("--limit \"K={:.4g}{}{}\"", *measured.stiffness,
+                             damping > 0.0 ? fmt::format(", B={:.4g}", damping) : "",
+                             measured.frequency > 0.0 ? fmt::format(", hz={:.4g}", hertz(measured.frequency)) : ""));
   } else {
     text += labelled("  K_CR measured", "none");
   }

@@ -21,12 +21,17 @@ std::string_view trust_mark(const Trust& trust) {
   return trust.sound() ? "" : trust.refused() ? " (REFUSED)" : " (DOUBTFUL)";
 }
 
-std::string trust_lines(const Trust& trust, std::string_view what) {
-  if (trust.sound()) return "";
-  std::string text = trust.refused() ? fmt::format("REFUSED: no {} is given, because\n", what)
-                                     : fmt::format("DOUBTFUL: data and model do not carry the {}, because\n", what);
+std::string reason_lines(const Trust& trust) {
+  std::string text;
   for (const std::string& reason : trust.reasons) text += labelled("  ! ", reason, 4);
   return text;
+}
+
+std::string trust_lines(const Trust& trust, std::string_view what) {
+  if (trust.sound()) return "";
+  return (trust.refused() ? fmt::format("REFUSED: no {} is given, because\n", what)
+                          : fmt::format("DOUBTFUL: data and model do not carry the {}, because\n", what)) +
+         reason_lines(trust);
 }
 
 }  // namespace zwidth::report

@@ -17,6 +17,9 @@ namespace zwidth::report {
 /// What stands behind a figure's title: " (DOUBTFUL)", " (REFUSED)", nothing where the answer is sound.
 [[nodiscard]] std::string_view trust_mark(const Trust& trust);
 
+/// A line per reason.
+[[nodiscard]] std::string reason_lines(const Trust& trust);
+
 /// A heading, which says of what, and a line per reason; empty where the answer is sound.
 [[nodiscard]] std::string trust_lines(const Trust& trust, std::string_view what = "critical stiffness");
 

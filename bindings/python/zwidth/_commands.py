@@ -260,18 +260,20 @@ def frequency_response(
 
 
 def identify(
-    recording: Recorded,
+    recording: Optional[Recorded] = None,
     *more: Recorded,
     structure: Union[Device, str, None] = None,
     progress: Progress = None,
     **options: Option,
 ) -> Any:
     """A device's parameters from recordings: an Identification, or with method="inverse-dynamics" a
-    RigidBodyIdentification. `structure`: a Device, or the name of a structure ("rigid", "two-body", "three-body")."""
+    RigidBodyIdentification. `structure`: a Device, or the name of a structure ("rigid", "two-body", "three-body").
+    `limit="K=3, B=0, hz=40"`, or a list: walls at which the device was seen to oscillate, with or without a recording."""
     if isinstance(structure, str):
         options["structure"] = structure
     device = None if isinstance(structure, str) else structure
-    return _result("identify", device, (recording, *more), progress, options)
+    recordings = more if recording is None else (recording, *more)
+    return _result("identify", device, recordings, progress, options)
 
 
 def excite(device: Optional[Device] = None, *, progress: Progress = None, **options: Option) -> _results.Excitation:

@@ -44,7 +44,10 @@ struct RigidBodyFit {
 /// Mass, viscous and Coulomb friction, offset and delay, in this order.
 [[nodiscard]] std::vector<ParameterEstimate> estimates(const RigidBodyFit& fit);
 
-/// Identifies mass, viscous and Coulomb friction and offset from force and position, feedback or not.
+/// Identifies mass, viscous and Coulomb friction and offset of one rigid body from force and position, feedback or not.
+///
+/// Beside identify() for records that have no free response: a controller made the force, or the motion is slow and ordinary. The
+/// equations of one rigid body are linear in its numbers at every instant, so that least squares finds them without a state.
 ///
 ///     L[F](t - delay) = mass L[a] + viscous L[v] + coulomb L[sign v] + offset
 ///
@@ -53,8 +56,9 @@ struct RigidBodyFit {
 /// delay is fitted with the rest: a force that is held after its sample acts half a period late, a drive adds its own.
 /// Cutoff, where not given: the frequency below which 99 % of the acceleration's power above the encoder's noise lies,
 /// or five times that of half the power (so that the harmonics of Coulomb friction pass) if that is higher; not far
-/// above what the force excites, at most a fifth of the first vibration mode's frequency and a tenth of the rate. Decimation: 0.8 times the rate over twice the cutoff. Equations where the body rests (friction
-/// then is anything up to coulomb) and near the ends (filter transients) are left out.
+/// above what the force excites, at most a fifth of the first vibration mode's frequency and a tenth of the rate.
+/// Decimation: 0.8 times the rate over twice the cutoff. Equations where the body rests (friction then is anything up to
+/// coulomb) and near the ends (filter transients) are left out.
 /// A mode above the band moves the mass by the frequency's square: the force's second derivative is fitted beside the
 /// rest; where it shows, the mass is the one at frequency 0, and where it does not the intervals are widened by its shift.
 /// Ordinary least squares; 95 % intervals allow for residuals that vary in size and are correlated in time (Newey and

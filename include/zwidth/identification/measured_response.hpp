@@ -52,6 +52,9 @@ struct MeasuredResponse {
 /// The response of a recording, judged.
 ///
 /// Two channels: the commanded force, and the motion that options.output names; both in SI units.
+/// Sound: the interval of the critical stiffness is within a factor of 1.5 and nothing contradicts. The interval reaches down to
+/// the stiffness without as much dry friction as the record may hold. Where a record does not show friction, that is a note.
+/// Segments whose length is not given are as long as the critical stiffness needs.
 /// Throws Error (invalid_argument) for other recordings, where find_problem(options) finds one, and as the
 /// frequency_response() of samples does.
 [[nodiscard]] MeasuredResponse frequency_response(const Recording& recording,
@@ -63,15 +66,14 @@ struct MeasuredResponse {
 ///
 /// Lines that several hold are averaged, weighted by the power of their force; the others stand side by side (a sine
 /// per recording makes a line each). Recordings that differ by more than their noise are said to, with the size; the
-/// trust is doubtful where that moves the critical stiffness beyond its interval, or may. Sound, here as for one
-/// recording, only where the recordings bound what dry friction may have made of it. Throws Error as for one
+/// trust is doubtful where that moves the critical stiffness beyond its interval, or may. Throws Error as for one
 /// recording, naming it by its source; for the same samples twice.
 [[nodiscard]] MeasuredResponse frequency_response(std::span<const Recording> recordings,
                                                   const FrequencyResponseOptions& options = {},
                                                   const Progress& progress = {});
 
-/// A response that was measured elsewhere (a table), judged: as far as it says of itself that it may be trusted, and
-/// doubtful where it says nothing, for it does not show dry friction. `remarks` are those made on the way to it.
+/// A response that was measured elsewhere (a table), judged by its interval, and as far as it says of itself that it may be
+/// trusted. It does not show dry friction: a note. `remarks` are those made on the way to it.
 [[nodiscard]] MeasuredResponse judged_response(std::string source, FrequencyResponse response,
                                                std::vector<Remark> remarks = {});
 

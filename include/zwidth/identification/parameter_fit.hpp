@@ -23,16 +23,10 @@ struct ParameterFitOptions {
   std::optional<double> highest{};  ///< rad/s
   /// Residuals beyond this many standard deviations count linearly (Huber loss); 0: plain least squares.
   double robust_threshold = 3.0;
-  /// Whether a structure that does not describe the data to their noise must at least share their critical point.
-  enum class CriticalPoint {
-    held,  ///< where the response is of the free device, and the fit comes near the measured critical point by itself
-    free,  ///< all points count alike
-  } critical_point = CriticalPoint::held;  ///< held: the fit goes through the measured crossover
   /// Whether the structure's values of the free parameters are the starting point, or the starting point is found from
-  /// the data (antiresonance, resonance, low-frequency line).
+  /// the data (antiresonance, resonance, low-frequency line), other places of the resonances tried where it leaves more
+  /// than their noise.
   enum class Start { from_data, from_structure } start = Start::from_data;  ///< from the data alone
-  /// From the data, where the fit leaves more than their noise: whether other places of the resonances are tried too.
-  bool search_widely = true;
 };
 
 inline constexpr std::size_t max_free_parameters = 40;  ///< of one fit
@@ -62,26 +56,6 @@ struct UnidentifiableCombination {
   std::vector<std::string> parameters;  ///< keys of the numbers of which only a combination shows
 };
 
-/// A point stands clear of its noise where that deviates by at most this share of the response.
-inline constexpr double clear_of_noise = 0.05;
-/// So many neighbouring points of those a LocalMisfit is of.
-inline constexpr std::size_t lines_of_local_misfit = 24;
-
-/// The part of a response where a fit leaves most.
-struct LocalMisfit {
-  double misfit = 0.0;   ///< root mean square of residual / standard deviation of the noise
-  double lowest = 0.0;   ///< rad/s
-  double highest = 0.0;  ///< rad/s
-};
-
-/// What a fit leaves of the points that stand clear of their noise: of others, as where a sweep ends, the noise itself
-/// is hardly known. Without the first and the last point, into which what lies outside the band leaks.
-struct ClearMisfit {
-  double misfit = 0.0;    ///< root mean square of residual / standard deviation of the noise
-  std::size_t lines = 0;  ///< how many points
-  LocalMisfit local{};    ///< of `lines_of_local_misfit` of them, where it is largest
-};
-
 /// A structure fitted to a measured response.
 struct ParameterFit {
   Device device;  ///< the structure with the fitted values, and the uncertainty of the identifiable ones
@@ -91,24 +65,15 @@ struct ParameterFit {
   /// Root mean square of residual / standard deviation of the noise: near 1 for a right structure. Absent where the
   /// response has no variances.
   std::optional<double> misfit;
-  /// Absent where fewer than `lines_of_local_misfit` points stand clear of their noise.
-  std::optional<ClearMisfit> clear_misfit{};
   /// What the structure leaves unexplained beyond the noise, as a share of |P_i|: e in variance_i + e^2 |P_i|^2. 0
   /// where the noise explains the residuals.
   double model_error = 0.0;
-  /// K_CR (at the record's period, no virtual damper) of the fit to all points alike, where the one in `device` is held
-  /// to the measured critical point instead.
-  std::optional<double> stiffness_without_hold;
-  std::vector<double> frequencies{};              ///< of the points used, rad/s
-  std::vector<std::complex<double>> fitted{};     ///< the model there
-  std::vector<std::complex<double>> residuals{};  ///< measured - fitted
-  std::vector<Remark> remarks{};                  ///< residuals that betray a wrong structure, with where and what
-  bool settled = true;                   ///< the search came to rest; false: it was stopped while still improving
-  std::optional<double> missing_mode{};  ///< rad/s: the residual is a resonance there, which the structure lacks
-  /// model_error of a fit to the response with its sign turned round, where that explains much more.
-  std::optional<double> model_error_if_turned{};
-  /// The measured critical point that the fit is held to is a guess (measured_stiffness() does not find it).
-  bool held_to_a_guess = false;
+  std::optional<double> stiffness_without_hold{};  ///< always absent: every fit counts all points alike
+  std::vector<double> frequencies{};               ///< of the points used, rad/s
+  std::vector<std::complex<double>> fitted{};      ///< the model there
+  std::vector<std::complex<double>> residuals{};   ///< measured - fitted
+  std::vector<Remark> remarks{};                   ///< of what the data leave open
+  bool settled = true;  ///< the search came to rest; false: it was stopped while still improving
 };
 
 /// The parameters that ParameterFitOptions::free means when it is empty.
@@ -129,14 +94,15 @@ struct ParameterFit {
 /// where P is the exact sampled plant of the record's own period (hold, delay and lag included), or the continuous
 /// G(jw) e^{-jw t_d} of a table. e is the least model error for which the median residual is what it should be (0 where
 /// the noise explains it; the whole weight where variances are unknown), so that friction or a missing mode is not
-/// mistaken for information. Where the residuals stand out of the noise (clear_misfit) and e exceeds that at the measured
-/// critical point -1/K_CR (measured_stiffness()), the fit is repeated with the model held to that point: the device then has the measured K_CR, which friction at the
-/// other points would otherwise shift. The covariance is that of the normal equations at the solution, widened where
-/// residuals of neighbouring points are correlated or larger than their deviations. The fitted device's sampling_period
-/// is the structure's. Parameters that may be 0 are bounded there. Requires a device of bodies, known keys and names,
-/// an actuated and a sensed body that are not locked, 1 to max_free_parameters free ones and more points than that;
-/// throws Error (invalid_argument, no_such_body) otherwise, (did_not_converge) when the fit does not. Source: Díaz &
-/// Gil, section II (locked device, chirp); Pintelon & Schoukens, System Identification, ch. 9.
+/// mistaken for information. The covariance is that of the normal equations at the solution, widened where residuals of
+/// neighbouring points are correlated or larger than their deviations. Parameters that may be 0 are bounded there. The
+/// fitted device's sampling_period is the structure's.
+///
+/// It is linear, and judges nothing: what moves the device beside its linear equations stands in the numbers. identify()
+/// begins its search there. Requires a device of bodies, known keys and names, an actuated and a sensed body that are not
+/// locked, 1 to max_free_parameters free ones and more points than that; throws Error (invalid_argument, no_such_body)
+/// otherwise, (did_not_converge) when the fit does not. Source: Díaz & Gil, section II (locked device, chirp); Pintelon &
+/// Schoukens, System Identification, ch. 9.
 [[nodiscard]] ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& response,
                                           const ParameterFitOptions& options = {});
 

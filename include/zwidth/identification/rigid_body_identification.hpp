@@ -35,12 +35,18 @@ struct RigidBodyIdentification {
 
 /// Identifies one rigid body with dry friction from force and position: identify_rigid_body(), judged.
 ///
+/// For records in feedback, or of slow and ordinary motion: their equations have a least-squares fit of one rigid body. A record
+/// that was made to identify a device is identify()'s.
+///
 /// Friction that comes out below 0 is taken as 0, and said. The device's delay is what exceeds that of a held force, not
-/// below 0, and stands in its covariance. Doubtful where more than a tenth of the force stays unexplained, where the
-/// crossover that limits lies outside the excited band or the covariance leaves K_CR open (is_inconclusive()), where the delay
-/// does not show, where the body is not rigid, where a force shows that hangs on the position in no linear way (cogging,
-/// a spring that stiffens), or where a signal is clipped; refused where more than half stays unexplained. Requires two channels (force, position); throws Error (invalid_argument) where
-/// find_problem(options) finds one, where the fitted mass is not above 0, and as identify_rigid_body() does.
+/// below 0, and stands in its covariance. Sound where the interval of K_CR is within a factor of 1.5 and nothing contradicts.
+/// Doubtful where it is wider, or where the data contradict what is taken for true: a column states another quantity or
+/// motion, a signal is clipped, the body is not rigid, friction drives it, more than a tenth of the force stays
+/// unexplained, the delay does not show, or the crossover that limits lies outside the excited band, of which a rigid body
+/// says nothing. Refused where more than half of the force stays unexplained.
+///
+/// Requires two channels (force, position); throws Error (invalid_argument) where find_problem(options) finds one, where the
+/// fitted mass is not above 0 (a sign is turned), and as identify_rigid_body() does.
 [[nodiscard]] RigidBodyIdentification identify_rigid_body(const Recording& recording,
                                                           const RigidBodyOptions& options = {},
                                                           const Progress& progress = {});

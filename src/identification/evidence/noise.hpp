@@ -5,13 +5,19 @@
 
 namespace zwidth::internal {
 
-/// A filter that makes what is left of a record white: e[k] = sum_j filter[j] r[k - j] / deviation.
+/// A filter that makes what is left of a record white:
+///
+///     e[k] = (sum_j filter[j] r[k - j] + sum_m means[m] mean(r[k - 2 n], ..., r[k - n - 1]) ) / deviation,   n = order 2^m
+///
+/// order: that of `filter`. Before the first sample r is as there.
 struct Noise {
   std::vector<double> filter = {1.0};
+  std::vector<double> means = {};  ///< of the past, each twice as long and as far as the one before
   double deviation = 1.0;
 };
 
-/// An autoregression of residuals by least squares (Hannan & Deistler 1988, ch. 5), all of one record.
+/// An autoregression of residuals by least squares, all of one record: its own `order` last values, and means of those before,
+/// up to a twelfth of the shortest of `residuals` (Corsi 2009, whose means tell slow noise with few numbers).
 ///
 /// Motion that a disturbance makes is the device's own response, measurement noise is white: the filter holds both, so that each
 /// frequency counts by its noise, drift included. `step`: of the encoder; its rounding, step / sqrt(12), is the least deviation.

@@ -5,8 +5,9 @@
 
 namespace zwidth::internal {
 
-SumOfEvidence::SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts)
-    : numbers_(std::move(numbers)), parts_(std::move(parts)) {}
+SumOfEvidence::SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts,
+                             std::function<void()> tell)
+    : numbers_(std::move(numbers)), parts_(std::move(parts)), tell_(std::move(tell)) {}
 
 Eigen::VectorXd SumOfEvidence::lowest() const {
   Eigen::VectorXd bounds(count());
@@ -48,6 +49,7 @@ std::optional<double> SumOfEvidence::cost(const Eigen::VectorXd& z) const {
 }
 
 std::optional<Picture> SumOfEvidence::picture(const Eigen::VectorXd& z) const {
+  if (tell_) tell_();
   Picture sum{0.0, Eigen::VectorXd::Zero(z.size()), Eigen::MatrixXd::Zero(z.size(), z.size())};
   for (Eigen::Index i = 0; i < count(); ++i) {
     const Number& number = numbers_[static_cast<std::size_t>(i)];

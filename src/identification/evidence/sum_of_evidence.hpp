@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace zwidth::internal {
 ///     cost(z) = sum_i ((x_i - expected_i) / deviation_i)^2 / 2 + sum of the evidences' costs
 class SumOfEvidence : public LeastSquaresProblem {
  public:
-  SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts);
+  /// `tell` is called at each picture; what it throws ends the work.
+  SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts,
+                std::function<void()> tell = {});
 
   [[nodiscard]] Eigen::VectorXd lowest() const override;
   [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& z) const override;
@@ -28,6 +31,7 @@ class SumOfEvidence : public LeastSquaresProblem {
 
   std::vector<Number> numbers_;
   std::vector<std::shared_ptr<const PartOfEvidence>> parts_;
+  std::function<void()> tell_;
 };
 
 }  // namespace zwidth::internal

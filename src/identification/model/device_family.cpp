@@ -34,6 +34,13 @@ DeviceFamily::DeviceFamily(DeviceParameters structure, std::vector<Number> numbe
   for (const Number& each : numbers_) {
     if (parameter(structure_, each.key) || (further_body_ && is_of(*further_body_, each.key))) ++of_device_;
     has_lag_ = has_lag_ || each.key == lag_of_actuator;
+    has_damping_drift_ = has_damping_drift_ || each.key == key_of_damping_drift;
+    has_delay_drift_ = has_delay_drift_ || each.key == key_of_delay_drift;
+  }
+  of_limit_ = of_device_;
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const bool drifts = numbers_[i].key == key_of_damping_drift || numbers_[i].key == key_of_delay_drift;
+    if (drifts) of_limit_ = static_cast<Eigen::Index>(i) + 1;
   }
 }
 
@@ -63,8 +70,23 @@ void DeviceFamily::add_further_body(DeviceParameters& values, const Eigen::Vecto
   values.bodies.push_back({further_name, mass});
 }
 
-DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x) const {
+DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x) const { return finished(values_at(x), x); }
+
+DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, double share) const {
+  constexpr double middle = 0.5;
   DeviceParameters values = values_at(x);
+  if (has_damping_drift_) {
+    const double left = std::max(0.0, 1.0 + value_of(key_of_damping_drift, x) * (share - middle));
+    for (Body& body : values.bodies) {
+      if (std::ranges::find(numbers_, "body." + body.name + ".damping", &Number::key) != numbers_.end())
+        body.damping *= left;
+    }
+  }
+  if (has_delay_drift_) values.loop.delay = std::max(0.0, values.loop.delay + value_of(key_of_delay_drift, x) * share);
+  return finished(std::move(values), x);
+}
+
+DeviceParameters DeviceFamily::finished(DeviceParameters values, const Eigen::VectorXd& x) const {
   if (further_body_ && value_of(further_body_->mass_ratio, x) >= least_mass_ratio) add_further_body(values, x);
   if (!has_lag_) return values;
   double& lag = values.actuator.time_constant;

@@ -22,6 +22,10 @@ struct FurtherBody {
   std::string damping_ratio;  ///< key of zeta
 };
 
+/// Keys of numbers by which a device changes while it is recorded; they move nothing but what device_at() says of a moment.
+inline constexpr const char* key_of_damping_drift = "damping_drift";  ///< share of all free dampings to the ground
+inline constexpr const char* key_of_delay_drift = "delay_drift";      ///< s
+
 /// The devices that a fit looks among: a structure, and the numbers of it that are free.
 ///
 /// The delay and the lag of an actuator act alike at low frequency: where the lag is a number, the number "loop.delay" is the sum
@@ -36,10 +40,16 @@ class DeviceFamily {
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return numbers_; }
   /// How many are the device's.
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
+  /// How many of the first numbers device_at() hangs on, at any moment.
+  [[nodiscard]] Eigen::Index of_limit() const noexcept { return of_limit_; }
   /// It is the last body of recorded_device().
   [[nodiscard]] bool has_further_body() const noexcept { return further_body_.has_value(); }
   /// As a device file has it, nothing locked: no delay below 0, no further body that is next to none.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;
+  /// As it is when `share` of a record is over, 0 to 1:
+  ///
+  ///     b_i <- b_i max(0, 1 + damping_drift (share - 1/2)),  delay <- max(0, delay + delay_drift share)
+  [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x, double share) const;
   /// Whether the numbers make a device, with its further body too: recorded_device() throws where not.
   [[nodiscard]] bool has_device_at(const Eigen::VectorXd& x) const;
   /// As it was recorded: bodies locked, the delay left out (played_delay()).
@@ -51,6 +61,8 @@ class DeviceFamily {
 
  private:
   [[nodiscard]] DeviceParameters values_at(const Eigen::VectorXd& x) const;
+  /// Of values before the lag is taken from the delay.
+  [[nodiscard]] DeviceParameters finished(DeviceParameters values, const Eigen::VectorXd& x) const;
   [[nodiscard]] double value_of(const std::string& key, const Eigen::VectorXd& x) const;
   void add_further_body(DeviceParameters& values, const Eigen::VectorXd& x) const;
 
@@ -59,6 +71,9 @@ class DeviceFamily {
   std::vector<std::string> locked_;
   std::optional<FurtherBody> further_body_;
   Eigen::Index of_device_ = 0;
+  Eigen::Index of_limit_ = 0;
+  bool has_damping_drift_ = false;
+  bool has_delay_drift_ = false;
   bool has_lag_ = false;
 };
 

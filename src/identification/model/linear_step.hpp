@@ -21,6 +21,7 @@ struct LinearStep {
   Eigen::MatrixXd columns;
   /// d columns / dx, rearranged: by column of `columns`, rows as many as x has, a column per number of the device.
   std::vector<Eigen::MatrixXd> slopes;
+  double length = 0.0;  ///< s, of one
 };
 [[nodiscard]] LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::MatrixXd>& slopes,
                                      double length, int count);

@@ -7,15 +7,6 @@
 #include "identification/model/segment_player.hpp"
 
 namespace zwidth::internal {
-namespace {
-
-/// The recorded force as the device feels it: 0 before the record and behind it.
-double command_at(const ForceMotionRecord& record, std::ptrdiff_t sample) {
-  const auto size = static_cast<std::ptrdiff_t>(record.force.size());
-  return sample < 0 || sample >= size ? 0.0 : record.force[static_cast<std::size_t>(sample)];
-}
-
-}  // namespace
 
 MotionModel::MotionModel(DeviceFamily family, MotionTerms terms, std::vector<ForceMotionRecord> records, int parts)
     : family_(std::move(family)), terms_(std::move(terms)), records_(std::move(records)), parts_(parts) {
@@ -83,13 +74,18 @@ std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorX
     for (Eigen::Index i = 0; with_slopes && i < this->states(); ++i) player.slopes(i, numbers + i) = unit(i);
     if (with_slopes && sensed_ != 0) player.slopes(0, numbers + sensed_) = -unit(sensed_);
 
+    player.bend_as_recorded(record, segment.first);
+
     PlayedSegment& out = played[s];
     out.positions.resize(static_cast<Eigen::Index>(segment.count));
     out.slopes.resize(with_slopes ? static_cast<Eigen::Index>(segment.count) : 0, columns);
     SegmentPlayer::Row older_slopes(0);
     SegmentPlayer::Row newer_slopes(0);
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(segment.first) - device->delay_samples;
-    double older = player.given(command_at(record, first - 1), older_slopes);
+    const auto share_at = [&](std::size_t k) {
+      return static_cast<double>(segment.first + k) / static_cast<double>(record.position.size());
+    };
+    double older = player.given(record, first - 1, share_at(0), older_slopes);
     if (player.x.size() > this->states()) player.x(this->states()) = older;  // the lagged force
     for (std::size_t k = 0; k < segment.count; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
@@ -98,9 +94,9 @@ std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorX
         out.slopes.row(row) = player.slopes.row(0);
         if (sensed_ != 0) out.slopes.row(row) += player.slopes.row(sensed_);
       }
-      const double share = static_cast<double>(segment.first + k) / static_cast<double>(record.position.size());
+      const double share = share_at(k);
       for (int part = 0; part < device->before.count; ++part) player.move(device->before, older, older_slopes, share);
-      const double newer = player.given(command_at(record, first + static_cast<std::ptrdiff_t>(k)), newer_slopes);
+      const double newer = player.given(record, first + static_cast<std::ptrdiff_t>(k), share, newer_slopes);
       for (const auto& [number, slope] : device->instants) {
         if (with_slopes) player.slopes.col(number) += device->input * ((older - newer) * slope);
       }

@@ -6,6 +6,10 @@
 
 namespace zwidth::internal {
 
+/// A factor of 28 either way at one sigma: what is believed of a mass or a link's stiffness before its record, as the deviation of
+/// its logarithm. An assumption, weak on purpose.
+inline constexpr double deviation_of_logarithm = 3.3;
+
 /// A number of the fit: of the device, by its key, or of a rival, by a name of its own ("drag.motor").
 struct Number {
   static constexpr double least_square = 1e-4;  ///< of what acts in the second order alone

@@ -4,8 +4,18 @@
 #include <cmath>
 
 #include "identification/model/friction_step.hpp"
+#include "identification/model/presliding_step.hpp"
 
 namespace zwidth::internal {
+namespace {
+
+/// The recorded force: 0 before the record, the last one behind it.
+double command_at(const ForceMotionRecord& record, std::ptrdiff_t sample) {
+  const auto size = static_cast<std::ptrdiff_t>(record.force.size());
+  return sample < 0 ? 0.0 : record.force[static_cast<std::size_t>(std::min(sample, size - 1))];
+}
+
+}  // namespace
 
 PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
                            std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
@@ -36,9 +46,20 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   }
   for (const FrictionTerm& term : terms.frictions) {
     frictions.push_back({index(term.body), place(term.number), value(place(term.number))});
+    if (!term.presliding_length) continue;
+    constexpr double least_length = 0.01;  // of a unit: shorter, and it sticks
+    const Eigen::Index length = place(*term.presliding_length);
+    if (value(length) < least_length * numbers[static_cast<std::size_t>(length)].unit) continue;
+    frictions.back().length_number = length;
+    frictions.back().length = value(length);
   }
   if (terms.drive.dead_band) dead_band_number = place(*terms.drive.dead_band);
   if (terms.drive.saturation) saturation_number = place(*terms.drive.saturation);
+  if (terms.drive.delay_drift) {
+    drift_number = place(*terms.drive.delay_drift);
+    drift = value(*drift_number) / period;
+    drift_slope = number_slopes(*drift_number) / period;
+  }
   dead_band = dead_band_number ? value(*dead_band_number) : 0.0;
   limit = largest_force - (saturation_number ? value(*saturation_number) : 0.0);
 
@@ -68,10 +89,32 @@ SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Ei
       slopes(Slopes::Zero(device.input.size(), device.with_slopes ? columns : 0)),
       device_(device),
       bodies_(bodies),
+      bend_slopes_(decltype(bend_slopes_)::Zero(bodies, slopes.cols())),
       forces_(bodies),
       force_slopes_(bodies, slopes.cols()) {}
 
-double SegmentPlayer::given(double command, Row& command_slopes) const {
+double SegmentPlayer::given(const ForceMotionRecord& record, std::ptrdiff_t sample, double share,
+                            Row& command_slopes) const {
+  if (!device_.drift_number) return through_drive(command_at(record, sample), command_slopes);
+  const double late = device_.drift * share;
+  const double whole = std::floor(late);
+  const double weight = late - whole;
+  sample -= static_cast<std::ptrdiff_t>(whole);
+  Row earlier_slopes(0);
+  const double newer = through_drive(command_at(record, sample), command_slopes);
+  const double earlier = through_drive(command_at(record, sample - 1), earlier_slopes);
+  if (slopes.cols() > 0) {
+    if (earlier_slopes.size() > 0) {
+      command_slopes = (1.0 - weight) * command_slopes + weight * earlier_slopes;
+    } else {
+      command_slopes.setZero(slopes.cols());
+    }
+    command_slopes(*device_.drift_number) = (earlier - newer) * share * device_.drift_slope;
+  }
+  return (1.0 - weight) * newer + weight * earlier;
+}
+
+double SegmentPlayer::through_drive(double command, Row& command_slopes) const {
   if (!device_.dead_band_number && !device_.saturation_number) return command;
   const double direction = command < 0.0 ? -1.0 : 1.0;
   const double through = std::max(0.0, std::abs(command) - device_.dead_band);
@@ -81,6 +124,28 @@ double SegmentPlayer::given(double command, Row& command_slopes) const {
   if (command_slopes.size() > 0 && number && through > 0.0)
     command_slopes(*number) = -direction * device_.number_slopes(*number);
   return direction * std::min(through, device_.limit);
+}
+
+void SegmentPlayer::bend_as_recorded(const ForceMotionRecord& record, std::size_t sample) {
+  constexpr std::size_t reach = 200;
+  for (const PlayedDevice::Friction& friction : device_.frictions) {
+    if (!friction.length_number) continue;
+    double bend = 0.0;
+    double by_length = 0.0;
+    for (std::size_t k = sample < reach ? 0 : sample - reach; k < sample; ++k) {
+      const double change = record.position[k + 1] - record.position[k];
+      const double direction = change < 0.0 ? -1.0 : 1.0;
+      const double travel = std::abs(change) / friction.length;
+      const double left = std::exp(-travel);
+      by_length = left * by_length - (direction - bend) * left * travel / friction.length;
+      bend = direction - (direction - bend) * left;
+    }
+    bends_[static_cast<std::size_t>(friction.body)] = bend;
+    if (slopes.cols() > 0) {
+      const Eigen::Index number = *friction.length_number;
+      bend_slopes_(friction.body, number) = by_length * device_.number_slopes(number);
+    }
+  }
 }
 
 void SegmentPlayer::move(const LinearStep& step, double command, const Row& command_slopes, double share) {
@@ -161,7 +226,7 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
   const std::size_t count = device_.frictions.size();
   const int sweeps = count > 1 ? most_sweeps : 1;
   const Eigen::Index first = x.size() + 1;
-  std::array<FrictionStep, most_bodies> steps = {};
+  std::array<PreslidingStep, most_bodies> steps = {};
   const auto body = [&](std::size_t i) { return device_.frictions[i].body; };
   const auto compliance = [&](std::size_t on, std::size_t of) {
     return step.columns(bodies_ + body(on), first + body(of));
@@ -171,10 +236,19 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
     for (std::size_t i = 0; i < count; ++i) {
       double free = x(bodies_ + body(i));
       for (std::size_t j = 0; j < count; ++j) free += j == i ? 0.0 : compliance(i, j) * forces_(body(j));
-      steps[i] = friction_step(before_(bodies_ + body(i)), free, device_.frictions[i].limit, compliance(i, i));
-      forces_(body(i)) = (steps[i].velocity - free) / compliance(i, i);
+      const PlayedDevice::Friction& friction = device_.frictions[i];
+      const double before = before_(bodies_ + body(i));
+      if (friction.length_number) {
+        steps[i] = presliding_step(before, free, friction.limit, compliance(i, i),
+                                   bends_[static_cast<std::size_t>(body(i))], friction.length, step.length);
+      } else {
+        const FrictionStep sticks = friction_step(before, free, friction.limit, compliance(i, i));
+        steps[i].velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};
+      }
+      forces_(body(i)) = (steps[i].velocity.value - free) / compliance(i, i);
     }
   }
+  for (std::size_t i = 0; i < count; ++i) bends_[static_cast<std::size_t>(body(i))] = steps[i].bend.value;
   if (slopes.cols() == 0) return;
   force_slopes_.setZero();
   const Eigen::Index numbers = step.slopes.front().cols();
@@ -182,8 +256,10 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
     return step.slopes[static_cast<std::size_t>(first + body(of))].row(bodies_ + body(on));
   };
   for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const bool is_last = sweep + 1 == sweeps;
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Index row = bodies_ + body(i);
+      const PlayedDevice::Friction& friction = device_.frictions[i];
       Row free = slopes.row(row);
       for (std::size_t j = 0; j < count; ++j) {
         if (j == i) continue;
@@ -192,11 +268,22 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
       }
       // (v - v_free) / compliance
       auto force = force_slopes_.row(body(i));
-      force = (steps[i].by_free - 1.0) * free + steps[i].by_before * before_slopes_.row(row);
-      const Eigen::Index number = device_.frictions[i].number;
-      force(number) += steps[i].by_limit * device_.number_slopes(number);
-      force.head(numbers) += (steps[i].by_compliance - forces_(body(i))) * compliance_slopes(i, i);
+      const auto change_of = [&](const PreslidingStep::End& end, double by_free, double by_compliance) {
+        Row change = by_free * free + end.by_before * before_slopes_.row(row);
+        change(friction.number) += end.by_limit * device_.number_slopes(friction.number);
+        change.head(numbers) += by_compliance * compliance_slopes(i, i);
+        if (!friction.length_number) return change;
+        if (end.by_bend != 0.0) change += end.by_bend * bend_slopes_.row(body(i));
+        change(*friction.length_number) += end.by_length * device_.number_slopes(*friction.length_number);
+        return change;
+      };
+      const PreslidingStep::End& velocity = steps[i].velocity;
+      force = change_of(velocity, velocity.by_free - 1.0, velocity.by_compliance - forces_(body(i)));
       force /= compliance(i, i);
+      if (is_last && friction.length_number) {
+        const PreslidingStep::End& bend = steps[i].bend;
+        bend_slopes_.row(body(i)) = change_of(bend, bend.by_free, bend.by_compliance);
+      }
     }
   }
 }

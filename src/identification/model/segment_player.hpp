@@ -30,6 +30,8 @@ struct PlayedDevice {
     Eigen::Index body = 0;
     Eigen::Index number = 0;
     double limit = 0.0;
+    std::optional<Eigen::Index> length_number = {};
+    double length = 0.0;  ///< m or rad
   };
   bool with_slopes = false;
   LinearStep before;                 ///< until the command changes
@@ -43,8 +45,11 @@ struct PlayedDevice {
   std::vector<Friction> frictions;
   std::optional<Eigen::Index> dead_band_number;
   std::optional<Eigen::Index> saturation_number;
-  double dead_band = 0.0;  ///< N or N m
-  double limit = 0.0;      ///< N or N m
+  std::optional<Eigen::Index> drift_number;
+  double drift = 0.0;        ///< samples, by which the command is later at the record's end than at its beginning
+  double drift_slope = 0.0;  ///< samples per unit of x
+  double dead_band = 0.0;    ///< N or N m
+  double limit = 0.0;        ///< N or N m
 };
 
 /// A motion and how it changes, moved part by part. Rows of a body are contiguous: a step is a few sums of rows.
@@ -59,8 +64,12 @@ class SegmentPlayer {
   using Slopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_states, most_columns>;
   using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_columns>;
 
-  /// What the drive makes of a command, and its slopes where it has any.
-  [[nodiscard]] double given(double command, Row& slopes) const;
+  /// What the drive makes of the command of a sample when `share` of the record is over, and its slopes where it has any. A
+  /// drift of the delay takes the mean of two neighbours by their shares of the period: the impulse is exact, the position
+  /// to (omega T)^3 / 50.
+  [[nodiscard]] double given(const ForceMotionRecord& record, std::ptrdiff_t sample, double share, Row& slopes) const;
+  /// Friction that bends, bent as the recorded motion before a sample leaves it.
+  void bend_as_recorded(const ForceMotionRecord& record, std::size_t sample);
   /// One part; `share` of the record is over.
   void move(const LinearStep& step, double command, const Row& command_slopes, double share);
 
@@ -68,6 +77,7 @@ class SegmentPlayer {
   Slopes slopes;
 
  private:
+  [[nodiscard]] double through_drive(double command, Row& slopes) const;
   void add_forces(double share);
   void add_frictions(const LinearStep& step);
   /// x and slopes by the forces on the bodies so far.
@@ -75,6 +85,8 @@ class SegmentPlayer {
 
   const PlayedDevice& device_;
   Eigen::Index bodies_;
+  std::array<double, most_bodies> bends_ = {};
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_bodies, most_columns> bend_slopes_;
   State before_;
   Slopes before_slopes_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_bodies, 1> forces_;

@@ -1,5 +1,6 @@
 #include "identification/verdict/profile.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,9 +10,85 @@
 namespace zwidth::internal {
 namespace {
 
-/// By differences within a share of each coordinate's deviation.
-Eigen::VectorXd gradient_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied,
-                            const Eigen::VectorXd& lowest) {
+/// The move d that changes a number most, by slope'd, at a cost of `allowed`:
+///
+///     min w slope'd + g'd + d'(H + damping diag H) d / 2,    w by bisection
+Eigen::VectorXd step_to_cost(const Picture& here, const Eigen::VectorXd& slope, const Eigen::VectorXd& lowest,
+                             double damping, double allowed) {
+  Eigen::MatrixXd hessian = here.hessian;
+  hessian.diagonal() *= 1.0 + damping;
+  const auto move_at = [&](double weight) { return bounded_step(hessian, here.gradient + slope * weight, lowest); };
+  const auto promised = [&](const Eigen::VectorXd& move) {
+    return here.cost + here.gradient.dot(move) + 0.5 * move.dot(here.hessian * move);
+  };
+  double low = 0.0;
+  double high = 1.0;
+  constexpr double most = 1e12;
+  while (promised(move_at(high)) < allowed && high < most) high *= 4.0;
+  for (int i = 0; i < 40 && high - low > 1e-3 * high; ++i) {
+    const double middle = 0.5 * (low + high);
+    (promised(move_at(middle)) < allowed ? low : high) = middle;
+  }
+  return move_at(0.5 * (low + high));
+}
+
+}  // namespace
+
+ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
+                       Eigen::Index varied, double direction, double rise) {
+  constexpr int most_steps = 12;
+  constexpr double enough = 0.05;      // of the rise
+  constexpr double better = 0.15;      // of the rise
+  constexpr double still = 2e-4;       // of the logarithm
+  constexpr double most_damping = 10;  // of the curvature
+  const Eigen::VectorXd lowest = problem.lowest();
+  const double middle = number(minimum.z).value_or(0.0);
+  ProfileEnd end{middle, minimum.z, false, false};
+  Eigen::VectorXd z = minimum.z;
+  Picture here = minimum.picture;
+  double before = middle;
+  double damping = 0.0;
+  const double allowed = minimum.picture.cost + rise;
+  for (int step = 0; step < most_steps;) {
+    const Eigen::VectorXd slope = -direction * slope_of(number, z, varied, lowest);
+    const Eigen::VectorXd move = step_to_cost(here, slope, lowest - z, damping, allowed);
+    const double worst = std::max(here.cost, allowed) + rise;
+    const std::optional<double> cost = problem.cost(z + move);
+    const std::optional<double> value = number(z + move);
+    std::optional<Picture> picture;
+    if (cost && value && *cost <= worst) picture = problem.picture(z + move);
+    if (!picture) {  // what the data hardly tell goes too far: less of it
+      damping = std::max(1e-6, 30.0 * damping);
+      if (damping > most_damping) break;
+      continue;
+    }
+    ++step;
+    z += move;
+    here = *std::move(picture);
+    if (here.cost < minimum.picture.cost - rise * better) {
+      end.found_better = true;
+      end.z = z;
+      return end;
+    }
+    const bool is_within = here.cost <= allowed + enough * rise;
+    if (is_within && (*value - end.value) * direction > 0.0) {
+      end.value = *value;
+      end.z = z;
+    }
+    const bool stands_still = std::abs(*value - before) < still + 0.01 * std::abs(*value - middle);
+    before = *value;
+    if (is_within && stands_still) {
+      end.settled = true;
+      break;
+    }
+    damping *= 0.1;
+    if (damping < 1e-6) damping = 0.0;
+  }
+  return end;
+}
+
+Eigen::VectorXd slope_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied,
+                         const Eigen::VectorXd& lowest) {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(z.size());
   for (Eigen::Index i = 0; i < varied; ++i) {
     const double step = 1e-4 * std::max(1e-2, std::abs(z(i)));
@@ -26,68 +103,17 @@ Eigen::VectorXd gradient_of(const LogOf& number, const Eigen::VectorXd& z, Eigen
   return gradient;
 }
 
-}  // namespace
+Eigen::VectorXd covariance_times(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& vector) {
+  return covariance_of(hessian) * vector;
+}
 
-ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
-                       Eigen::Index varied, double direction, double rise) {
-  constexpr int most_steps = 12;
-  constexpr double enough = 0.05;  // of the rise
-  constexpr double better = 0.15;  // of the rise
-  constexpr double still = 2e-4;   // of the logarithm
-  const Eigen::VectorXd lowest = problem.lowest();
-  ProfileEnd end{number(minimum.z).value_or(0.0), minimum.z, false, false};
-  Eigen::VectorXd z = minimum.z;
-  Picture here = minimum.picture;
-  const double allowed = minimum.picture.cost + rise;
-  for (int step = 0; step < most_steps; ++step) {
-    const Eigen::VectorXd slope = -direction * gradient_of(number, z, varied, lowest);
-    // min slope'd + w (g'd + d'H d / 2): w by bisection so that the promised cost is what is allowed.
-    const auto move_at = [&](double weight) {
-      return bounded_step(here.hessian, here.gradient + slope * weight, lowest - z);
-    };
-    const auto promised = [&](const Eigen::VectorXd& move) {
-      return here.cost + here.gradient.dot(move) + 0.5 * move.dot(here.hessian * move);
-    };
-    double low = 0.0;
-    double high = 1.0;
-    while (promised(move_at(high)) < allowed && high < 1e12) high *= 4.0;
-    for (int i = 0; i < 40 && high - low > 1e-4 * high; ++i) {
-      const double middle = 0.5 * (low + high);
-      (promised(move_at(middle)) < allowed ? low : high) = middle;
-    }
-    const Eigen::VectorXd move = move_at(0.5 * (low + high));
-    double share = 1.0;
-    std::optional<double> cost;
-    const double worst = std::max(here.cost, allowed) + 2.0 * rise;
-    for (; share > 1e-3; share *= 0.5) {
-      cost = problem.cost(z + share * move);
-      if (cost && *cost <= worst) break;
-    }
-    if (!cost || *cost > worst) break;
-    const Eigen::VectorXd there = z + share * move;
-    std::optional<Picture> picture = problem.picture(there);
-    const auto value = number(there);
-    if (!picture || !value) break;
-    const double before = number(z).value_or(0.0);
-    z = there;
-    here = *std::move(picture);
-    if (here.cost < minimum.picture.cost - rise * better) {
-      end.found_better = true;
-      end.z = z;
-      return end;
-    }
-    const bool is_within = here.cost <= allowed + enough * rise;
-    if (is_within && (*value - end.value) * direction > 0.0) {
-      end.value = *value;
-      end.z = z;
-    }
-    if (is_within && std::abs(*value - before) < still + 0.01 * std::abs(*value - number(minimum.z).value_or(0.0)) &&
-        share == 1.0) {
-      end.settled = true;
-      break;
-    }
-  }
-  return end;
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& hessian) {
+  constexpr double least = 1e-13;
+  const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
+  scaled.diagonal().array() += least;
+  const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+  return unit.asDiagonal() * inverse * unit.asDiagonal();
 }
 
 }  // namespace zwidth::internal

@@ -28,4 +28,12 @@ struct ProfileEnd {
 [[nodiscard]] ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
                                      Eigen::Index varied, double direction, double rise);
 
+/// How the number changes with each of the first `varied` elements of z; by differences.
+[[nodiscard]] Eigen::VectorXd slope_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied,
+                                       const Eigen::VectorXd& lowest);
+
+/// H^-1 v and H^-1, in units in which the diagonal of H is 1: what the data hardly tell stays apart from rounding.
+[[nodiscard]] Eigen::VectorXd covariance_times(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& vector);
+[[nodiscard]] Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& hessian);
+
 }  // namespace zwidth::internal

@@ -15,19 +15,19 @@
 
 #include "identification/campaign/bench.hpp"
 #include "identification/campaign/recording.hpp"
-#include "identification/likelihood_fit.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
-#include "zwidth/identification/time_domain.hpp"
 #include "zwidth/io/recorded_columns.hpp"
 #include "zwidth/progress.hpp"
 
 /// What identify() makes of a record of the campaign.
 namespace zwidth::test::campaign {
 
-enum class Method { identify, in_time, response, likelihood };
+/// `identify`: what the motion shows; `lines`: what the lines of its response show, of a linear device; `response`: the limit
+/// that they show without a structure.
+enum class Method { identify, lines, response };
 
 struct JudgeOptions {
   Method method = Method::identify;
@@ -182,27 +182,12 @@ inline Line judged(const Case& made, std::uint64_t noise, const JudgeOptions& op
     const Device structure(made.structure);
     if (options.method == Method::response) {
       detail::take(line, reasons, frequency_response(recordings, {}, in_budget));
-    } else if (options.method == Method::likelihood) {
-      const auto found = internal::fit_by_likelihood(recordings, structure,
-                                                     {.free = made.free, .locked = made.locked, .known = made.known});
-      constexpr double widest = 1.5;  // of a sound interval
-      if (found) {
-        line.verdict = found->upper <= widest * found->lower ? "sound" : "doubtful";
-        line.value = found->stiffness;
-        line.lower = found->lower;
-        line.upper = found->upper;
-      }
-    } else if (options.method == Method::in_time) {
-      TimeDomainOptions how;
-      how.structure_values = values;
-      how.free = made.free;
-      how.locked = made.locked;
-      detail::take(line, reasons, identify_in_time(recordings, structure, how, in_budget));
     } else {
       IdentifyOptions how;
       how.structure_values = values;
       how.fit.free = made.free;
       how.fit.locked = made.locked;
+      if (options.method == Method::lines) how.method = IdentifyOptions::Method::lines;
       detail::take(line, reasons, identify(recordings, structure, how, in_budget));
     }
   } catch (const detail::OverBudget&) {

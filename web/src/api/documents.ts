@@ -9,6 +9,7 @@ export type {
   Finding,
   Region,
   Relay,
+  Rival,
   Remark,
   Simulation,
   HolderLimit,
@@ -28,7 +29,7 @@ export type FrequencyResponse = made.Frf & Required<Pick<made.Frf, ColumnOfRespo
 type ColumnOfResponse = 'frequency_hz' | 'magnitude' | 'magnitude_lower' | 'magnitude_upper' | 'phase_rad' | 'coherence'
 /** What an upload answers. */
 export type Recording = made.Recording & { id: string }
-/** By the response or in time, or of inverse dynamics, which have no units and state no limit but how much force stays unexplained. */
+/** Of a recording, or of inverse dynamics, which have no units and state no limit but how much force stays unexplained. */
 export type Identification = Omit<made.Identification, 'units'> &
   Partial<Pick<made.Identification, 'units'> & Pick<made.InverseDynamics, 'relative_residual'>>
 

@@ -104,7 +104,8 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   await page.getByLabel('Fit', { exact: true }).selectOption('rigid')
   await page.getByLabel('By', { exact: true }).selectOption('time-domain')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
-  await page.locator('#body-recording', { hasText: 'Body “body”: dry friction' }).waitFor()
+  await page.getByText(/^What else explains the record \(/).click()
+  await page.locator('#body-recording table', { hasText: 'coulomb friction (friction.body)' }).waitFor()
   const inTime = documentOf(
     'identify',
     'recordings/free_motion.csv',
@@ -141,6 +142,8 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
     'position',
     '--structure',
     'two-body',
+    '--method',
+    'frequency-response',
     '--locked',
     'handle',
   ) as { critical_stiffness: number }

@@ -1,41 +1,40 @@
 #include <algorithm>
-#include <string_view>
 
 #include "identification/model/rivals/catalogue.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-/// -d (share - 1/2) v: damping that changes by d from a record's beginning to its end, as grease warms.
+/// -d b (share - 1/2) v: a body's damping b that changes by the share d from a record's beginning to its end, as grease warms.
 class DampingDriftLaw final : public ForceLaw {
  public:
   [[nodiscard]] LawForce at(const LawState& state, const double* numbers) const override {
     constexpr double middle = 0.5;
-    const double gone = state.share - middle;
-    return {-numbers[0] * gone * state.velocity, 0.0, -numbers[0] * gone, {-gone * state.velocity}};
+    const double gone = (state.share - middle) * state.velocity;
+    const double drift = numbers[0];
+    const double damping = numbers[1];
+    return {-drift * damping * gone, 0.0, -drift * damping * (state.share - middle), {-damping * gone, -drift * gone}};
   }
 };
 
-/// Of the linear damping, over the record (theory, section 10).
+/// Over the record (theory, section 10): a grease thins by 3 to 4 % a kelvin, and a motor that works hard warms by some kelvin.
 constexpr double drift_deviation = 0.2;
-constexpr const char* drift_key = "damping_drift";
 
+/// All free dampings to the ground change alike: a record hardly tells whose does. A given one stays as given.
 void add_damping_drift(const RivalSetting& setting, ModelParts& parts) {
-  const std::string key = parts.add({drift_key, Number::Scale::any, typical_damping(setting), 0.0, drift_deviation});
-  parts.terms.forces.push_back({std::make_shared<DampingDriftLaw>(), actuated_body(setting), "", {key}});
+  std::vector<std::pair<std::string, std::string>> bodies;
+  for (const std::string& body : moving_bodies_of(setting)) {
+    const std::string damping = "body." + body + ".damping";
+    if (parts.has(damping)) bodies.emplace_back(body, damping);
+  }
+  if (bodies.empty()) return;
+  const std::string drift = parts.add({key_of_damping_drift, Number::Scale::any, 1.0, 0.0, drift_deviation});
+  for (const auto& [body, damping] : bodies)
+    parts.terms.forces.push_back({std::make_shared<DampingDriftLaw>(), body, "", {drift, damping}});
 }
 
 }  // namespace
 
-DeviceParameters at_record_end(DeviceParameters device, const std::vector<Number>& numbers, const Eigen::VectorXd& x) {
-  const auto drift = std::ranges::find(numbers, std::string_view(drift_key), &Number::key);
-  if (drift == numbers.end() || device.bodies.empty()) return device;
-  constexpr double since_middle = 0.5;
-  double& damping = device.bodies[device.loop.actuated].damping;
-  damping = std::max(0.0, damping + since_middle * drift->value(x(drift - numbers.begin())));
-  return device;
-}
-
-Rival damping_drift() { return {"damping_drift", add_damping_drift, RivalMeasure::damping}; }
+Rival damping_drift() { return {"damping_drift", add_damping_drift, RivalMeasure::ratio}; }
 
 }  // namespace zwidth::internal

@@ -1,0 +1,64 @@
+#include "identification/evidence/given_numbers.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstddef>
+
+#include "identification/evidence/difference_slopes.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::internal {
+
+GivenNumbers::GivenNumbers(const DeviceFamily& family, const DeviceParameters& file, const Uncertainty& uncertainty)
+    : family_(family), keys_(uncertainty.parameters), values_(values_of(file)) {
+  constexpr double no_width = 1e-9;  // of a correlation matrix's eigenvalues
+  const Eigen::Index count = values_.size();
+  Eigen::MatrixXd covariance(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      covariance(i, j) = uncertainty.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+  }
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * covariance * scale.asDiagonal());
+  Eigen::Index left_out = 0;
+  while (left_out < count && solver.eigenvalues()(left_out) < no_width) ++left_out;
+  const Eigen::Index kept = count - left_out;
+  whitening_ = solver.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() *
+               solver.eigenvectors().rightCols(kept).transpose() * scale.asDiagonal();
+}
+
+Eigen::VectorXd GivenNumbers::values_of(const DeviceParameters& device) const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(keys_.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values(i) = parameter(device, keys_[static_cast<std::size_t>(i)]).value_or(0.0);
+  }
+  return values;
+}
+
+std::optional<Eigen::VectorXd> GivenNumbers::residuals(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd left = whitening_ * (values_of(family_.device_at(x)) - values_);
+  if (!left.allFinite()) return std::nullopt;
+  return left;
+}
+
+std::optional<double> GivenNumbers::cost(const Eigen::VectorXd& x, const Eigen::VectorXd& /*own*/) const {
+  const auto left = residuals(x);
+  if (!left) return std::nullopt;
+  return 0.5 * left->squaredNorm();
+}
+
+bool GivenNumbers::add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& /*own*/, Eigen::Index /*at*/,
+                               Picture& sum) const {
+  const auto left = residuals(x);
+  if (!left) return false;
+  const auto slopes =
+      difference_slopes(family_, x, *left, [&](const Eigen::VectorXd& moved) { return residuals(moved); });
+  if (!slopes) return false;
+  sum.cost += 0.5 * left->squaredNorm();
+  sum.gradient.head(x.size()) += slopes->transpose() * *left;
+  sum.hessian.topLeftCorner(x.size(), x.size()) += slopes->transpose() * *slopes;
+  return true;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,112 @@
+#include "identification/line_fit.hpp"
+
+#include <Eigen/LU>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "identification/evidence/given_numbers.hpp"
+#include "identification/evidence/limit_evidence.hpp"
+#include "identification/evidence/response_evidence.hpp"
+#include "identification/evidence/sum_of_evidence.hpp"
+#include "identification/fit/minimise.hpp"
+#include "identification/line_model.hpp"
+#include "identification/verdict/line_bands.hpp"
+#include "identification/verdict/profile.hpp"
+#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+/// log K_CR of the bare device; nothing where it has no limit.
+std::optional<double> log_limit(DeviceParameters device) {
+  device.wall.damping = 0.0;
+  if (find_problem(device)) return std::nullopt;
+  const CriticalStiffness found = critical_stiffness(Device(std::move(device)));
+  const bool is_finite = found.status == StiffnessStatus::finite && found.stiffness > 0.0;
+  return is_finite ? std::optional(std::log(found.stiffness)) : std::nullopt;
+}
+
+/// Of the numbers, others refitted; 0 for those that a bound holds, which the fit does not move.
+Eigen::MatrixXd moved_covariance(const LeastSquaresProblem& problem, const Minimum& best, Eigen::Index count) {
+  constexpr double near = 1e-9;
+  const Eigen::VectorXd bounds = problem.lowest();
+  Eigen::MatrixXd hessian = best.picture.hessian;
+  std::vector<Eigen::Index> held;
+  for (Eigen::Index i = 0; i < hessian.rows(); ++i) {
+    if (best.z(i) > bounds(i) + near) continue;
+    hessian.row(i).setZero();
+    hessian.col(i).setZero();
+    hessian(i, i) = 1.0;
+    held.push_back(i);
+  }
+  Eigen::MatrixXd inverse = hessian.fullPivLu().inverse();
+  for (const Eigen::Index i : held) inverse(i, i) = 0.0;
+  return inverse.topLeftCorner(count, count);
+}
+
+double p_of(const SumOfSquares& squares) {
+  if (!(squares.freedom > 0.0) || !std::isfinite(squares.sum)) return 1.0;
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(squares.freedom), squares.sum));
+}
+
+}  // namespace
+
+std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
+  constexpr double rise = 1.92;  // 95 %: half the quantile of chi-squared with one degree of freedom
+  constexpr int most_begins = 4;
+  constexpr MinimiseOptions fine{.most_steps = 60, .least_gain = 1e-4};
+  if (!setting.response && setting.limits.empty()) return std::nullopt;
+  if (!setting.response && !setting.known && frees_all(setting.free)) return std::nullopt;
+  const LineModel model = setting.response ? model_of_response(setting) : model_of_limits(setting);
+  if (model.numbers.empty()) return std::nullopt;
+  const DeviceFamily family(model.start, model.numbers, setting.locked);
+  std::vector<std::shared_ptr<const PartOfEvidence>> parts;
+  std::shared_ptr<ResponseEvidence> lines;
+  if (setting.response) parts.push_back(lines = std::make_shared<ResponseEvidence>(family, *setting.response));
+  const std::vector<MeasuredLimit> walls(setting.limits.begin(), setting.limits.end());
+  const auto limits = std::make_shared<LimitEvidence>(family, walls);
+  if (!walls.empty()) parts.push_back(limits);
+  if (model.given)
+    parts.push_back(std::make_shared<GivenNumbers>(family, setting.structure.parameters(), *model.given));
+  const SumOfEvidence likelihood(family.numbers(), parts);
+
+  const auto limit = [&](const Eigen::VectorXd& z) { return log_limit(family.device_at(z)); };
+  std::optional<Minimum> best = minimise(likelihood, likelihood.start(family.coordinates_of(model.start)), fine);
+  if (!best || !limit(best->z)) return std::nullopt;
+  const double shared = setting.response ? shared_noise(*setting.response) : 1.0;
+  ProfileEnd low;
+  ProfileEnd high;
+  for (int begins = 0; begins < most_begins; ++begins) {  // an end that is more likely than the best was none
+    low = profile_end(likelihood, *best, limit, family.of_device(), -1.0, rise * shared);
+    if (!low.found_better) high = profile_end(likelihood, *best, limit, family.of_device(), 1.0, rise * shared);
+    const ProfileEnd& better = low.found_better ? low : high;
+    if (!better.found_better) break;
+    auto again = minimise(likelihood, better.z, fine);
+    if (again && limit(again->z)) best = *std::move(again);
+  }
+
+  const auto count = static_cast<Eigen::Index>(model.numbers.size());
+  FittedByLines found{family.device_at(best->z), family.numbers(), best->z.head(count), {}};
+  SumOfSquares left;
+  if (lines) {
+    const Eigen::MatrixXd moved = moved_covariance(likelihood, *best, count);
+    left = squares_of_bands(family, *lines, *setting.response, best->z, moved);
+  }
+  if (!walls.empty()) {
+    // Of limits alone all that is fitted has a prior, which gives way: together they are as many squares as there are limits.
+    left.sum += lines ? 2.0 * limits->cost(found.x, {}).value_or(0.0) : 2.0 * best->picture.cost;
+    for (const MeasuredLimit& each : walls) left.freedom += each.frequency_hz ? 2.0 : 1.0;
+  }
+  found.covariance = shared * best->picture.hessian.fullPivLu().inverse().topLeftCorner(count, count);
+  found.lower = std::exp(low.value);
+  found.value = std::exp(*limit(best->z));
+  found.upper = std::exp(high.value);
+  found.settled = best->settled && low.settled && high.settled;
+  found.chi_squared_of_bands = p_of(left);
+  return found;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,174 @@
+#include "identification/line_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "identification/model/device_numbers.hpp"
+#include "identification/model/rivals/catalogue.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr const char* delay_of_lines = "loop.delay";
+constexpr const char* lag_of_lines = "actuator.time_constant";
+constexpr double known_to = 0.2;  // a number of a file that says nothing more
+
+bool is_named(const std::vector<std::string>& keys, const std::string& key) {
+  return std::ranges::find(keys, key) != keys.end();
+}
+
+/// How large numbers are that show in a response.
+RivalSetting setting_of_lines(const DeviceParameters& device, const LineFitSetting& setting) {
+  RivalSetting sizes{.device = device, .locked = setting.locked, .rms_force = 1.0, .largest_force = 1.0};
+  for (const ResponsePoint& point : setting.response->points) {
+    sizes.rms_position = std::max(sizes.rms_position, std::abs(point.value));
+    sizes.rms_speed = std::max(sizes.rms_speed, std::abs(point.value) * point.frequency);
+  }
+  sizes.largest_speed = sizes.rms_speed;
+  const double highest = setting.response->points.back().frequency;
+  sizes.highest_frequency = highest / (2.0 * std::numbers::pi);
+  sizes.sampling_period = setting.response->sampling_period.value_or(1.0 / highest);
+  return sizes;
+}
+
+/// A number of a device file as it is fitted to limits, whose prior is elsewhere.
+Number given_number(const std::string& key, double value, double deviation) {
+  const double open = std::numeric_limits<double>::infinity();
+  if (key.ends_with(".mass") || (key.starts_with("link.") && key.ends_with(".stiffness"))) {
+    return number_about(key, value, open);
+  }
+  return {.key = key, .unit = std::max(value, deviation)};
+}
+
+/// The part of an uncertainty that is of these numbers.
+Uncertainty part_of(const Uncertainty& all, const std::vector<std::size_t>& kept) {
+  Uncertainty part;
+  for (const std::size_t i : kept) {
+    part.parameters.push_back(all.parameters[i]);
+    part.covariance.emplace_back();
+    for (const std::size_t j : kept) part.covariance.back().push_back(all.covariance[i][j]);
+  }
+  return part;
+}
+
+/// Numbers of the file's [uncertainty] that are not open: fitted too, which it alone limits.
+void add_given(LineModel& model, const Uncertainty& file, const std::vector<std::string>& open) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < file.parameters.size(); ++i) {
+    const std::string key = full_parameter_key(model.start, file.parameters[i]);
+    const std::optional<double> value = parameter(model.start, key);
+    if (!value || !(file.covariance[i][i] > 0.0) || is_named(open, key)) continue;
+    kept.push_back(i);
+    model.numbers.push_back(given_number(key, *value, std::sqrt(file.covariance[i][i])));
+  }
+  if (!kept.empty()) model.given = part_of(file, kept);
+}
+
+/// A named number is open, one of a file that says nothing more is known to 20 %.
+Number number_of_limits(const std::string& key, const DeviceParameters& start, bool is_named_open) {
+  const std::optional<double> value = parameter(start, key);
+  if (!value) {
+    throw Error(ErrorCode::invalid_argument,
+                Problem{.code = ProblemCode::no_number_of_structure, .subjects = {{"key", key}}});
+  }
+  if (*value > 0.0) return number_about(key, *value, is_named_open ? deviation_of_logarithm : known_to);
+  const double period = start.loop.sampling_period;
+  double damping = 0.0;
+  for (const Body& body : start.bodies) damping += body.mass / period;
+  Number open = device_number(key, start, {period, damping, damping / period});
+  open.prior_deviation = 1.0;
+  return open;
+}
+
+/// A limit tells of a lag what it tells of a delay: a lag alone is fitted as a delay, both by their sum (DeviceFamily).
+void fit_lag_as_delay(LineModel& model) {
+  const auto lag = std::ranges::find(model.numbers, lag_of_lines, &Number::key);
+  if (lag == model.numbers.end()) return;
+  const double value = model.start.actuator.time_constant;
+  const auto delay = std::ranges::find(model.numbers, delay_of_lines, &Number::key);
+  if (delay != model.numbers.end()) {
+    if (delay->scale == Number::Scale::logarithmic) delay->unit += value;
+    return;
+  }
+  const bool is_open = lag->prior_deviation > 1.0 || value == 0.0;
+  double deviation = is_open ? model.start.loop.sampling_period : known_to * value;
+  if (model.given) {
+    const auto place = std::ranges::find(model.given->parameters, lag_of_lines) - model.given->parameters.begin();
+    const auto i = static_cast<std::size_t>(place);
+    if (i < model.given->parameters.size()) {
+      deviation = std::sqrt(model.given->covariance[i][i]);
+      std::vector<std::size_t> others;
+      for (std::size_t j = 0; j < model.given->parameters.size(); ++j) {
+        if (j != i) others.push_back(j);
+      }
+      model.given = others.empty() ? std::nullopt : std::optional(part_of(*model.given, others));
+    }
+  }
+  *lag = {
+      .key = delay_of_lines, .unit = deviation, .expected = model.start.loop.delay / deviation, .prior_deviation = 1.0};
+}
+
+}  // namespace
+
+LineModel model_of_response(const LineFitSetting& setting) {
+  constexpr double typical_delay = 0.5;  // sampling periods
+  LineModel model{setting.structure.parameters(), {}, {}};
+  std::vector<std::string> free = free_parameters(setting.structure, setting.free, setting.locked);
+  if ((setting.frees_lateness || is_named(free, lag_of_lines)) && !is_named(free, delay_of_lines)) {
+    const double period = setting.response->sampling_period.value_or(model.start.loop.sampling_period);
+    if (model.start.loop.delay == 0.0) model.start.loop.delay = typical_delay * period;
+    free.emplace_back(delay_of_lines);
+  }
+  ParameterFitOptions linear;
+  linear.free = free;
+  linear.locked = setting.locked;
+  model.start = fit_parameters(Device(model.start), *setting.response, linear).device.parameters();
+  model.start.uncertainty.reset();
+
+  RivalSetting sizes = setting_of_lines(model.start, setting);
+  sizes.frees_lag = setting.frees_lateness || is_named(free, lag_of_lines);
+  const TypicalSizes typical{sizes.sampling_period, typical_damping(sizes), sizes.rms_force / sizes.rms_position};
+  ModelParts parts;
+  for (const std::string& key : free) {
+    if (key != lag_of_lines) parts.numbers.push_back(device_number(key, model.start, typical));
+  }
+  actuator_lag().add(sizes, parts);
+  ground_spring().add(sizes, parts);
+  model.numbers = std::move(parts.numbers);
+  const std::optional<Uncertainty>& file = setting.structure.parameters().uncertainty;
+  if (file && setting.known) {
+    for (const Number& each : model.numbers) free.push_back(each.key);
+    add_given(model, *file, free);
+    fit_lag_as_delay(model);
+  }
+  return model;
+}
+
+LineModel model_of_limits(const LineFitSetting& setting) {
+  LineModel model{setting.structure.parameters(), {}, {}};
+  const std::optional<Uncertainty> file = std::exchange(model.start.uncertainty, {});
+  const bool names_none = frees_all(setting.free);
+  std::vector<std::string> keys;
+  if (!names_none || !file) keys = free_parameters(setting.structure, setting.free);
+  if (file && setting.known) add_given(model, *file, keys);
+  for (const std::string& key : keys) {
+    Number number = number_of_limits(key, model.start, !names_none);
+    if (names_none && number.scale != Number::Scale::logarithmic) continue;  // a file that gives 0 means none
+    model.numbers.push_back(std::move(number));
+  }
+  const bool has_delay = std::ranges::find(model.numbers, delay_of_lines, &Number::key) != model.numbers.end();
+  if (setting.frees_lateness && model.start.loop.delay == 0.0 && !has_delay) {
+    model.numbers.push_back({.key = delay_of_lines, .unit = model.start.loop.sampling_period, .prior_deviation = 1.0});
+  }
+  fit_lag_as_delay(model);
+  return model;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "identification/line_fit.hpp"
+#include "identification/model/number.hpp"
+#include "zwidth/model/device.hpp"
+
+namespace zwidth::internal {
+
+/// What is fitted, and from where.
+struct LineModel {
+  DeviceParameters start;
+  std::vector<Number> numbers;
+  std::optional<Uncertainty> given;  ///< a prior of these numbers
+};
+
+/// The numbers that show in the response, a lag and a spring to the ground among them; where a linear fit ends. Throws Error as
+/// fit_parameters() does.
+[[nodiscard]] LineModel model_of_response(const LineFitSetting& setting);
+
+/// Those that limits are fitted with, each with what is believed of it. Throws Error (invalid_argument) for an unknown key.
+[[nodiscard]] LineModel model_of_limits(const LineFitSetting& setting);
+
+}  // namespace zwidth::internal

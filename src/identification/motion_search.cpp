@@ -1,0 +1,197 @@
+#include "identification/motion_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace zwidth::internal {
+namespace {
+
+constexpr Eigen::Index noise_order = 12;
+constexpr double short_segment = 0.5;  // s
+constexpr std::size_t left_out = 20;   // samples at a record's beginning, whose forces came before it
+constexpr int coarse_parts = 1;        // of a sampling period, where terms act
+constexpr int fine_parts = 2;          // finer ones move the limit of records with 10 % of friction by 0.15 % at most
+
+double rms_of(std::span<const double> samples) {
+  double squares = 0.0;
+  for (const double each : samples) squares += each * each;
+  return std::sqrt(squares / static_cast<double>(samples.size()));
+}
+
+std::vector<Segment> segments_of(const std::vector<ForceMotionRecord>& records, double length) {
+  constexpr std::size_t least = 256;
+  std::vector<Segment> segments;
+  for (std::size_t record = 0; record < records.size(); ++record) {
+    const std::size_t samples = records[record].position.size() - left_out;
+    const auto wanted = std::max(least, static_cast<std::size_t>(length / records[record].sampling_period));
+    const std::size_t count = std::max<std::size_t>(1, (samples + wanted / 2) / wanted);
+    for (std::size_t i = 0; i < count; ++i)
+      segments.push_back({record, left_out + i * (samples / count), samples / count});
+  }
+  return segments;
+}
+
+/// Short ones: those that long ones begin with, and others evenly, so many that they tell the numbers roughly.
+std::vector<Segment> sparse_segments(const std::vector<ForceMotionRecord>& records,
+                                     const std::vector<Segment>& long_ones) {
+  constexpr std::size_t most_samples = 8000;
+  const std::vector<Segment> all = segments_of(records, short_segment);
+  std::size_t samples = 0;
+  for (const Segment& each : all) samples += each.count;
+  const std::size_t every = std::max<std::size_t>(1, samples / most_samples);
+  std::vector<Segment> kept;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool begins = std::ranges::any_of(
+        long_ones, [&](const Segment& other) { return other.record == all[i].record && other.first == all[i].first; });
+    if (begins || i % every == 0) kept.push_back(all[i]);
+  }
+  return kept;
+}
+
+/// White, of a few steps of the encoder or a hundredth of what the position changes in a sample.
+std::vector<Noise> first_noise(const MotionStart& start) {
+  constexpr double of_step = 0.3;
+  constexpr double of_change = 0.01;
+  std::vector<Noise> noise;
+  for (std::size_t record = 0; record < start.records.size(); ++record) {
+    const std::span<const double> position = start.records[record].position;
+    std::vector<double> changes(position.begin() + 1, position.end());
+    for (std::size_t k = 0; k < changes.size(); ++k) changes[k] -= position[k];
+    noise.push_back({.deviation = std::max(of_step * start.encoder_steps[record], of_change * rms_of(changes))});
+  }
+  return noise;
+}
+
+/// The records in segments as a likelihood, and a search in it.
+class Search {
+ public:
+  Search(const MotionModel& model, std::vector<Segment> segments, const MotionStart& start,
+         const MotionSearchOptions& options)
+      : evidence_(std::make_shared<TimeEvidence>(model, std::move(segments), start.encoder_steps, noise_order)) {
+    std::vector<std::shared_ptr<const PartOfEvidence>> parts{evidence_};
+    if (!options.limits.empty()) parts.push_back(std::make_shared<LimitEvidence>(model.family(), options.limits));
+    all_ = std::make_unique<SumOfEvidence>(model.numbers(), std::move(parts), options.tell);
+  }
+
+  [[nodiscard]] const SumOfEvidence& likelihood() const { return *all_; }
+  [[nodiscard]] const TimeEvidence& evidence() const { return *evidence_; }
+  [[nodiscard]] std::unique_ptr<SumOfEvidence> take_likelihood() { return std::move(all_); }
+  [[nodiscard]] std::shared_ptr<TimeEvidence> take_evidence() { return std::move(evidence_); }
+  void set_noise(std::vector<Noise> noise) { evidence_->set_noise(std::move(noise)); }
+
+  /// A minimum, then others under the noise of its residuals, `rounds` at most, until that stands still.
+  [[nodiscard]] std::optional<Minimum> from(Eigen::VectorXd z, int rounds, const MinimiseOptions& options) {
+    constexpr double still = 2e-3;  // of the noise, and of its effect on the limit less
+    std::optional<Minimum> found;
+    for (int round = 0; round < rounds; ++round) {
+      found = minimise(*all_, std::move(z), options);
+      if (!found) return std::nullopt;
+      z = found->z;
+      if (round + 1 == rounds) break;
+      const double before = innovations();
+      if (!take_noise(z)) return std::nullopt;
+      const bool is_still = std::abs(innovations() - before) < still * rows();
+      if (round > 1 && is_still && found->settled) break;
+    }
+    return found;
+  }
+  /// That of the residuals at z.
+  [[nodiscard]] bool take_noise(const Eigen::VectorXd& z) {
+    const Eigen::Index numbers = evidence_->numbers();
+    auto noise = evidence_->noise_at(z.head(numbers), z.tail(z.size() - numbers));
+    if (!noise) return false;
+    evidence_->set_noise(*std::move(noise));
+    return true;
+  }
+  /// Of all samples: the logarithm of what one has that those before do not. Maximum likelihood makes it small.
+  [[nodiscard]] double innovations() const {
+    double sum = 0.0;
+    for (const Segment& each : evidence_->segments())
+      sum += static_cast<double>(each.count) * std::log(evidence_->noise()[each.record].deviation);
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] double rows() const {
+    double sum = 0.0;
+    for (const Segment& each : evidence_->segments()) sum += static_cast<double>(each.count);
+    return sum;
+  }
+
+  std::shared_ptr<TimeEvidence> evidence_;
+  std::unique_ptr<SumOfEvidence> all_;
+};
+
+/// The elements of z that are a segment's state.
+auto state_of(Eigen::VectorXd& z, const MotionModel& model, std::size_t segment) {
+  const auto numbers = static_cast<Eigen::Index>(model.numbers().size());
+  return z.segment(numbers + static_cast<Eigen::Index>(segment) * model.states(), model.states());
+}
+
+/// The numbers of `end`, and its states where a segment of `to` begins as one of `from` does.
+Eigen::VectorXd carried_over(const Search& from, Eigen::VectorXd end, const Search& to, const MotionModel& model) {
+  Eigen::VectorXd z = to.likelihood().start(end.head(static_cast<Eigen::Index>(model.numbers().size())));
+  for (std::size_t i = 0; i < to.evidence().segments().size(); ++i) {
+    for (std::size_t j = 0; j < from.evidence().segments().size(); ++j) {
+      const Segment& here = to.evidence().segments()[i];
+      const Segment& there = from.evidence().segments()[j];
+      if (here.record == there.record && here.first == there.first) state_of(z, model, i) = state_of(end, model, j);
+    }
+  }
+  return z;
+}
+
+/// x of the linear device with so much friction, of the force, and the less damping for it.
+Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const std::string& body, double share) {
+  constexpr double damping_beside = 0.3;  // of the linear fit's, which has the friction in it
+  for (std::size_t i = 0; i < model.numbers().size(); ++i) {
+    const std::string& key = model.numbers()[i].key;
+    const auto at = static_cast<Eigen::Index>(i);
+    if (key == "friction." + body) x(at) = share;
+    if (key.starts_with("body.") && key.ends_with(".damping")) x(at) *= damping_beside;
+  }
+  return x;
+}
+
+}  // namespace
+
+std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
+                                        const MotionSearchOptions& options) {
+  constexpr double frictions[] = {0.0, 0.05};  // of the force
+  constexpr int most_rounds = 6;
+  constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
+  constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
+  const ModelParts& parts = start.parts;
+  const DeviceFamily family(start.device, parts.numbers, locked, parts.further_body);
+  const MotionModel coarse_model(family, parts.terms, start.records, coarse_parts);
+  FoundMotion found;
+  found.model = std::make_unique<MotionModel>(family, parts.terms, start.records, fine_parts);
+  const MotionModel& model = *found.model;
+  const std::vector<Segment> long_ones = segments_of(start.records, options.segment);
+  Search near(coarse_model, sparse_segments(start.records, long_ones), start, options);
+  Search whole(model, long_ones, start, options);
+
+  const Eigen::VectorXd linear = family.coordinates_of(start.device);
+  const std::string& rubbing = start.device.bodies[start.device.loop.actuated].name;
+  std::optional<Eigen::VectorXd> begin;
+  double least = 0.0;
+  for (const double share : frictions) {
+    near.set_noise(first_noise(start));
+    const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, model, rubbing, share) : linear;
+    const auto end = near.from(near.likelihood().start(x), 2, coarse);
+    if (!end || !near.take_noise(end->z) || (begin && near.innovations() >= least)) continue;
+    least = near.innovations();
+    whole.set_noise(near.evidence().noise());
+    begin = carried_over(near, end->z, whole, model);
+  }
+  if (!begin) return std::nullopt;
+  auto best = whole.from(*std::move(begin), most_rounds, fine);
+  if (!best) return std::nullopt;
+  found.best = *std::move(best);
+  found.likelihood = whole.take_likelihood();
+  found.evidence = whole.take_evidence();
+  return found;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/evidence/limit_evidence.hpp"
+#include "identification/evidence/sum_of_evidence.hpp"
+#include "identification/evidence/time_evidence.hpp"
+#include "identification/fit/minimise.hpp"
+#include "identification/motion_start.hpp"
+
+namespace zwidth::internal {
+
+/// The likelihood of the records whole, and where it is largest.
+struct FoundMotion {
+  std::unique_ptr<MotionModel> model;
+  std::shared_ptr<TimeEvidence> evidence;
+  std::unique_ptr<SumOfEvidence> likelihood;
+  Minimum best;
+};
+
+struct MotionSearchOptions {
+  double segment = 10.0;                   ///< s
+  std::vector<MeasuredLimit> limits = {};  ///< observed beside the records
+  std::function<void()> tell = {};         ///< at each step
+};
+
+/// From several frictions, segments of half a second with states of their own find what is near, by their own noise; from the
+/// most likely of these the records whole are fitted, by the noise of what is left in turn.
+///
+/// Nothing where no start can be played.
+[[nodiscard]] std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
+                                                      const MotionSearchOptions& options);
+
+}  // namespace zwidth::internal

@@ -1,0 +1,177 @@
+#include "zwidth/identification/frequency_response.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "counted.hpp"
+#include "identification/response/line_response.hpp"
+#include "identification/response/period_detection.hpp"
+#include "identification/response/periodic_response.hpp"
+#include "identification/response/welch.hpp"
+#include "require_valid.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+using Excited = FrequencyResponseOptions::Excitation;
+
+constexpr std::size_t fewest_samples = 16;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
+
+void check_samples(std::span<const double> signal, const char* name) {
+  const auto bad = std::find_if_not(signal.begin(), signal.end(), [](double value) { return std::isfinite(value); });
+  if (bad != signal.end()) refuse(fmt::format("sample {} of the {} is {}; a number", bad - signal.begin(), name, *bad));
+}
+
+void check(std::span<const double> force, std::span<const double> output, double sampling_period,
+           const FrequencyResponseOptions& options) {
+  if (force.size() != output.size()) {
+    refuse(fmt::format("{} samples of force, {} of the motion; equally many", force.size(), output.size()));
+  }
+  if (force.size() < fewest_samples) {
+    refuse(fmt::format("the record has {} samples; at least {}", force.size(), fewest_samples));
+  }
+  if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
+    refuse(fmt::format("sampling period of {} s; above 0", sampling_period));
+  }
+  check_samples(force, "force");
+  check_samples(output, "motion");
+  const auto constant = [](std::span<const double> signal) {
+    return std::all_of(signal.begin(), signal.end(), [&](double value) { return value == signal.front(); });
+  };
+  if (constant(force)) refuse("the force is constant: it excites nothing; a force that varies");
+  if (constant(output)) refuse("the motion is constant: nothing to measure; another column, or a stronger force");
+  if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
+    refuse_member("overlap", fmt::format("overlap of {}", options.overlap), "0 up to, but not including, 1");
+  }
+  const double lowest = options.lowest.value_or(0.0);
+  const double highest = options.highest.value_or(std::numeric_limits<double>::infinity());
+  if (!(lowest >= 0.0 && highest > lowest)) {
+    refuse_member("highest", fmt::format("band from {:.6g} to {:.6g} rad/s", lowest, highest), "rising, from 0 on");
+  }
+}
+
+void check_period(std::size_t samples, std::size_t period, std::size_t skipped) {
+  if (period < 2 || period > samples / 2) {
+    refuse_member("period", fmt::format("period of {} samples in a record of {}", period, samples),
+                  "2 up to half the record");
+  }
+  if (samples / period < skipped + 2) {
+    refuse_member("skip_periods", fmt::format("{} of {} whole periods skipped", skipped, samples / period),
+                  "at least two must remain");
+  }
+}
+
+/// The lines asked for in rad per sample, rising.
+std::vector<double> angles_of(const FrequencyResponseOptions& options, double sampling_period) {
+  std::vector<double> angles;
+  for (const double line : options.lines) {
+    if (!(std::isfinite(line) && line > 0.0))
+      refuse_member("lines", fmt::format("line at {} rad/s", line), "a frequency above 0");
+    if (!(line * sampling_period < std::numbers::pi)) {
+      refuse_member("lines", fmt::format("line at {:.6g} Hz", line / (2.0 * std::numbers::pi)),
+                    fmt::format("below half the sampling rate, {:.6g} Hz", 0.5 / sampling_period));
+    }
+    angles.push_back(line * sampling_period);
+  }
+  std::ranges::sort(angles);
+  const auto twice = std::ranges::adjacent_find(angles);
+  if (twice != angles.end()) {
+    refuse_member("lines",
+                  fmt::format("line at {:.6g} Hz comes twice", *twice / (2.0 * std::numbers::pi * sampling_period)),
+                  "each once");
+  }
+  return angles;
+}
+
+FrequencyResponse estimate(std::span<const double> force, std::span<const double> output, double sampling_period,
+                           const FrequencyResponseOptions& options, const Progress& progress) {
+  if (!options.lines.empty()) {
+    return line_response(force, output, sampling_period, angles_of(options, sampling_period), options, progress);
+  }
+  if (options.excitation == Excited::aperiodic) {
+    return welch_response(force, output, sampling_period, options, progress);
+  }
+  const auto record_of = [&](std::size_t period) -> PeriodicRecord {
+    check_period(force.size(), period, options.skip_periods);
+    return {period, options.skip_periods,
+            options.skip_periods == 0 ? PeriodicRecord::Transient::skip : PeriodicRecord::Transient::remark};
+  };
+  if (options.period && options.excitation == Excited::periodic) {
+    return periodic_response(force, output, sampling_period, record_of(*options.period), options, progress);
+  }
+  if (const auto tone = options.excitation == Excited::detect ? only_tone(force) : std::nullopt) {
+    return line_response(force, output, sampling_period, {*tone}, options, progress);
+  }
+  if (const auto period = detect_period(force)) {
+    FrequencyResponse response =
+        periodic_response(force, output, sampling_period, record_of(*period), options, progress);
+    response.remarks.insert(response.remarks.begin(),
+                            note({.code = FindingCode::force_repeats, .evidence = {counted("samples", *period)}}));
+    return response;
+  }
+  if (options.excitation == Excited::periodic) {
+    refuse("the force does not repeat itself, within half the record; give the period, or take it as aperiodic");
+  }
+  return welch_response(force, output, sampling_period, options, progress);
+}
+
+/// Velocity and acceleration as position; the Nyquist line, where jw has no real counterpart in samples, is left out.
+void to_position(FrequencyResponse& response, OutputQuantity output, double sampling_period) {
+  if (output == OutputQuantity::position) return;
+  const double nyquist = std::acos(-1.0) / sampling_period;
+  std::erase_if(response.points, [&](const ResponsePoint& point) { return point.frequency > 0.999999 * nyquist; });
+  for (ResponsePoint& point : response.points) {
+    const std::complex<double> jw(0.0, point.frequency);
+    const std::complex<double> factor = output == OutputQuantity::velocity ? 1.0 / jw : 1.0 / (jw * jw);
+    point.value *= factor;
+    point.variance *= std::norm(factor);
+  }
+  response.remarks.push_back(note({.code = output == OutputQuantity::velocity ? FindingCode::velocity_integrated
+                                                                              : FindingCode::acceleration_integrated}));
+}
+
+}  // namespace
+
+FrequencyResponseOptions::Excitation excitation_of(const FrequencyResponseOptions& options) {
+  if (options.excitation != Excited::detect) return options.excitation;
+  if (options.period) return Excited::periodic;
+  return options.segment_length ? Excited::aperiodic : Excited::detect;
+}
+
+FrequencyResponse frequency_response(std::span<const double> force, std::span<const double> output,
+                                     double sampling_period, const FrequencyResponseOptions& options,
+                                     const Progress& progress) {
+  check(force, output, sampling_period, options);
+  FrequencyResponse response = estimate(force, output, sampling_period, options, progress);
+  to_position(response, options.output, sampling_period);
+  std::erase_if(response.points, [&](const ResponsePoint& point) {
+    return point.frequency < options.lowest.value_or(0.0) ||
+           point.frequency > options.highest.value_or(std::numeric_limits<double>::infinity());
+  });
+  if (progress) progress(1.0);
+  return response;
+}
+
+double confidence_radius(const ResponsePoint& point, double averages) {
+  // P(F > x) = (1 + x / m)^-m for 2 and 2 m degrees of freedom; exp(-x) in the limit.
+  constexpr double outside = 0.05;
+  if (averages == 0.0) {
+    return point.variance == 0.0 ? std::numeric_limits<double>::infinity()
+                                 : std::sqrt(-std::log(outside) * point.variance);
+  }
+  if (averages < 2.0) return std::numeric_limits<double>::infinity();
+  const double m = averages - 1.0;
+  return std::sqrt(point.variance * m * std::expm1(-std::log(outside) / m));
+}
+
+}  // namespace zwidth

@@ -1,0 +1,232 @@
+#include "identification/response/hidden_friction.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "identification/response/period_detection.hpp"
+#include "signal/fourier.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using Signal = std::vector<double>;
+using Lines = std::vector<std::complex<double>>;
+
+constexpr std::size_t most_examined_samples = std::size_t{1} << 17U;
+constexpr std::size_t block = 20;  // lines, for 6 numbers of a smooth response and a transient
+constexpr std::size_t fewest_lines = 2 * block;
+constexpr std::size_t reach = 12;  // lines to either side
+
+/// The recorded velocity, over as many samples as keep the phase of the highest line.
+Signal velocity_of(std::span<const double> output, OutputQuantity quantity, double period, double highest) {
+  const std::size_t n = output.size();
+  if (quantity == OutputQuantity::velocity) return {output.begin(), output.end()};
+  Signal velocity(n, 0.0);
+  if (quantity == OutputQuantity::acceleration) {
+    double mean = 0.0;
+    for (const double each : output) mean += each / static_cast<double>(n);
+    for (std::size_t k = 1; k < n; ++k) velocity[k] = velocity[k - 1] + period * (output[k - 1] - mean);
+    return velocity;
+  }
+  constexpr double least_turn = 0.6;  // rad, to either side
+  const auto span = static_cast<std::size_t>(std::max(1.0, std::floor(least_turn / (highest * period))));
+  for (std::size_t k = span; k + span < n; ++k) {
+    velocity[k] = (output[k + span] - output[k - span]) / (2.0 * static_cast<double>(span) * period);
+  }
+  return velocity;
+}
+
+/// Less the line through its ends, which leaks into all lines.
+Signal levelled(Signal signal) {
+  const double slope = (signal.back() - signal.front()) / static_cast<double>(signal.size() - 1);
+  for (std::size_t k = 0; k < signal.size(); ++k) signal[k] -= slope * static_cast<double>(k);
+  return signal;
+}
+
+/// Whole periods averaged, the first left out where there are more; the signal where the force does not repeat.
+Signal averaged(const Signal& signal, std::size_t period) {
+  if (period == 0) return signal;
+  const std::size_t periods = signal.size() / period;
+  const std::size_t first = periods > 1 ? 1 : 0;
+  Signal mean(period, 0.0);
+  for (std::size_t k = first * period; k < periods * period; ++k) {
+    mean[k % period] += signal[k] / static_cast<double>(periods - first);
+  }
+  return mean;
+}
+
+/// The lines of a recording.
+struct Examined {
+  double spacing = 0.0;  ///< rad/s
+  Lines force;
+  Lines output;
+  Lines velocity;
+  Lines sign;
+};
+
+std::optional<Examined> examined(const Recording& recording, double highest, const FrequencyResponseOptions& options) {
+  const std::size_t n = std::min(recording.channels[0].samples.size(), most_examined_samples);
+  if (n < fewest_lines) return std::nullopt;
+  const Signal force(recording.channels[0].samples.begin(),
+                     recording.channels[0].samples.begin() + static_cast<std::ptrdiff_t>(n));
+  const Signal output = levelled(
+      {recording.channels[1].samples.begin(), recording.channels[1].samples.begin() + static_cast<std::ptrdiff_t>(n)});
+  const bool repeats = options.lines.empty() && options.excitation != FrequencyResponseOptions::Excitation::aperiodic;
+  const std::size_t period = !repeats ? 0 : options.period ? *options.period : detect_period(force).value_or(0);
+  const Signal velocity = velocity_of(output, options.output, recording.sampling_period, highest);
+  Signal sign(n);
+  std::ranges::transform(velocity, sign.begin(), [](double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; });
+  const std::size_t length = period == 0 ? n : period;
+  return Examined{2.0 * std::numbers::pi / (recording.sampling_period * static_cast<double>(length)),
+                  spectrum(averaged(force, period)), spectrum(averaged(output, period)),
+                  spectrum(averaged(velocity, period)), spectrum(averaged(sign, period))};
+}
+
+/// What a block of lines says of the friction: motion = c effect + rest, both beside the smooth response.
+struct Block {
+  Eigen::VectorXcd motion;
+  Eigen::VectorXcd effect;
+  double freedom = 0.0;
+
+  [[nodiscard]] double variance(std::complex<double> c) const { return (motion - c * effect).squaredNorm() / freedom; }
+};
+
+void add_blocks(std::vector<Block>& blocks, const Examined& lines, const FrequencyResponse& response, double period) {
+  const auto first = static_cast<std::size_t>(std::ceil(response.points.front().frequency / lines.spacing - 1e-6));
+  const auto last = static_cast<std::size_t>(std::floor(response.points.back().frequency / lines.spacing + 1e-6));
+  std::vector<std::size_t> excited;
+  double largest = 0.0;
+  const std::size_t end = std::min(last + 1, lines.force.size());
+  for (std::size_t k = std::max<std::size_t>(first, 1); k < end; ++k)
+    largest = std::max(largest, std::abs(lines.force[k]));
+  constexpr double notable = 1e-3;
+  for (std::size_t k = std::max<std::size_t>(first, 1); k < end; ++k) {
+    if (std::abs(lines.force[k]) > notable * largest) excited.push_back(k);
+  }
+  for (std::size_t begin = 0; begin + block <= excited.size(); begin += block) {
+    constexpr Eigen::Index smooth = 6;
+    const auto count = static_cast<Eigen::Index>(block);
+    Eigen::MatrixXcd basis(count, smooth);
+    Eigen::VectorXcd motion(count);
+    const auto middle = static_cast<double>(excited[begin + block / 2]);
+    const auto square_of = [&](std::size_t k) { return std::pow(static_cast<double>(k) / middle, 2); };
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const std::size_t k = excited[begin + static_cast<std::size_t>(i)];
+      const double t = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
+      const std::complex<double> f = lines.force[k] / (largest * square_of(k));
+      basis.row(i) << f, t * f, t * t * f, 1.0, t, t * t;
+      motion(i) = lines.output[k];
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> smoothed(basis);
+    const Eigen::VectorXcd numbers = smoothed.solve(motion);
+    Eigen::VectorXcd effect(count);
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const std::size_t k = excited[begin + static_cast<std::size_t>(i)];
+      const double t = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
+      const std::complex<double> rigid = (numbers(0) + t * numbers(1) + t * t * numbers(2)) / largest;
+      least = std::min(least, std::abs(rigid));
+      most = std::max(most, std::abs(rigid));
+      const std::complex<double> gain = rigid / square_of(k);
+      effect(i) = gain * lines.sign[k] * std::polar(1.0, 0.5 * lines.spacing * static_cast<double>(k) * period);
+    }
+    constexpr double resonant = 4.0;
+    if (most > resonant * least) continue;  // no second degree follows it
+    blocks.push_back({motion - basis * numbers, effect - basis * smoothed.solve(effect),
+                      static_cast<double>(count - smoothed.rank())});
+  }
+}
+
+/// What the coefficient of a real force is at least, whose phase a delay has turned forwards by no more than this.
+double turned_back(std::complex<double> c) {
+  constexpr double most_turned = std::numbers::pi / 3.0;
+  const double angle = std::arg(c);
+  const double beyond = angle > most_turned ? angle - most_turned : std::min(angle, 0.0);
+  return std::max(0.0, std::abs(c) * std::cos(beyond));
+}
+
+/// Re sum S conj(V) / sum |V|^2 and the force's mean power over the lines around this frequency.
+struct Gain {
+  double value = 0.0;
+  double power = 0.0;
+};
+Gain gain_at(const Examined& lines, double frequency) {
+  const auto k = static_cast<std::size_t>(std::lround(frequency / lines.spacing));
+  const std::size_t begin = std::max<std::size_t>(k, reach + 1) - reach;
+  const std::size_t end = std::min(lines.sign.size(), k + reach + 1);
+  double product = 0.0;
+  double square = 0.0;
+  double power = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    product += std::real(lines.sign[i] * std::conj(lines.velocity[i]));
+    square += std::norm(lines.velocity[i]);
+    power += std::norm(lines.force[i]);
+  }
+  return square > 0.0 ? Gain{product / square, power} : Gain{};
+}
+
+}  // namespace
+
+std::optional<HiddenFriction> hidden_friction(std::span<const Recording> recordings,
+                                              std::span<const FrequencyResponse> responses,
+                                              const FrequencyResponseOptions& options) {
+  std::vector<Block> blocks;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    if (responses[r].points.size() < 2) continue;
+    const auto lines = examined(recordings[r], responses[r].points.back().frequency, options);
+    if (lines) add_blocks(blocks, *lines, responses[r], recordings[r].sampling_period);
+  }
+  if (blocks.size() < fewest_lines / block) return std::nullopt;
+  std::complex<double> c = 0.0;
+  double weight = 0.0;
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round) {
+    std::complex<double> sum = 0.0;
+    double next_weight = 0.0;
+    for (const Block& each : blocks) {
+      const double variance = each.variance(c);
+      if (!(variance > 0.0) || !std::isfinite(variance)) continue;
+      sum += each.effect.dot(each.motion) / variance;
+      next_weight += each.effect.squaredNorm() / variance;
+    }
+    weight = next_weight;
+    if (!(weight > 0.0)) return std::nullopt;
+    c = sum / weight;
+  }
+  return HiddenFriction{turned_back(-c), 1.0 / std::sqrt(2.0 * weight)};
+}
+
+FrequencyResponse without_friction(const FrequencyResponse& response, double force,
+                                   std::span<const Recording> recordings, const FrequencyResponseOptions& options) {
+  FrequencyResponse without = response;
+  std::vector<Examined> all;
+  for (const Recording& each : recordings) {
+    if (auto lines = examined(each, response.points.back().frequency, options)) all.push_back(*std::move(lines));
+  }
+  for (ResponsePoint& point : without.points) {
+    double sum = 0.0;
+    double power = 0.0;
+    for (const Examined& each : all) {
+      const Gain gain = gain_at(each, point.frequency);
+      sum += gain.power * gain.value;
+      power += gain.power;
+    }
+    if (!(power > 0.0)) continue;
+    const std::complex<double> rate =
+        std::polar(point.frequency, 0.5 * (std::numbers::pi + point.frequency * *response.sampling_period));
+    const std::complex<double> factor = 1.0 / (1.0 - force * sum / power * rate * point.value);
+    point.value *= factor;
+    point.variance *= std::norm(factor * factor);
+  }
+  return without;
+}
+
+}  // namespace zwidth::internal

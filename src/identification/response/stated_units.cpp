@@ -1,0 +1,87 @@
+#include "identification/response/stated_units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "zwidth/identification/identification.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t longest_unit = 24;  // characters, of what is one
+
+/// In which a channel's samples are, by its name in all recordings; empty where they state none, or several.
+std::string stated_unit(std::span<const Recording> recordings, std::size_t channel) {
+  const auto unit_of = [&](const Recording& recording) {
+    const Channel& each = recording.channels[channel];
+    return each.base_unit.empty() ? each.unit : each.base_unit;
+  };
+  const std::string unit = unit_of(recordings.front());
+  if (unit.size() > longest_unit) return "";
+  const bool is_same = std::ranges::all_of(recordings, [&](const auto& each) { return unit_of(each) == unit; });
+  return is_same ? unit : "";
+}
+
+}  // namespace
+
+namespace internal {
+
+void state_units(MeasuredResponse& measured, std::span<const Recording> recordings) {
+  measured.force_unit = stated_unit(recordings, 0);
+  measured.length_unit = stated_unit(recordings, 1);
+  measured.length_unit.resize(std::min(measured.length_unit.size(), measured.length_unit.find("/s")));
+  if (stated_motion(recordings) == Motion::rotary) {
+    if (measured.force_unit.empty()) measured.force_unit = "N m";
+    if (measured.length_unit.empty()) measured.length_unit = "rad";
+  }
+}
+
+std::string force_in_words(double force, const MeasuredResponse& measured) {
+  const bool is_stated = measured.force_unit == "N" || measured.force_unit == "N m";
+  return fmt::format("{:.2g} {}", force, is_stated ? measured.force_unit : "N (N m where it turns)");
+}
+
+std::string stiffness_in_words(double stiffness, const MeasuredResponse& measured) {
+  if (measured.force_unit == "N" && measured.length_unit == "m") return quantity(stiffness, "N/m");
+  if (measured.force_unit == "N m" && measured.length_unit == "rad") return quantity(stiffness, "N m/rad");
+  return fmt::format("{} (where it turns {})", quantity(stiffness, "N/m"), quantity(stiffness, "N m/rad"));
+}
+
+}  // namespace internal
+
+std::optional<Motion> stated_motion(std::span<const Recording> recordings) {
+  bool is_linear = false;
+  bool is_rotary = false;
+  for (const Recording& recording : recordings) {
+    for (const Channel& channel : recording.channels) {
+      const std::string& unit = channel.base_unit;
+      is_rotary = is_rotary || unit == "N m" || unit.starts_with("rad");
+      is_linear = is_linear || unit == "N" || unit == "m" || unit.starts_with("m/");
+    }
+  }
+  if (is_linear == is_rotary) return std::nullopt;
+  return is_rotary ? Motion::rotary : Motion::linear;
+}
+
+std::optional<OptionProblem> find_problem(const std::string& force_unit, const std::string& length_unit,
+                                          const MeasuredResponse& measured) {
+  const auto check = [](const char* member, const std::string& given,
+                        const std::string& stated) -> std::optional<OptionProblem> {
+    const bool is_plain =
+        given.size() <= longest_unit && std::ranges::none_of(given, [](unsigned char c) { return c < ' '; });
+    if (!is_plain)
+      return OptionProblem{member, "is no unit", fmt::format("at most {} characters, on one line", longest_unit)};
+    if (given.empty() || stated.empty() || given == stated) return std::nullopt;
+    return OptionProblem{member, fmt::format("is {}, but the column is read in {} by its name", given, stated),
+                         "leave it out, or give the scale too"};
+  };
+  auto problem = check("force_unit", force_unit, measured.force_unit);
+  return problem ? problem : check("length_unit", length_unit, measured.length_unit);
+}
+
+}  // namespace zwidth
