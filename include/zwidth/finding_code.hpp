@@ -376,8 +376,6 @@ enum class FindingCode : std::uint16_t {
   friction_unknown,                 ///< the recordings do not show dry friction, nor exclude it
   table_hides_friction,             ///< a table does not show dry friction
   table_gives_no_reason,            ///< a table doubts its critical stiffness and gives no reason
-  table_doubts_itself,              ///< a table doubts its critical stiffness, for `reason`
-  recordings_averaged,              ///< the recordings differ by more than their noise
   motion_against_force,             ///< the position falls as the force rises
   nothing_determined,               ///< the data determine no parameter
   numbers_undetermined,             ///< the data do not determine some parameters: they are taken as given
@@ -403,7 +401,6 @@ enum class FindingCode : std::uint16_t {
   force_taken_for_command,          ///< the force is taken for the commanded one
   dry_friction_fitted,              ///< dry friction beside the linear device
   constant_force,                   ///< a constant force beside the recorded one
-  recordings_disagree,              ///< two recordings alone give limits that lie apart
   taken_as_zero,                    ///< a fitted value below 0
   friction_below_zero,              ///< friction below 0 by more than its interval
   force_unexplained,                ///< one rigid body leaves a share of the force unexplained

@@ -11,18 +11,22 @@ std::span<const Phrase> identification_phrases() {
   static constexpr const char* rival_leaves_open =
       "{?rival|most of it by {?rival=coulomb_friction|dry friction}{?rival=drag|a force that grows with the square of "
       "the speed}{?rival=asymmetric_damping|a damping that differs by direction}{?rival=damping_drift|a damping that "
-      "changes while it is recorded}{?rival=actuator_lag|a lag of the actuator}{?rival=ground_spring|a spring to the "
+      "changes while it is recorded}{?rival=delay_drift|clocks that run apart}{?rival=presliding|friction that bends "
+      "before it slides}{?rival=stiffening_spring|a spring that stiffens}{?rival=actuator_lag|a lag of the "
+      "actuator}{?rival=ground_spring|a spring to the "
       "ground}{?rival=drive_saturation|a drive that saturates}{?rival=drive_dead_band|a dead band of the "
       "drive}{?rival=cogging|cogging}{?rival=constant_force|a constant force}{?rival=further_body|a further body} "
       "({parameter}), within which it is {with_lower} to {with_upper}}";
   static constexpr const char* record_against_rival =
       "{?rival=coulomb_friction|record at a second, larger amplitude}{?rival=drag|record at a second amplitude}"
       "{?rival=asymmetric_damping|record for longer}{?rival=damping_drift|record the device when it is warm}"
-      "{?rival=actuator_lag|excite higher frequencies}{?rival=ground_spring|excite lower frequencies}"
+      "{?rival=delay_drift|record both by one clock}{?rival=presliding|record larger "
+      "motion}{?rival=stiffening_spring|record at a second amplitude}{?rival=actuator_lag|excite higher "
+      "frequencies}{?rival=ground_spring|excite lower frequencies}"
       "{?rival=drive_saturation|record with less force}{?rival=drive_dead_band|record with more force}"
       "{?rival=cogging|record larger motion}{?rival=constant_force|record for longer}{?rival=further_body|excite "
       "higher "
-      "frequencies}{!rival|excite more strongly or for longer}";
+      "frequencies}{!rival|excite more strongly or for longer{?delay_within_ms|, and at higher frequencies}}";
   static constexpr std::array phrases{
       Phrase{motion_against_force, "motion_against_force", refusal,
              "the position falls as the force rises: scale one of them by -1"},
@@ -54,7 +58,8 @@ std::span<const Phrase> identification_phrases() {
              "{highest:.4g} Hz: {?side=above|delay, lag and modes there are not in the data; excite higher "
              "frequencies}{?side=below|dampings and springs there are not in the data; excite lower frequencies}"},
       Phrase{data_leave_interval_open, "data_leave_interval_open", doubt,
-             "the data leave the critical stiffness open {?factor|within a factor of {factor:.2g}}{?more_than|by more "
+             "{?delay_within_ms|the delay is known to +-{delay_within_ms:.2g} ms only: }the data leave the critical "
+             "stiffness open {?factor|within a factor of {factor:.2g}}{?more_than|by more "
              "than a factor of {more_than:.0f}}{!factor|{!more_than|down to 0, where not even the softest wall is "
              "stable}}",
              rival_leaves_open, record_against_rival},
@@ -113,10 +118,6 @@ std::span<const Phrase> identification_phrases() {
       Phrase{constant_force, "constant_force", note,
              "a constant force of {force:.3g} +- {deviation:.2g} {unit} beside the recorded one in {source}",
              "an offset of the actuator, gravity, or friction that differs by direction; the fit allows for it"},
-      Phrase{recordings_disagree, "recordings_disagree", doubt,
-             "the recordings disagree: {of_softest} alone gives a critical stiffness of {softest}, {of_stiffest} alone "
-             "{stiffest}, beyond what their noise allows",
-             "", "the device, its load or its friction has changed between them: look at them one by one"},
       Phrase{taken_as_zero, "taken_as_zero", warning, "{key} = {value:.4g} is below 0", "taken as 0 in the device"},
       Phrase{friction_below_zero, "friction_below_zero", doubt,
              "{friction} friction comes out as {value:.3g}, below 0 by more than its interval: motion is too noisy, or "

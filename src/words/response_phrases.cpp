@@ -193,10 +193,7 @@ std::span<const Phrase> response_phrases() {
              "stiffness too high",
              "", "give the recordings themselves"},
       Phrase{table_gives_no_reason, "table_gives_no_reason", refusal,
-             "the table says so of its critical stiffness, and not why: see the recording"},
-      Phrase{table_doubts_itself, "table_doubts_itself", doubt, "of the table's own critical stiffness: {reason}"},
-      Phrase{recordings_averaged, "recordings_averaged", doubt,
-             "the recordings differ by more than their noise: a linear device is an average of them"}};
+             "the table says so of its critical stiffness, and not why: see the recording"}};
   return phrases;
 }
 

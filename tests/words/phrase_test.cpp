@@ -146,6 +146,9 @@ TEST(WordsOfIdentification, HaveTheirVariants) {
   EXPECT_EQ(open({{"more_than", 1000.0}}),
             "the data leave the critical stiffness open by more than a factor of 1000; excite more strongly or for "
             "longer");
+  EXPECT_EQ(open({{"delay_within_ms", 0.5}}),
+            "the delay is known to +-0.5 ms only: the data leave the critical stiffness open down to 0, where not even "
+            "the softest wall is stable; excite more strongly or for longer, and at higher frequencies");
   EXPECT_EQ(open({}),
             "the data leave the critical stiffness open down to 0, where not even the softest wall is stable; excite "
             "more strongly or for longer");

@@ -188,11 +188,11 @@ void judge_limit(RigidBodyIdentification& identified) {
   }
   if (!analysis.interval) return;
   FittedLikelihood known;
-  known.limit = LimitRange{analysis.interval->lower, analysis.interval->upper};
+  known.limit = Interval{analysis.interval->lower, analysis.interval->upper};
   const Loop& loop = identified.device.parameters().loop;
   const auto& deviation = identified.fit.delay.standard_deviation;
   constexpr double notable = 0.2;  // of what delays the loop: K_CR goes with it
-  Trust of_width = verdict_of(known);
+  Trust of_width = verdict_of(known).trust;
   for (Finding& doubt : of_width.findings) {
     if (deviation && 2.0 * *deviation > notable * (0.5 * loop.sampling_period + loop.delay)) {
       doubt.evidence.push_back({"delay_within_ms", 2e3 * *deviation});

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "identification/model/added_rival.hpp"
 #include "identification/model/number.hpp"
-#include "identification/model/rivals/catalogue.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/device.hpp"
 

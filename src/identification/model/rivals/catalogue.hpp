@@ -28,13 +28,6 @@ namespace zwidth::internal {
 /// All that a fit has, in the order in which they are added. further_body() is not among them: the search does not settle with it.
 [[nodiscard]] std::span<const Rival> rivals();
 
-/// A rival that is part of a fit.
-struct AddedRival {
-  std::string_view code;
-  std::vector<std::string> keys;               ///< of its numbers
-  RivalMeasure measure = RivalMeasure::force;  ///< of theirs
-};
-
 /// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them,
 /// behind them its drifts.
 std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts);

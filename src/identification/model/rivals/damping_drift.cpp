@@ -35,6 +35,6 @@ void add_damping_drift(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival damping_drift() { return {"damping_drift", add_damping_drift, RivalMeasure::damping}; }
+Rival damping_drift() { return {"damping_drift", add_damping_drift, RivalMeasure::ratio}; }
 
 }  // namespace zwidth::internal

@@ -16,6 +16,6 @@ void add_delay_drift(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival delay_drift() { return {"delay_drift", add_delay_drift}; }
+Rival delay_drift() { return {"delay_drift", add_delay_drift, RivalMeasure::time}; }
 
 }  // namespace zwidth::internal

@@ -20,6 +20,6 @@ void add_presliding(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival presliding() { return {"presliding", add_presliding}; }
+Rival presliding() { return {"presliding", add_presliding, RivalMeasure::length}; }
 
 }  // namespace zwidth::internal

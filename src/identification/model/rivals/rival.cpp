@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "zwidth/identification/parameter_fit.hpp"
-#include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 
@@ -63,25 +62,6 @@ std::vector<std::string> moving_bodies_of(const RivalSetting& setting) {
 
 const std::string& actuated_body(const RivalSetting& setting) {
   return setting.device.bodies[setting.device.loop.actuated].name;
-}
-
-std::string_view unit_of(RivalMeasure measure, Motion motion) {
-  const Units units = units_of(motion);
-  switch (measure) {
-    case RivalMeasure::force:
-      return units.force;
-    case RivalMeasure::damping:
-      return units.damping;
-    case RivalMeasure::quadratic_damping:
-      return motion == Motion::rotary ? "N m s2/rad2" : "N s2/m2";
-    case RivalMeasure::stiffness:
-      return units.stiffness;
-    case RivalMeasure::time:
-      return "s";
-    case RivalMeasure::ratio:
-      return "";
-  }
-  return "";
 }
 
 bool ModelParts::has(std::string_view key) const {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "identification/model/added_rival.hpp"
 #include "identification/model/device_family.hpp"
 #include "identification/model/motion_model.hpp"
 #include "identification/model/motion_terms.hpp"
@@ -57,12 +57,6 @@ struct ModelParts {
   /// The key of the number that is added.
   std::string add(Number number);
 };
-
-/// What a rival's numbers measure.
-enum class RivalMeasure : std::uint8_t { force, damping, quadratic_damping, stiffness, time, ratio };
-
-/// "N s2/m2", "N m s2/rad2", ...; empty for a ratio.
-[[nodiscard]] std::string_view unit_of(RivalMeasure measure, Motion motion);
 
 /// Another explanation of a record: what it adds to the linear device, and how large that is believed to be beforehand.
 struct Rival {

@@ -36,6 +36,6 @@ void add_stiffening_spring(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival stiffening_spring() { return {"stiffening_spring", add_stiffening_spring}; }
+Rival stiffening_spring() { return {"stiffening_spring", add_stiffening_spring, RivalMeasure::mixed}; }
 
 }  // namespace zwidth::internal
