@@ -16,7 +16,7 @@ namespace zwidth::internal {
 struct FoundDevice {
   DeviceParameters device;  ///< most likely; at its softest moment where it drifts
   BestNumbers best;
-  std::vector<AddedRival> rivals;
+  std::vector<AddedRival> rivals = {};
   bool settled = false;  ///< the search came to rest, and both ends of the interval were reached
 };
 

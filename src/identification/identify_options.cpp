@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "zwidth/identification/identification.hpp"
@@ -32,12 +34,20 @@ std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const IdentifyOptions& options) {
-  const auto within = [](const char* part, std::optional<OptionProblem> problem) {
+  const auto within = [](const std::string& part, std::optional<OptionProblem> problem) {
     if (problem) problem->member = fmt::format("{}.{}", part, problem->member);
     return problem;
   };
   if (auto problem = within("response", find_problem(options.response))) return problem;
-  return within("fit", find_fit_problem(options.fit));
+  if (auto problem = within("fit", find_fit_problem(options.fit))) return problem;
+  if (!(std::isfinite(options.segment) && options.segment > 0.0))
+    return OptionProblem{"segment", fmt::format("is {} s", options.segment), "must be finite and above 0"};
+  if (options.method == IdentifyOptions::Method::motion && options.response.output != OutputQuantity::position)
+    return OptionProblem{"method", "fits the motion", "must fit the lines where no position is recorded"};
+  for (std::size_t i = 0; i < options.limits.size(); ++i) {
+    if (auto problem = within(fmt::format("limits[{}]", i), find_problem(options.limits[i]))) return problem;
+  }
+  return std::nullopt;
 }
 
 }  // namespace zwidth

@@ -7,8 +7,8 @@
 
 #include "identification/motion_search.hpp"
 #include "identification/verdict/left_over.hpp"
-#include "identification/verdict/profile.hpp"
 #include "identification/verdict/limit_moment.hpp"
+#include "identification/verdict/profile.hpp"
 #include "identification/verdict/widening.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 

@@ -89,7 +89,8 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
   }
 
   const auto count = static_cast<Eigen::Index>(model.numbers.size());
-  FittedByLines found{family.device_at(best->z), family.numbers(), best->z.head(count), {}};
+  FittedByLines found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
+  found.slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest()).head(count);
   SumOfSquares left;
   if (lines) {
     const Eigen::MatrixXd moved = moved_covariance(likelihood, *best, count);

@@ -30,6 +30,7 @@ struct FittedByLines {
   std::vector<Number> numbers;  ///< of the fit, all of the device: a lag and a spring to the ground are rivals
   Eigen::VectorXd x;            ///< a coordinate each
   Eigen::MatrixXd covariance;   ///< of x, by the normal matrix at the best
+  Eigen::VectorXd slope;        ///< how log K_CR hangs on x
   double lower = 0.0;           ///< least K_CR within 1.92 of the best log-likelihood, no damper; N/m or N m/rad
   double value = 0.0;           ///< K_CR of the most likely device
   double upper = 0.0;           ///< the largest

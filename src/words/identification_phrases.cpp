@@ -64,8 +64,8 @@ std::span<const Phrase> identification_phrases() {
              "stable}}",
              rival_leaves_open, record_against_rival},
       Phrase{residual_stands_out, "residual_stands_out", doubt,
-             "the fitted device leaves more than the noise of {source}, most from {from:.4g} to {to:.4g} s: what is "
-             "left {?kind=follows_force|follows the force, as a missing body or mode "
+             "the fitted device leaves more than the noise of {source}{?to|, most from {from:.4g} to {to:.4g} s}: what "
+             "is left {?kind=follows_force|follows the force, as a missing body or mode "
              "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}",
              "the critical stiffness may lie outside its interval",
              "{?kind=follows_force|name a structure with one more body, or excite no higher than it "

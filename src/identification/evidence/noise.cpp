@@ -7,10 +7,10 @@
 namespace zwidth::internal {
 namespace {
 
-/// Sums of a column, its first value before it as often as the longest mean reaches back.
-class Sums {
+/// PastSums of a column, its first value before it as often as the longest mean reaches back.
+class PastSums {
  public:
-  explicit Sums(Eigen::Index reach) : reach_(reach) {}
+  explicit PastSums(Eigen::Index reach) : reach_(reach) {}
 
   void take(const Eigen::Ref<const Eigen::VectorXd>& column) {
     sums_.resize(reach_ + column.size() + 1);
@@ -38,7 +38,7 @@ Eigen::MatrixXd whitened(const Noise& noise, const Eigen::Ref<const Eigen::Matri
   const auto means = static_cast<Eigen::Index>(noise.means.size());
   const Eigen::Index rows = columns.rows() - order;
   Eigen::MatrixXd white(rows, columns.cols());
-  Sums sums(means > 0 ? length_of(order, means) : 0);
+  PastSums sums(means > 0 ? length_of(order, means) : 0);
   for (Eigen::Index column = 0; column < columns.cols(); ++column) {
     auto out = white.col(column);
     out = noise.filter[0] / noise.deviation * columns.col(column).tail(rows);
@@ -64,7 +64,7 @@ Noise noise_of(const std::vector<const Eigen::VectorXd*>& residuals, double step
   const Eigen::Index size = 1 + order + means;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
   Eigen::Index rows = 0;
-  Sums sums(means > 0 ? length_of(order, means) : 0);
+  PastSums sums(means > 0 ? length_of(order, means) : 0);
   for (const Eigen::VectorXd* each : residuals) {
     const Eigen::Index count = each->size() - order;
     Eigen::MatrixXd past(count, size);

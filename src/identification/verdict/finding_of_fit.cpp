@@ -54,15 +54,15 @@ bool stands_out(const Omnibus& left) { return !(left.p >= Calibration::least_p);
 
 Finding outstanding(const Omnibus& left, const std::vector<NamedRecord>& records) {
   const NamedRecord& record = records.at(left.record);
+  Finding found{.code = FindingCode::residual_stands_out,
+                .evidence = {{"excess", left.excess}, {"p", left.p}, {"threshold", Calibration::least_p}},
+                .subjects = {{"source", record.source}, {"kind", name_of_left(left.clearest)}}};
+  if (left.count == 0) return found;  // of lines
   const double from = static_cast<double>(left.first) * record.sampling_period;
   const double to = from + static_cast<double>(left.count) * record.sampling_period;
-  return {.code = FindingCode::residual_stands_out,
-          .evidence = {{"from", from, "s"},
-                       {"to", to, "s"},
-                       {"excess", left.excess},
-                       {"p", left.p},
-                       {"threshold", Calibration::least_p}},
-          .subjects = {{"source", record.source}, {"kind", name_of_left(left.clearest)}}};
+  found.evidence.push_back({"from", from, "s"});
+  found.evidence.push_back({"to", to, "s"});
+  return found;
 }
 
 bool contradicts(const GivenDelay& delay) {

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "identification/device_file_trust.hpp"
+#include "identification/likelihood_fit.hpp"
+#include "identification/line_fit.hpp"
+#include "identification/response/plausibility.hpp"
+#include "identification/response/response_choice.hpp"
+#include "identification/response_of_device.hpp"
+#include "identification/verdict/assumed_experiment.hpp"
+#include "identification/verdict/turned_sign.hpp"
+#include "identification/verdict/verdict.hpp"
+#include "require_valid.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/identification/identification.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr std::size_t least_samples_of_motion = 300;
+
+IdentifyOptions::Method method_of(std::span<const Recording> recordings, const IdentifyOptions& options) {
+  const bool is_long = std::ranges::all_of(recordings, [](const Recording& each) {
+    return each.channels.size() == 2 && each.channels[1].samples.size() >= least_samples_of_motion;
+  });
+  const bool has_motion = options.response.output == OutputQuantity::position && is_long;
+  return options.method.value_or(has_motion ? IdentifyOptions::Method::motion : IdentifyOptions::Method::lines);
+}
+
+bool frees_lateness(const IdentifyOptions& options) {
+  using enum IdentifyOptions::LoopDelay;
+  return options.loop_delay == by_free ? frees_all(options.fit.free) : options.loop_delay == from_data;
+}
+
+bool is_known(const IdentifyOptions& options) {
+  return options.structure_values == IdentifyOptions::StructureValues::known;
+}
+
+/// What the data say before anything is fitted.
+FittedLikelihood before_fit(const MeasuredResponse& measured, const Device& structure) {
+  FittedLikelihood fit{.motion = structure.parameters().motion};
+  if (auto turned = turned_sign(measured.response)) fit.contradictions.push_back(*std::move(turned));
+  for (const Finding& each : measured.trust.findings) {
+    if (each.code == FindingCode::clipped_for_response) fit.doubts_of_data.push_back(each);
+  }
+  return fit;
+}
+
+/// The range of a found limit; nothing where the data say next to nothing of it.
+std::optional<Interval> told_limit(const Interval& interval) {
+  constexpr double widest = 1000.0;
+  const bool is_told = interval.lower > 0.0 && interval.upper <= widest * interval.lower;
+  return is_told ? std::optional(interval) : std::nullopt;
+}
+
+/// The device, its analysis and the verdict on it, of what was found and is known of it.
+Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
+                      const std::optional<FoundDevice>& found, FittedLikelihood fit) {
+  Identification result{
+      .source = measured.source, .response = measured.response, .fit = {.device = structure, .misfit = {}}};
+  result.remarks = measured.remarks;
+  if (found) {
+    result.fit = {.device = device_of(*found),
+                  .estimates = estimates_of(*found),
+                  .correlations = correlations_of(*found),
+                  .unidentifiable = open_numbers_of(*found),
+                  .misfit = {},
+                  .settled = found->settled};
+    result.rivals = rival_table(found->best, found->rivals);
+    fit.rivals = result.rivals;
+    fit.limit = told_limit(found->best.interval);
+  }
+  compare_with_response(result.fit, measured.response, options.fit);
+  result.analysis = analyze(result.fit.device, {.any_user = false});
+  const std::optional<Crossover>& limit = result.analysis.critical.limit;
+  if (found && limit && !result.fit.frequencies.empty()) {
+    fit.place = {hertz(limit->frequency), hertz(result.fit.frequencies.front()), hertz(result.fit.frequencies.back())};
+  }
+  Verdict verdict = verdict_of(fit);
+  result.trust = std::move(verdict.trust);
+  std::ranges::move(verdict.remarks, std::back_inserter(result.remarks));
+  std::ranges::move(assumptions_of_experiment(structure, is_known(options), options.fit.locked),
+                    std::back_inserter(result.remarks));
+  const Wall& wall = result.fit.device.parameters().wall;
+  result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
+  if (found && result.analysis.interval && wall.damping == 0.0 && wall.filters.empty()) {
+    result.analysis.interval->lower = std::min(found->best.interval.lower, result.analysis.critical.stiffness);
+    result.analysis.interval->upper = std::max(found->best.interval.upper, result.analysis.critical.stiffness);
+  }
+  if (!result.trust.refused() && result.analysis.critical.trust.refused())
+    result.trust.inherit(result.analysis.critical.trust);
+  keep_what_is_assumed(structure, result.fit.estimates,
+                       is_known(options) ? std::vector<std::string>{} : unseen_placeholders(options.fit.locked),
+                       result.fit.device, result.trust);
+  result.analysis.trust.inherit(result.trust);
+  result.fit.device = with_trust(result.fit.device, result.trust);
+  return result;
+}
+
+Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
+                                    const Device& structure, const IdentifyOptions& options, const Progress& progress) {
+  double done = 0.0;
+  const auto tell = [&] {
+    constexpr double of_rest = 0.02;  // how many steps there will be is not known
+    done += of_rest * (1.0 - done);
+    if (progress) progress(done);
+  };
+  const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
+  const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
+                                        {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
+                                         options.segment,
+                                         options.limits,
+                                         tell});
+  FittedLikelihood fit = before_fit(measured, structure);
+  std::optional<FoundDevice> found;
+  std::vector<FittedMotion> motions;
+  if (fitted) {
+    found = fitted->found;
+    motions = fitted->motions;
+    fit.left = fitted->left;
+    fit.delay = fitted->delay;
+    for (const Recording& each : recordings) {
+      fit.records.push_back({each.source, each.sampling_period});
+      const Device device = device_of(*found);
+      std::ranges::move(doubts_of_recording(each, recordings, options.response.output, device),
+                        std::back_inserter(fit.doubts_of_data));
+    }
+  }
+  Identification result = judged(measured, structure, options, found, std::move(fit));
+  result.method = IdentifyOptions::Method::motion;
+  result.motions = std::move(motions);
+  return result;
+}
+
+/// A device found from lines or limits, in the words of one found from its motion.
+FoundDevice found_device(const FittedByLines& fitted, const Device& structure, const IdentifyOptions& options) {
+  FoundDevice found{.device = fitted.device, .best = {}, .settled = fitted.settled};
+  found.best = {.numbers = fitted.numbers,
+                .x = fitted.x,
+                .covariance = fitted.covariance,
+                .stiffness_slope = fitted.slope,
+                .stiffness = fitted.value,
+                .interval = {fitted.lower, fitted.upper},
+                .motion = structure.parameters().motion};
+  const std::vector<std::string> free = free_parameters(structure, options.fit.free, options.fit.locked);
+  const std::string spring = "body." + structure.bodies()[structure.loop().held].name + ".stiffness";
+  for (const Number& number : fitted.numbers) {
+    if (std::ranges::count(free, number.key) > 0) continue;
+    if (number.key == "actuator.time_constant")
+      found.rivals.push_back({"actuator_lag", {number.key}, RivalMeasure::time});
+    if (number.key == spring) found.rivals.push_back({"ground_spring", {number.key}, RivalMeasure::stiffness});
+  }
+  return found;
+}
+
+Identification identified_by_lines(const MeasuredResponse& measured, const Device& structure,
+                                   const IdentifyOptions& options) {
+  const FrequencyResponse response = band_of(measured.response, options.fit);
+  const auto fitted = fit_lines({.structure = structure,
+                                 .response = &response,
+                                 .limits = options.limits,
+                                 .free = options.fit.free,
+                                 .locked = options.fit.locked,
+                                 .known = is_known(options),
+                                 .frees_lateness = frees_lateness(options)});
+  FittedLikelihood fit = before_fit(measured, structure);
+  std::optional<FoundDevice> found;
+  if (fitted) {
+    found = found_device(*fitted, structure, options);
+    fit.left = omnibus_of_lines(*fitted);
+    fit.records = {{measured.source, response.sampling_period.value_or(0.0)}};
+  }
+  Identification result = judged(measured, structure, options, found, std::move(fit));
+  result.method = IdentifyOptions::Method::lines;
+  return result;
+}
+
+}  // namespace
+
+Identification identify(const Recording& recording, const Device& structure, const IdentifyOptions& options,
+                        const Progress& progress) {
+  return identify(std::span(&recording, 1), structure, options, progress);
+}
+
+Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
+                        const Progress& progress) {
+  require_valid(find_problem(options));
+  const MeasuredResponse measured = response_with_enough_lines(recordings, structure, options, {});
+  if (method_of(recordings, options) == IdentifyOptions::Method::lines)
+    return identified_by_lines(measured, structure, options);
+  return identified_by_motion(recordings, measured, structure, options, progress);
+}
+
+Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
+  require_valid(find_problem(options));
+  return identified_by_lines(measured, structure, options);
+}
+
+Identification identify_from_limits(const Device& structure, const IdentifyOptions& options) {
+  require_valid(find_problem(options));
+  if (options.limits.empty()) refuse_member("limits", "has none", "must be one at least");
+  const auto fitted = fit_lines({.structure = structure,
+                                 .limits = options.limits,
+                                 .free = options.fit.free,
+                                 .locked = options.fit.locked,
+                                 .known = is_known(options)});
+  std::optional<FoundDevice> found;
+  if (fitted) found = found_device(*fitted, structure, options);
+  MeasuredResponse none;
+  none.source = structure.name();
+  FittedLikelihood fit{.motion = structure.parameters().motion};
+  if (fitted) fit.left = omnibus_of_lines(*fitted);
+  fit.records = {{none.source, 0.0}};
+  Identification result = judged(none, structure, options, found, std::move(fit));
+  result.method = IdentifyOptions::Method::lines;
+  return result;
+}
+
+}  // namespace zwidth
