@@ -150,10 +150,11 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
     }
   }
   measured.remarks.push_back(warning(shown));
-  if (!measured.stiffness || !stiffness_interval(*measured.stiffness)) return;
+  if (measured.trust.refused() || !measured.stiffness || !stiffness_interval(*measured.stiffness)) return;
   const Interval interval = *stiffness_interval(*measured.stiffness);
   std::vector<std::string> moved;
   std::size_t compared = 0;
+  Interval values{std::numeric_limits<double>::infinity(), 0.0};
   for (std::size_t r = 0; r < each.size(); ++r) {
     if (each[r].points.size() < 2) continue;
     const MeasuredStiffness alone = measured_stiffness(each[r]);
@@ -161,12 +162,15 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
     if (!own) continue;
     ++compared;
     const double stiffness = alone.limit->stiffness;
+    values = {std::min(values.lower, stiffness), std::max(values.upper, stiffness)};
     const bool is_within = stiffness >= interval.lower && stiffness <= interval.upper;
     const double pooled = measured.stiffness->limit->stiffness;
     if (is_within || (own->lower <= pooled && pooled <= own->upper)) continue;
     moved.push_back(fmt::format("{:.4g} from {}", stiffness, recordings[r].source));
   }
-  if (compared < 2) {
+  // What force does to it goes on beyond the recorded ones.
+  constexpr double harmless = 1.05;
+  if (compared < 2 || (by_force && values.upper > harmless * values.lower)) {
     measured.trust.doubt(std::move(shown));
   } else if (!moved.empty()) {
     measured.trust.doubt({.code = FindingCode::recordings_disagree_on_limit,
