@@ -210,34 +210,39 @@ void judge_width(MeasuredResponse& measured) {
 void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recording> recordings,
                                std::span<const FrequencyResponse> each, const FrequencyResponseOptions& options) {
   if (!measured.stiffness || measured.trust.refused() || !stiffness_interval(*measured.stiffness)) return;
-  const auto friction = hidden_friction(recordings, each, options);
-  if (!friction) {
+  const auto forces = hidden_forces(recordings, each, options);
+  if (!forces) {
     measured.remarks.push_back(note({.code = FindingCode::friction_unknown}));
     return judge_width(measured);
   }
+  const auto& [friction, drag] = *forces;
   constexpr double clear = 3.5;  // deviations
-  const bool shows = friction->force > clear * friction->deviation;
+  const bool shows = friction.size > clear * friction.deviation;
   if (measured.dependence && measured.dependence->grows_with_force && shows) {
-    measured.dependence->friction = friction->force;
-    measured.dependence->friction_deviation = friction->deviation;
+    measured.dependence->friction = friction.size;
+    measured.dependence->friction_deviation = friction.deviation;
   }
   const auto before = stiffness_interval(*measured.stiffness);
-  const auto without = measured_stiffness(without_friction(measured.response, friction->most(), recordings, options));
-  const bool is_known = without.status == MeasuredStiffnessStatus::found && without.limit.has_value();
-  const double least = is_known ? std::min(before->lower, without.limit->stiffness) : 0.0;
+  const auto without = [&](double of_friction, double of_drag) {
+    const auto found =
+        measured_stiffness(without_forces(measured.response, {{of_friction}, {of_drag}}, recordings, options));
+    return found.status == MeasuredStiffnessStatus::found && found.limit ? found.limit->stiffness : 0.0;
+  };
+  const double remaining = std::min(without(friction.most(), drag.size), without(friction.size, drag.most()));
+  const double least = std::min(before->lower, remaining);
   MeasuredCrossover& limit = *measured.stiffness->limit;
   for (MeasuredCrossover& crossover : measured.stiffness->crossovers) {
     if (crossover.frequency == limit.frequency) crossover.stiffness_interval.lower = least;
   }
   limit.stiffness_interval.lower = std::min(limit.stiffness_interval.lower, least);
   if (!is_narrow(*before) || is_narrow({least, before->upper})) return judge_width(measured);
-  const double size = shows ? friction->force : friction->most();
+  const double size = shows ? friction.size : friction.most();
   Finding found{.code = shows ? FindingCode::motion_shows_friction : FindingCode::friction_would_pass_unseen,
                 .evidence = {{"friction", size}},
                 .subjects = {{"force", force_in_words(size, measured)}}};
-  if (is_known) {
-    found.subjects.push_back({"stiffness", stiffness_in_words(without.limit->stiffness, measured)});
-    found.effect.push_back({"critical_stiffness", without.limit->stiffness});
+  if (remaining > 0.0) {
+    found.subjects.push_back({"stiffness", stiffness_in_words(remaining, measured)});
+    found.effect.push_back({"critical_stiffness", remaining});
   }
   measured.trust.doubt(std::move(found));
 }

@@ -58,17 +58,17 @@ Recording noisy(Recording recording, std::uint64_t seed) {
 const auto says_friction = Contains(HasSubstr("dry friction, which the response takes for damping"));
 
 /// What a record of this response shows.
-std::optional<internal::HiddenFriction> shown(const Recording& recording) {
+std::optional<internal::HiddenForces> shown(const Recording& recording) {
   const FrequencyResponse response = frequency_response(recording).response;
-  return internal::hidden_friction(std::span(&recording, 1), std::span(&response, 1), {});
+  return internal::hidden_forces(std::span(&recording, 1), std::span(&response, 1), {});
 }
 
 TEST(ResponseFriction, ShowsInAMultisine) {
   for (const double coulomb : {0.1, 0.3, 0.6}) {
     const auto found = shown(noisy(rubbed(coulomb, ExcitationKind::multisine, 1), 1));
     ASSERT_TRUE(found) << coulomb;
-    EXPECT_NEAR(found->force, coulomb, 0.3 * coulomb);
-    EXPECT_GT(found->force, 3.5 * found->deviation);
+    EXPECT_NEAR(found->friction.size, coulomb, 0.3 * coulomb);
+    EXPECT_GT(found->friction.size, 3.5 * found->friction.deviation);
   }
 }
 
@@ -166,10 +166,10 @@ TEST(ResponseFriction, OfARecordThatIsTooShortOrDoesNotMoveIsNothing) {
   const FrequencyResponse response = frequency_response(recording).response;
   Recording part = recording;
   for (Channel& channel : part.channels) channel.samples.resize(30);
-  EXPECT_FALSE(internal::hidden_friction(std::span(&part, 1), std::span(&response, 1), {}));
+  EXPECT_FALSE(internal::hidden_forces(std::span(&part, 1), std::span(&response, 1), {}));
   Recording still = recording;
   for (Channel& channel : still.channels) channel.samples.assign(4000, 0.0);
-  EXPECT_FALSE(internal::hidden_friction(std::span(&still, 1), std::span(&response, 1), {}));
+  EXPECT_FALSE(internal::hidden_forces(std::span(&still, 1), std::span(&response, 1), {}));
 }
 
 }  // namespace
