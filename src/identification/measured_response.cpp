@@ -42,21 +42,6 @@ Remark shown_in(const std::string& source, Remark remark) {
   return remark;
 }
 
-std::optional<OptionProblem> find_band_problem(const FrequencyResponseOptions& options) {
-  const auto wrong = [](const std::optional<double>& frequency) {
-    return frequency && !(std::isfinite(*frequency) && *frequency > 0.0);
-  };
-  for (const auto& [member, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
-    if (wrong(value))
-      return OptionProblem{member, fmt::format("is {:.6g} Hz", hertz(*value)), "must be finite and above 0"};
-  }
-  if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return OptionProblem{"highest", fmt::format("is {:.6g} Hz", hertz(*options.highest)),
-                         fmt::format("must be above the lowest, {:.6g} Hz", hertz(*options.lowest))};
-  }
-  return std::nullopt;
-}
-
 SignalRole role_of(OutputQuantity output) {
   switch (output) {
     case OutputQuantity::velocity:
@@ -273,37 +258,6 @@ MeasuredResponse judged(std::string source, FrequencyResponse response, std::vec
 
 }  // namespace
 
-std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& options) {
-  using Excitation = FrequencyResponseOptions::Excitation;
-  const Excitation excitation = excitation_of(options);
-  if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
-    return OptionProblem{"overlap", fmt::format("is {}", options.overlap), "must be from 0 to below 1"};
-  }
-  if (options.segment_length && *options.segment_length < 2) {
-    return OptionProblem{"segment_length", fmt::format("is {}", *options.segment_length), "must be at least 2 samples"};
-  }
-  if (options.segment_length && excitation == Excitation::periodic && options.lines.empty()) {
-    return OptionProblem{"segment_length", "is given for a periodic force",
-                         "must be left out, or the force taken as aperiodic"};
-  }
-  if (options.period && *options.period < 2) {
-    return OptionProblem{"period", fmt::format("is {}", *options.period), "must be at least 2 samples"};
-  }
-  if (options.skip_periods > 0 && excitation == Excitation::aperiodic) {
-    return OptionProblem{"skip_periods", fmt::format("is {} for an aperiodic force", options.skip_periods),
-                         "must be 0, or the force periodic"};
-  }
-  const auto wrong =
-      std::ranges::find_if_not(options.lines, [](double line) { return std::isfinite(line) && line > 0.0; });
-  if (wrong != options.lines.end())
-    return OptionProblem{"lines", fmt::format("has {:.6g} Hz", hertz(*wrong)), "must be finite and above 0"};
-  if (!options.lines.empty() && (options.segment_length || options.period)) {
-    return OptionProblem{"lines", "are given beside a segment's length or a period",
-                         "must be left out, or they: lines are fitted in the whole record"};
-  }
-  return find_band_problem(options);
-}
-
 MeasuredResponse judged_response(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured = judged(std::move(source), std::move(response), std::move(remarks));
   if (!measured.response.trust && measured.stiffness && !measured.trust.refused()) {
@@ -433,35 +387,6 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     if (width_of(longer) < width_of(best)) best = std::move(longer);
   }
   return best;
-}
-
-std::vector<ResponseLine> response_lines(const FrequencyResponse& response) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  std::vector<ResponseLine> lines;
-  for (const ResponsePoint& measured : response.points) {
-    ResponseLine line;
-    line.frequency = measured.frequency;
-    line.magnitude = std::abs(measured.value);
-    line.coherence = measured.coherence;
-    line.phase = std::arg(measured.value);
-    if (lines.empty()) {
-      if (line.phase > 0.25 * turn) line.phase -= turn;
-    } else {
-      line.phase += turn * std::round((lines.back().phase - line.phase) / turn);
-    }
-    const double radius = confidence_radius(measured, response.averages);
-    if (std::isfinite(radius)) {
-      line.magnitude_lower = std::max(0.0, line.magnitude - radius);
-      line.magnitude_upper = line.magnitude + radius;
-      if (radius < line.magnitude) {
-        const double half_width = std::asin(radius / line.magnitude);
-        line.phase_lower = line.phase - half_width;
-        line.phase_upper = line.phase + half_width;
-      }
-    }
-    lines.push_back(line);
-  }
-  return lines;
 }
 
 }  // namespace zwidth
