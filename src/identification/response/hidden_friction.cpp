@@ -84,10 +84,14 @@ std::optional<Examined> examined(const Recording& recording, double highest, con
   const bool repeats = options.lines.empty() && options.excitation != FrequencyResponseOptions::Excitation::aperiodic;
   const std::size_t period = !repeats ? 0 : options.period ? *options.period : detect_period(force).value_or(0);
   const Signal velocity = velocity_of(output, options.output, recording.sampling_period, highest);
-  Signal sign(n);
-  std::ranges::transform(velocity, sign.begin(), [](double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; });
-  Signal square(n);
-  std::ranges::transform(velocity, square.begin(), [](double v) { return v * std::abs(v); });
+  // Means over each period of a velocity that is straight between its samples: held, as the force is.
+  Signal sign(n, 0.0);
+  Signal square(n, 0.0);
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    const double size = std::abs(velocity[k]) + std::abs(velocity[k + 1]);
+    if (size > 0.0) sign[k] = (velocity[k] + velocity[k + 1]) / size;
+    square[k] = 0.5 * (velocity[k] * std::abs(velocity[k]) + velocity[k + 1] * std::abs(velocity[k + 1]));
+  }
   const std::size_t length = period == 0 ? n : period;
   return Examined{2.0 * std::numbers::pi / (recording.sampling_period * static_cast<double>(length)),
                   spectrum(averaged(force, period)),
@@ -106,7 +110,7 @@ struct Block {
   double freedom = 0.0;
 };
 
-void add_blocks(std::vector<Block>& blocks, const Examined& lines, const FrequencyResponse& response, double period) {
+void add_blocks(std::vector<Block>& blocks, const Examined& lines, const FrequencyResponse& response) {
   const auto first = static_cast<std::size_t>(std::ceil(response.points.front().frequency / lines.spacing - 1e-6));
   const auto last = static_cast<std::size_t>(std::floor(response.points.back().frequency / lines.spacing + 1e-6));
   std::vector<std::size_t> excited;
@@ -144,8 +148,7 @@ void add_blocks(std::vector<Block>& blocks, const Examined& lines, const Frequen
       least = std::min(least, std::abs(rigid));
       most = std::max(most, std::abs(rigid));
       const std::complex<double> gain = rigid / square_of(k);
-      const std::complex<double> share = gain * std::polar(1.0, 0.5 * lines.spacing * static_cast<double>(k) * period);
-      effects.row(i) << share * lines.sign[k], share * lines.square[k];
+      effects.row(i) << gain * lines.sign[k], gain * lines.square[k];
     }
     constexpr double resonant = 4.0;
     if (most > resonant * least) continue;  // no second degree follows it
@@ -223,7 +226,7 @@ std::optional<HiddenForces> hidden_forces(std::span<const Recording> recordings,
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     if (responses[r].points.size() < 2) continue;
     const auto lines = examined(recordings[r], responses[r].points.back().frequency, options);
-    if (lines) add_blocks(blocks, *lines, responses[r], recordings[r].sampling_period);
+    if (lines) add_blocks(blocks, *lines, responses[r]);
   }
   if (blocks.size() < fewest_lines / block) return std::nullopt;
   return solved(blocks);

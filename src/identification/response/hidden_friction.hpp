@@ -24,9 +24,9 @@ struct HiddenForces {
 /// The friction and the drag that recordings show beside their smooth responses: a response takes them for damping, but they
 /// have harmonics that no smooth response makes of the force. On the lines of the excited band, block by block,
 ///
-///     X = G F + T - G e^{jwT/2} (F_c S + D Q),  w^2 G and T of second degree in the frequency
+///     X = G F + T - G (F_c S + D Q),  w^2 G and T of second degree in the frequency
 ///
-/// X, F, S, Q: lines of the motion, the force, sign v and v|v|, of a whole period's mean where the force repeats; T: what leaks
+/// X, F, S, Q: lines of the motion, the force, the means of sign v and v|v| over each period, of a whole period's mean where the force repeats; T: what leaks
 /// from the record's ends; F_c and D: one for all blocks, each weighted by what it leaves. A delay turns them by up to some
 /// 60 degrees. Nothing where no recording has lines enough.
 [[nodiscard]] std::optional<HiddenForces> hidden_forces(std::span<const Recording> recordings,
