@@ -37,9 +37,9 @@ std::vector<double> ten_seconds(ExcitationKind kind, double amplitude, double hi
 
 /// 10 s at 1 kHz of 1.2 kg, 2 N s/m under noise, a sweep or a multisine.
 Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed, double amplitude = 8.0,
-                 test::FrictionBody body = {.mass = 1.2, .viscous = 2.0}) {
+                 test::FrictionBody body = {.mass = 1.2, .viscous = 2.0}, double highest_hz = 200.0) {
   body.coulomb = coulomb;
-  Recording recording{"run", 1e-3, {{"force", ten_seconds(kind, amplitude, 200.0, seed)}, {"position", {}}}, {}};
+  Recording recording{"run", 1e-3, {{"force", ten_seconds(kind, amplitude, highest_hz, seed)}, {"position", {}}}, {}};
   for (const double force : recording.channels[0].samples) {
     recording.channels[1].samples.push_back(body.position);
     body.move(force, 1e-3);
@@ -65,7 +65,8 @@ std::optional<internal::HiddenForces> shown(const Recording& recording) {
 
 TEST(ResponseFriction, ShowsInAMultisine) {
   for (const double coulomb : {0.1, 0.3, 0.6}) {
-    const auto found = shown(noisy(rubbed(coulomb, ExcitationKind::multisine, 1), 1));
+    const test::FrictionBody body{.mass = 1.2, .viscous = 2.0};
+    const auto found = shown(noisy(rubbed(coulomb, ExcitationKind::multisine, 1, 8.0, body, 40.0), 1));
     ASSERT_TRUE(found) << coulomb;
     EXPECT_NEAR(found->friction.size, coulomb, 0.3 * coulomb);
     EXPECT_GT(found->friction.size, 3.5 * found->friction.deviation);
@@ -127,8 +128,8 @@ TEST(ResponseFriction, ALinearDeviceIsSoundWhereTheNoiseIsLow) {
 TEST(ResponseFriction, OfADependenceOnTheForceHasASize) {
   for (const double coulomb : {0.4, 0.8}) {
     const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
-    std::vector<Recording> two{rubbed(coulomb, ExcitationKind::multisine, 1, 8.0, damped),
-                               rubbed(coulomb, ExcitationKind::multisine, 2, 16.0, damped)};
+    std::vector<Recording> two{rubbed(coulomb, ExcitationKind::multisine, 1, 8.0, damped, 40.0),
+                               rubbed(coulomb, ExcitationKind::multisine, 2, 16.0, damped, 40.0)};
     two[1].source = "harder";
     const MeasuredResponse found = frequency_response(two);
     ASSERT_TRUE(found.dependence && found.dependence->friction);

@@ -26,9 +26,9 @@ struct HiddenForces {
 ///
 ///     X = G F + T - G (F_c S + D Q),  w^2 G and T of second degree in the frequency
 ///
-/// X, F, S, Q: lines of the motion, the force, the means of sign v and v|v| over each period, of a whole period's mean where the force repeats; T: what leaks
-/// from the record's ends; F_c and D: one for all blocks, each weighted by what it leaves. A delay turns them by up to some
-/// 60 degrees. Nothing where no recording has lines enough.
+/// X, F, S, Q: lines of the motion, the force, the means of sign v and v|v| between samples; where the force repeats, of a whole
+/// period's mean; T: what leaks from the record's ends; F_c and D: one for all blocks, each weighted by what it leaves. A delay
+/// turns them by up to some 60 degrees. Nothing where no recording has lines enough.
 [[nodiscard]] std::optional<HiddenForces> hidden_forces(std::span<const Recording> recordings,
                                                         std::span<const FrequencyResponse> responses,
                                                         const FrequencyResponseOptions& options);
