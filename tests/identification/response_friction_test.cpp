@@ -37,9 +37,9 @@ std::vector<double> ten_seconds(ExcitationKind kind, double amplitude, double hi
 
 /// 10 s at 1 kHz of 1.2 kg, 2 N s/m under noise, a sweep or a multisine.
 Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed, double amplitude = 8.0,
-                 test::FrictionBody body = {.mass = 1.2, .viscous = 2.0}, double highest_hz = 200.0) {
+                 test::FrictionBody body = {.mass = 1.2, .viscous = 2.0}) {
   body.coulomb = coulomb;
-  Recording recording{"run", 1e-3, {{"force", ten_seconds(kind, amplitude, highest_hz, seed)}, {"position", {}}}, {}};
+  Recording recording{"run", 1e-3, {{"force", ten_seconds(kind, amplitude, 200.0, seed)}, {"position", {}}}, {}};
   for (const double force : recording.channels[0].samples) {
     recording.channels[1].samples.push_back(body.position);
     body.move(force, 1e-3);
@@ -64,9 +64,24 @@ std::optional<internal::HiddenForces> shown(const Recording& recording) {
 }
 
 TEST(ResponseFriction, ShowsInAMultisineWithoutNoise) {
+  ExcitationOptions options;
+  options.kind = ExcitationKind::multisine;
+  options.amplitude = 8.0;
+  options.duration = 10.0;
+  options.rate = 1e3;
+  options.lowest_hz = 0.5;
+  options.highest_hz = 40.0;
+  options.periods = 1;
+  options.seed = 1;
   for (const double coulomb : {0.1, 0.3, 0.6}) {
-    const test::FrictionBody body{.mass = 1.2, .viscous = 10.0};
-    const auto found = shown(rubbed(coulomb, ExcitationKind::multisine, 1, 8.0, body, 40.0));
+    test::FrictionBody body{.mass = 1.2, .viscous = 10.0};
+    body.coulomb = coulomb;
+    Recording recording{"run", 1e-3, {{"force", excite(options).samples}, {"position", {}}}, {}};
+    for (const double force : recording.channels[0].samples) {
+      recording.channels[1].samples.push_back(body.position);
+      body.move(force, 1e-3);
+    }
+    const auto found = shown(recording);
     ASSERT_TRUE(found) << coulomb;
     EXPECT_NEAR(found->friction.size, coulomb, 0.1 * coulomb);
     EXPECT_GT(found->friction.size, 3.5 * found->friction.deviation);
