@@ -88,7 +88,6 @@ TEST(IdentifiedPeriods, LeaveOutTheFirstWhereTheTransientLastsThroughIt) {
   for (double& position : record.position) position = 3e-6 * std::round(position / 3e-6);
   IdentifyOptions options;
   options.structure_values = IdentifyOptions::StructureValues::placeholders;
-  options.scrutiny = IdentifyOptions::Scrutiny::brief;  // it takes long, and is not asked here
   const Identification found = identify(
       Recording{"three periods", 1e-3, {{"force", record.force}, {"position", record.position}}, {}}, truth, options);
   EXPECT_TRUE(found.trust.sound()) << (found.trust.sound() ? "" : found.trust.reasons.front());

@@ -233,7 +233,6 @@ TEST(PooledResponse, IdentifiesADeviceFromSeveralRecordings) {
   const Device device(test::locked_lhifam_parameters());
   IdentifyOptions options;
   options.fit.free = {"body.motor.mass", "body.motor.damping", "body.motor.stiffness"};
-  options.scrutiny = IdentifyOptions::Scrutiny::brief;  // the intervals are asked
   int held = 0;
   const unsigned seeds = test::by_tier(4U, 20U);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
