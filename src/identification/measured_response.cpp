@@ -42,21 +42,6 @@ Remark shown_in(const std::string& source, Remark remark) {
   return remark;
 }
 
-std::optional<OptionProblem> find_band_problem(const FrequencyResponseOptions& options) {
-  const auto wrong = [](const std::optional<double>& frequency) {
-    return frequency && !(std::isfinite(*frequency) && *frequency > 0.0);
-  };
-  for (const auto& [member, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
-    if (wrong(value))
-      return OptionProblem{member, fmt::format("is {:.6g} Hz", hertz(*value)), "must be finite and above 0"};
-  }
-  if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return OptionProblem{"highest", fmt::format("is {:.6g} Hz", hertz(*options.highest)),
-                         fmt::format("must be above the lowest, {:.6g} Hz", hertz(*options.lowest))};
-  }
-  return std::nullopt;
-}
-
 SignalRole role_of(OutputQuantity output) {
   switch (output) {
     case OutputQuantity::velocity:
@@ -150,10 +135,11 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
     }
   }
   measured.remarks.push_back(warning(shown));
-  if (!measured.stiffness || !stiffness_interval(*measured.stiffness)) return;
+  if (measured.trust.refused() || !measured.stiffness || !stiffness_interval(*measured.stiffness)) return;
   const Interval interval = *stiffness_interval(*measured.stiffness);
   std::vector<std::string> moved;
   std::size_t compared = 0;
+  Interval values{std::numeric_limits<double>::infinity(), 0.0};
   for (std::size_t r = 0; r < each.size(); ++r) {
     if (each[r].points.size() < 2) continue;
     const MeasuredStiffness alone = measured_stiffness(each[r]);
@@ -161,12 +147,15 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
     if (!own) continue;
     ++compared;
     const double stiffness = alone.limit->stiffness;
+    values = {std::min(values.lower, stiffness), std::max(values.upper, stiffness)};
     const bool is_within = stiffness >= interval.lower && stiffness <= interval.upper;
     const double pooled = measured.stiffness->limit->stiffness;
     if (is_within || (own->lower <= pooled && pooled <= own->upper)) continue;
     moved.push_back(fmt::format("{:.4g} from {}", stiffness, recordings[r].source));
   }
-  if (compared < 2) {
+  // What force does to it goes on beyond the recorded ones.
+  constexpr double harmless = 1.05;
+  if (compared < 2 || (by_force && values.upper > harmless * values.lower)) {
     measured.trust.doubt(std::move(shown));
   } else if (!moved.empty()) {
     measured.trust.doubt({.code = FindingCode::recordings_disagree_on_limit,
@@ -206,34 +195,39 @@ void judge_width(MeasuredResponse& measured) {
 void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recording> recordings,
                                std::span<const FrequencyResponse> each, const FrequencyResponseOptions& options) {
   if (!measured.stiffness || measured.trust.refused() || !stiffness_interval(*measured.stiffness)) return;
-  const auto friction = hidden_friction(recordings, each, options);
-  if (!friction) {
+  const auto forces = hidden_forces(recordings, each, options);
+  if (!forces) {
     measured.remarks.push_back(note({.code = FindingCode::friction_unknown}));
     return judge_width(measured);
   }
+  const auto& [friction, drag] = *forces;
   constexpr double clear = 3.5;  // deviations
-  const bool shows = friction->force > clear * friction->deviation;
+  const bool shows = friction.size > clear * friction.deviation;
   if (measured.dependence && measured.dependence->grows_with_force && shows) {
-    measured.dependence->friction = friction->force;
-    measured.dependence->friction_deviation = friction->deviation;
+    measured.dependence->friction = friction.size;
+    measured.dependence->friction_deviation = friction.deviation;
   }
   const auto before = stiffness_interval(*measured.stiffness);
-  const auto without = measured_stiffness(without_friction(measured.response, friction->most(), recordings, options));
-  const bool is_known = without.status == MeasuredStiffnessStatus::found && without.limit.has_value();
-  const double least = is_known ? std::min(before->lower, without.limit->stiffness) : 0.0;
+  const auto without = [&](double of_friction, double of_drag) {
+    const auto found =
+        measured_stiffness(without_forces(measured.response, {{of_friction}, {of_drag}}, recordings, options));
+    return found.status == MeasuredStiffnessStatus::found && found.limit ? found.limit->stiffness : 0.0;
+  };
+  const double remaining = std::min(without(friction.most(), drag.size), without(friction.size, drag.most()));
+  const double least = std::min(before->lower, remaining);
   MeasuredCrossover& limit = *measured.stiffness->limit;
   for (MeasuredCrossover& crossover : measured.stiffness->crossovers) {
     if (crossover.frequency == limit.frequency) crossover.stiffness_interval.lower = least;
   }
   limit.stiffness_interval.lower = std::min(limit.stiffness_interval.lower, least);
   if (!is_narrow(*before) || is_narrow({least, before->upper})) return judge_width(measured);
-  const double size = shows ? friction->force : friction->most();
+  const double size = shows ? friction.size : friction.most();
   Finding found{.code = shows ? FindingCode::motion_shows_friction : FindingCode::friction_would_pass_unseen,
                 .evidence = {{"friction", size}},
                 .subjects = {{"force", force_in_words(size, measured)}}};
-  if (is_known) {
-    found.subjects.push_back({"stiffness", stiffness_in_words(without.limit->stiffness, measured)});
-    found.effect.push_back({"critical_stiffness", without.limit->stiffness});
+  if (remaining > 0.0) {
+    found.subjects.push_back({"stiffness", stiffness_in_words(remaining, measured)});
+    found.effect.push_back({"critical_stiffness", remaining});
   }
   measured.trust.doubt(std::move(found));
 }
@@ -263,37 +257,6 @@ MeasuredResponse judged(std::string source, FrequencyResponse response, std::vec
 }
 
 }  // namespace
-
-std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& options) {
-  using Excitation = FrequencyResponseOptions::Excitation;
-  const Excitation excitation = excitation_of(options);
-  if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
-    return OptionProblem{"overlap", fmt::format("is {}", options.overlap), "must be from 0 to below 1"};
-  }
-  if (options.segment_length && *options.segment_length < 2) {
-    return OptionProblem{"segment_length", fmt::format("is {}", *options.segment_length), "must be at least 2 samples"};
-  }
-  if (options.segment_length && excitation == Excitation::periodic && options.lines.empty()) {
-    return OptionProblem{"segment_length", "is given for a periodic force",
-                         "must be left out, or the force taken as aperiodic"};
-  }
-  if (options.period && *options.period < 2) {
-    return OptionProblem{"period", fmt::format("is {}", *options.period), "must be at least 2 samples"};
-  }
-  if (options.skip_periods > 0 && excitation == Excitation::aperiodic) {
-    return OptionProblem{"skip_periods", fmt::format("is {} for an aperiodic force", options.skip_periods),
-                         "must be 0, or the force periodic"};
-  }
-  const auto wrong =
-      std::ranges::find_if_not(options.lines, [](double line) { return std::isfinite(line) && line > 0.0; });
-  if (wrong != options.lines.end())
-    return OptionProblem{"lines", fmt::format("has {:.6g} Hz", hertz(*wrong)), "must be finite and above 0"};
-  if (!options.lines.empty() && (options.segment_length || options.period)) {
-    return OptionProblem{"lines", "are given beside a segment's length or a period",
-                         "must be left out, or they: lines are fitted in the whole record"};
-  }
-  return find_band_problem(options);
-}
 
 MeasuredResponse judged_response(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured = judged(std::move(source), std::move(response), std::move(remarks));
@@ -424,35 +387,6 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     if (width_of(longer) < width_of(best)) best = std::move(longer);
   }
   return best;
-}
-
-std::vector<ResponseLine> response_lines(const FrequencyResponse& response) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  std::vector<ResponseLine> lines;
-  for (const ResponsePoint& measured : response.points) {
-    ResponseLine line;
-    line.frequency = measured.frequency;
-    line.magnitude = std::abs(measured.value);
-    line.coherence = measured.coherence;
-    line.phase = std::arg(measured.value);
-    if (lines.empty()) {
-      if (line.phase > 0.25 * turn) line.phase -= turn;
-    } else {
-      line.phase += turn * std::round((lines.back().phase - line.phase) / turn);
-    }
-    const double radius = confidence_radius(measured, response.averages);
-    if (std::isfinite(radius)) {
-      line.magnitude_lower = std::max(0.0, line.magnitude - radius);
-      line.magnitude_upper = line.magnitude + radius;
-      if (radius < line.magnitude) {
-        const double half_width = std::asin(radius / line.magnitude);
-        line.phase_lower = line.phase - half_width;
-        line.phase_upper = line.phase + half_width;
-      }
-    }
-    lines.push_back(line);
-  }
-  return lines;
 }
 
 }  // namespace zwidth

@@ -1,20 +1,24 @@
 // Dry friction beside a measured response: simulated rigid bodies that rub, and the same without.
-#include "identification/response_friction.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
 #include "identification/friction_body.hpp"
+<<<<<<< HEAD
 #include "identification/simulated_record.hpp"
+=======
+#include "identification/response/hidden_friction.hpp"
+#include "property/friction_recordings.hpp"
+>>>>>>> f052554bed9069d5a1dd8ecf1a360a98e2fcb371
 #include "zwidth/identification/excitation.hpp"
-#include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/measured_response.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
 namespace {
@@ -57,16 +61,35 @@ Recording noisy(Recording recording, std::uint64_t seed) {
 
 const auto says_friction = Contains(HasSubstr("dry friction, which the response takes for damping"));
 
-TEST(ResponseFriction, MakesTheMeasuredStiffnessDoubtful) {
-  int told = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const MeasuredResponse found = frequency_response(rubbed(0.3, ExcitationKind::noise, seed));
-    EXPECT_FALSE(found.trust.sound()) << seed;
-    if (found.stiffness->status != MeasuredStiffnessStatus::found) continue;  // refused
-    EXPECT_THAT(found.trust.reasons, says_friction) << seed;
-    ++told;
+/// What a record of this response shows.
+std::optional<internal::HiddenForces> shown(const Recording& recording) {
+  const FrequencyResponse response = frequency_response(recording).response;
+  return internal::hidden_forces(std::span(&recording, 1), std::span(&response, 1), {});
+}
+
+TEST(ResponseFriction, ShowsInAMultisineWithoutNoise) {
+  ExcitationOptions options;
+  options.kind = ExcitationKind::multisine;
+  options.amplitude = 8.0;
+  options.duration = 10.0;
+  options.rate = 1e3;
+  options.lowest_hz = 0.5;
+  options.highest_hz = 40.0;
+  options.periods = 1;
+  options.seed = 1;
+  for (const double coulomb : {0.1, 0.3, 0.6}) {
+    test::FrictionBody body{.mass = 1.2, .viscous = 10.0};
+    body.coulomb = coulomb;
+    Recording recording{"run", 1e-3, {{"force", excite(options).samples}, {"position", {}}}, {}};
+    for (const double force : recording.channels[0].samples) {
+      recording.channels[1].samples.push_back(body.position);
+      body.move(force, 1e-3);
+    }
+    const auto found = shown(recording);
+    ASSERT_TRUE(found) << coulomb;
+    EXPECT_NEAR(found->friction.size, coulomb, 0.1 * coulomb);
+    EXPECT_GT(found->friction.size, 3.5 * found->friction.deviation);
   }
-  EXPECT_GE(told, 2);
 }
 
 TEST(ResponseFriction, IsNotSeenWhereThereIsNone) {
@@ -78,32 +101,19 @@ TEST(ResponseFriction, IsNotSeenWhereThereIsNone) {
   }
 }
 
-// In periods that repeat nothing tells friction from damping, but a second force does.
-TEST(ResponseFriction, AForceThatRepeatsIsDoubtfulUntilThereIsASecondOne) {
-  const auto says_so = Contains(HasSubstr("a force that repeats hides dry friction"));
-  const Recording once = rubbed(0.3, ExcitationKind::multisine, 1);
-  EXPECT_THAT(frequency_response(once).trust.reasons, says_so);
-  for (const double coulomb : {0.0, 0.3}) {
-    std::vector<Recording> twice{rubbed(coulomb, ExcitationKind::multisine, 1),
-                                 rubbed(coulomb, ExcitationKind::multisine, 2, 16.0)};
-    twice[1].source = "harder";
-    const MeasuredResponse found = frequency_response(twice);
-    EXPECT_THAT(found.trust.reasons, ::testing::Not(says_so));
-    EXPECT_EQ(found.dependence.has_value(), coulomb > 0.0);
-  }
-}
-
-// Friction of 0.75 N under noise of 5 N peak was sound with up to 75 times the truth, 0.05 N at two amplitudes with 1.25
-// times.
-TEST(ResponseFriction, NoStiffnessIsSoundThatFrictionMayHaveRaised) {
+// Friction of 1 to 10 % of the force: no sound interval lies more than 10 % above the truth.
+TEST(ResponseFriction, NoStiffnessIsSoundThatFrictionHasRaised) {
+  const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
+  DeviceParameters rigid;
+  rigid.bodies = {{"body", damped.mass, damped.viscous, 0.0, 0.0}};
+  rigid.loop = {0, 0, 0, 1e-3, 0.0};
+  const double truth = critical_stiffness(Device(rigid)).stiffness;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    for (const double coulomb : {0.025, 0.05, 0.15, 0.35, 0.75}) {
-      for (const ExcitationKind kind : {ExcitationKind::noise, ExcitationKind::logarithmic_chirp}) {
-        EXPECT_FALSE(frequency_response(rubbed(coulomb, kind, seed, 5.0)).trust.sound()) << coulomb << " " << seed;
-        std::vector<Recording> two{rubbed(coulomb, kind, seed, 5.0), rubbed(coulomb, kind, seed + 10, 2.5)};
-        two[1].source = "weaker";
-        EXPECT_FALSE(frequency_response(two).trust.sound()) << coulomb << " " << seed;
-      }
+    for (const double coulomb : {0.05, 0.15, 0.5}) {
+      const MeasuredResponse found =
+          frequency_response(noisy(rubbed(coulomb, ExcitationKind::multisine, seed, 5.0, damped), seed));
+      if (!found.trust.sound()) continue;
+      EXPECT_LE(stiffness_interval(*found.stiffness)->lower, 1.1 * truth) << coulomb << " " << seed;
     }
   }
 }
@@ -123,7 +133,6 @@ TEST(ResponseFriction, ALinearDeviceIsSoundWhereTheNoiseIsLow) {
       if (found.trust.refused()) continue;
       ++all;
       sound += found.trust.sound() ? 1 : 0;
-      if (kind == ExcitationKind::multisine) continue;
       const MeasuredResponse one = frequency_response(two[1]);
       if (one.trust.refused()) continue;
       ++all;
@@ -134,6 +143,7 @@ TEST(ResponseFriction, ALinearDeviceIsSoundWhereTheNoiseIsLow) {
   EXPECT_GE(10 * sound, 8 * all) << sound << " of " << all;
 }
 
+<<<<<<< HEAD
 /// A motor without friction and a handle that rubs, under noise of 5 N peak.
 Recording handle_rubs(double coulomb, std::uint64_t seed) {
   DeviceParameters truth;
@@ -181,11 +191,16 @@ TEST(ResponseFriction, OfADependenceOnTheForceHasASize) {
   }
 }
 
+=======
+>>>>>>> f052554bed9069d5a1dd8ecf1a360a98e2fcb371
 TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
   const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
   const Recording recording = noisy(rubbed(0.0, ExcitationKind::noise, 1, 20.0, damped), 1);
   FrequencyResponse table = frequency_response(recording).response;
-  EXPECT_THAT(judged_response("table", table).trust.reasons, Contains(HasSubstr("a table does not show dry friction")));
+  const MeasuredResponse silent = judged_response("table", table);
+  EXPECT_TRUE(silent.trust.sound());
+  EXPECT_THAT(silent.remarks,
+              Contains(::testing::Field(&Remark::what, HasSubstr("a table does not show dry friction"))));
   table.trust.emplace();
   EXPECT_TRUE(judged_response("table", table).trust.sound());
   for (const auto verdict : {Trust::Verdict::doubtful, Trust::Verdict::refused}) {
@@ -195,10 +210,6 @@ TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
       EXPECT_EQ(found.trust.verdict, verdict);
       EXPECT_EQ(found.trust.reasons.size(), 1U);
       EXPECT_EQ(stiffness_interval(*found.stiffness).has_value(), verdict == Trust::Verdict::doubtful);
-      DeviceParameters rigid;
-      rigid.bodies = {{"body", 1.0, 1.0, 0.0, 0.0}};
-      rigid.loop = {0, 0, 0, 1e-3, 0.0};
-      EXPECT_EQ(identify(found, Device(rigid)).trust.verdict, Trust::Verdict::doubtful);
     }
   }
 }
@@ -206,15 +217,12 @@ TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
 TEST(ResponseFriction, OfARecordThatIsTooShortOrDoesNotMoveIsNothing) {
   const Recording recording = rubbed(0.3, ExcitationKind::noise, 1);
   const FrequencyResponse response = frequency_response(recording).response;
-  const auto with = [](const std::vector<double>& force, const std::vector<double>& position) {
-    return Recording{"run", 1e-3, {{"force", force}, {"position", position}}, {}};
-  };
-  EXPECT_TRUE(internal::recorded_sliding(response, recording));
   Recording part = recording;
-  for (Channel& channel : part.channels) channel.samples.resize(500);
-  EXPECT_FALSE(internal::recorded_sliding(response, part));
-  const std::vector<double> still(4000, 0.0);
-  EXPECT_FALSE(internal::recorded_sliding(response, with(still, still)));
+  for (Channel& channel : part.channels) channel.samples.resize(30);
+  EXPECT_FALSE(internal::hidden_forces(std::span(&part, 1), std::span(&response, 1), {}));
+  Recording still = recording;
+  for (Channel& channel : still.channels) channel.samples.assign(4000, 0.0);
+  EXPECT_FALSE(internal::hidden_forces(std::span(&still, 1), std::span(&response, 1), {}));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "eigenvalues.hpp"
 #include "identification/inverse_dynamics/correlated_residuals.hpp"
 #include "identification/inverse_dynamics/rigid_band.hpp"
-#include "identification/student_t.hpp"
+#include "identification/crossover/student_t.hpp"
 #include "linear_systems.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"

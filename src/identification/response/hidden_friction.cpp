@@ -1,6 +1,8 @@
 #include "identification/response/hidden_friction.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -69,6 +71,7 @@ struct Examined {
   Lines output;
   Lines velocity;
   Lines sign;
+  Lines square;  ///< of v|v|
 };
 
 std::optional<Examined> examined(const Recording& recording, double highest, const FrequencyResponseOptions& options) {
@@ -81,24 +84,33 @@ std::optional<Examined> examined(const Recording& recording, double highest, con
   const bool repeats = options.lines.empty() && options.excitation != FrequencyResponseOptions::Excitation::aperiodic;
   const std::size_t period = !repeats ? 0 : options.period ? *options.period : detect_period(force).value_or(0);
   const Signal velocity = velocity_of(output, options.output, recording.sampling_period, highest);
-  Signal sign(n);
-  std::ranges::transform(velocity, sign.begin(), [](double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; });
+  // Means over each period of a velocity that is straight between its samples: held, as the force is.
+  Signal sign(n, 0.0);
+  Signal square(n, 0.0);
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    const double size = std::abs(velocity[k]) + std::abs(velocity[k + 1]);
+    if (size > 0.0) sign[k] = (velocity[k] + velocity[k + 1]) / size;
+    square[k] = 0.5 * (velocity[k] * std::abs(velocity[k]) + velocity[k + 1] * std::abs(velocity[k + 1]));
+  }
   const std::size_t length = period == 0 ? n : period;
   return Examined{2.0 * std::numbers::pi / (recording.sampling_period * static_cast<double>(length)),
-                  spectrum(averaged(force, period)), spectrum(averaged(output, period)),
-                  spectrum(averaged(velocity, period)), spectrum(averaged(sign, period))};
+                  spectrum(averaged(force, period)),
+                  spectrum(averaged(output, period)),
+                  spectrum(averaged(velocity, period)),
+                  spectrum(averaged(sign, period)),
+                  spectrum(averaged(square, period))};
 }
 
-/// What a block of lines says of the friction: motion = c effect + rest, both beside the smooth response.
+using Effects = Eigen::MatrixX2cd;  // of friction and drag
+
+/// What a block of lines says of the two: motion = effects c + rest, both beside the smooth response.
 struct Block {
   Eigen::VectorXcd motion;
-  Eigen::VectorXcd effect;
+  Effects effects;
   double freedom = 0.0;
-
-  [[nodiscard]] double variance(std::complex<double> c) const { return (motion - c * effect).squaredNorm() / freedom; }
 };
 
-void add_blocks(std::vector<Block>& blocks, const Examined& lines, const FrequencyResponse& response, double period) {
+void add_blocks(std::vector<Block>& blocks, const Examined& lines, const FrequencyResponse& response) {
   const auto first = static_cast<std::size_t>(std::ceil(response.points.front().frequency / lines.spacing - 1e-6));
   const auto last = static_cast<std::size_t>(std::floor(response.points.back().frequency / lines.spacing + 1e-6));
   std::vector<std::size_t> excited;
@@ -126,7 +138,7 @@ void add_blocks(std::vector<Block>& blocks, const Examined& lines, const Frequen
     }
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> smoothed(basis);
     const Eigen::VectorXcd numbers = smoothed.solve(motion);
-    Eigen::VectorXcd effect(count);
+    Effects effects(count, 2);
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -136,11 +148,11 @@ void add_blocks(std::vector<Block>& blocks, const Examined& lines, const Frequen
       least = std::min(least, std::abs(rigid));
       most = std::max(most, std::abs(rigid));
       const std::complex<double> gain = rigid / square_of(k);
-      effect(i) = gain * lines.sign[k] * std::polar(1.0, 0.5 * lines.spacing * static_cast<double>(k) * period);
+      effects.row(i) << gain * lines.sign[k], gain * lines.square[k];
     }
     constexpr double resonant = 4.0;
     if (most > resonant * least) continue;  // no second degree follows it
-    blocks.push_back({motion - basis * numbers, effect - basis * smoothed.solve(effect),
+    blocks.push_back({motion - basis * numbers, effects - basis * smoothed.solve(effects),
                       static_cast<double>(count - smoothed.rank())});
   }
 }
@@ -153,12 +165,43 @@ double turned_back(std::complex<double> c) {
   return std::max(0.0, std::abs(c) * std::cos(beyond));
 }
 
-/// Re sum S conj(V) / sum |V|^2 and the force's mean power over the lines around this frequency.
+/// Both at once, by least squares.
+std::optional<HiddenForces> solved(std::span<const Block> blocks) {
+  // In units of what they make of the motion, so that neither is small.
+  Eigen::Vector2d scale = Eigen::Vector2d::Zero();
+  for (const Block& each : blocks) scale += each.effects.colwise().squaredNorm().transpose();
+  scale = scale.cwiseSqrt();
+  if (!(scale.minCoeff() > 0.0)) return std::nullopt;
+  Eigen::Vector2cd c = Eigen::Vector2cd::Zero();
+  Eigen::Matrix2cd known = Eigen::Matrix2cd::Zero();
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round) {
+    Eigen::Vector2cd sum = Eigen::Vector2cd::Zero();
+    known.setZero();
+    for (const Block& each : blocks) {
+      const Effects effects = each.effects * scale.cwiseInverse().asDiagonal();
+      const double variance = (each.motion - effects * c).squaredNorm() / each.freedom;
+      if (!(variance > 0.0) || !std::isfinite(variance)) continue;
+      sum += effects.adjoint() * each.motion / variance;
+      known += effects.adjoint() * effects / variance;
+    }
+    const Eigen::LDLT<Eigen::Matrix2cd> solver(known);
+    if (solver.info() != Eigen::Success || !(solver.vectorD().real().minCoeff() > 0.0)) return std::nullopt;
+    c = solver.solve(sum);
+  }
+  const Eigen::Matrix2cd covariance = known.inverse();
+  const auto force = [&](Eigen::Index i) {
+    return HiddenForce{turned_back(-c(i)) / scale(i), std::sqrt(0.5 * covariance(i, i).real()) / scale(i)};
+  };
+  return HiddenForces{force(0), force(1)};
+}
+
+/// Re sum S conj(V) / sum |V|^2 of the opposing force S and the force's mean power over the lines around this frequency.
 struct Gain {
   double value = 0.0;
   double power = 0.0;
 };
-Gain gain_at(const Examined& lines, double frequency) {
+Gain gain_at(const Examined& lines, double frequency, const HiddenForces& forces) {
   const auto k = static_cast<std::size_t>(std::lround(frequency / lines.spacing));
   const std::size_t begin = std::max<std::size_t>(k, reach + 1) - reach;
   const std::size_t end = std::min(lines.sign.size(), k + reach + 1);
@@ -166,7 +209,8 @@ Gain gain_at(const Examined& lines, double frequency) {
   double square = 0.0;
   double power = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
-    product += std::real(lines.sign[i] * std::conj(lines.velocity[i]));
+    const std::complex<double> opposing = forces.friction.size * lines.sign[i] + forces.drag.size * lines.square[i];
+    product += std::real(opposing * std::conj(lines.velocity[i]));
     square += std::norm(lines.velocity[i]);
     power += std::norm(lines.force[i]);
   }
@@ -175,37 +219,21 @@ Gain gain_at(const Examined& lines, double frequency) {
 
 }  // namespace
 
-std::optional<HiddenFriction> hidden_friction(std::span<const Recording> recordings,
-                                              std::span<const FrequencyResponse> responses,
-                                              const FrequencyResponseOptions& options) {
+std::optional<HiddenForces> hidden_forces(std::span<const Recording> recordings,
+                                          std::span<const FrequencyResponse> responses,
+                                          const FrequencyResponseOptions& options) {
   std::vector<Block> blocks;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     if (responses[r].points.size() < 2) continue;
     const auto lines = examined(recordings[r], responses[r].points.back().frequency, options);
-    if (lines) add_blocks(blocks, *lines, responses[r], recordings[r].sampling_period);
+    if (lines) add_blocks(blocks, *lines, responses[r]);
   }
   if (blocks.size() < fewest_lines / block) return std::nullopt;
-  std::complex<double> c = 0.0;
-  double weight = 0.0;
-  constexpr int rounds = 3;
-  for (int round = 0; round < rounds; ++round) {
-    std::complex<double> sum = 0.0;
-    double next_weight = 0.0;
-    for (const Block& each : blocks) {
-      const double variance = each.variance(c);
-      if (!(variance > 0.0) || !std::isfinite(variance)) continue;
-      sum += each.effect.dot(each.motion) / variance;
-      next_weight += each.effect.squaredNorm() / variance;
-    }
-    weight = next_weight;
-    if (!(weight > 0.0)) return std::nullopt;
-    c = sum / weight;
-  }
-  return HiddenFriction{turned_back(-c), 1.0 / std::sqrt(2.0 * weight)};
+  return solved(blocks);
 }
 
-FrequencyResponse without_friction(const FrequencyResponse& response, double force,
-                                   std::span<const Recording> recordings, const FrequencyResponseOptions& options) {
+FrequencyResponse without_forces(const FrequencyResponse& response, const HiddenForces& forces,
+                                 std::span<const Recording> recordings, const FrequencyResponseOptions& options) {
   FrequencyResponse without = response;
   std::vector<Examined> all;
   for (const Recording& each : recordings) {
@@ -215,14 +243,14 @@ FrequencyResponse without_friction(const FrequencyResponse& response, double for
     double sum = 0.0;
     double power = 0.0;
     for (const Examined& each : all) {
-      const Gain gain = gain_at(each, point.frequency);
+      const Gain gain = gain_at(each, point.frequency, forces);
       sum += gain.power * gain.value;
       power += gain.power;
     }
     if (!(power > 0.0)) continue;
     const std::complex<double> rate =
         std::polar(point.frequency, 0.5 * (std::numbers::pi + point.frequency * *response.sampling_period));
-    const std::complex<double> factor = 1.0 / (1.0 - force * sum / power * rate * point.value);
+    const std::complex<double> factor = 1.0 / (1.0 - sum / power * rate * point.value);
     point.value *= factor;
     point.variance *= std::norm(factor * factor);
   }

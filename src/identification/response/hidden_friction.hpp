@@ -7,30 +7,36 @@
 
 namespace zwidth::internal {
 
-/// Dry friction of the sensed body, N or N m.
-struct HiddenFriction {
-  double force = 0.0;      ///< >= 0
+/// An opposing force of the sensed body that no linear device has.
+struct HiddenForce {
+  double size = 0.0;       ///< >= 0
   double deviation = 0.0;  ///< one standard deviation of it
 
-  [[nodiscard]] double most() const { return force + 2.0 * deviation; }
+  [[nodiscard]] double most() const { return size + deviation; }
 };
 
-/// The friction that recordings show beside their smooth responses: a response takes friction for damping, but the sign of the
-/// velocity has harmonics that no smooth response makes of the force. On the lines of the excited band, block by block,
-///
-///     X = G F + T - F_c G e^{jwT/2} S,  G and T of second degree in the frequency
-///
-/// X, F, S: lines of the motion, of the force and of sign v, of a whole period's mean where the force repeats; T: what leaks
-/// from the record's ends; F_c: one for all blocks, each weighted by what it leaves. A delay turns F_c by up to some 60 degrees.
-/// Nothing where no recording has lines enough.
-[[nodiscard]] std::optional<HiddenFriction> hidden_friction(std::span<const Recording> recordings,
-                                                            std::span<const FrequencyResponse> responses,
-                                                            const FrequencyResponseOptions& options);
+/// F_c sign v + D v|v|.
+struct HiddenForces {
+  HiddenForce friction;  ///< N or N m
+  HiddenForce drag;      ///< N s^2/m^2 or N m s^2
+};
 
-/// The pooled response without this much friction: 1/G_0 = 1/G - F_c kappa jw/D, kappa: the regression of sign v on v, line by
-/// line over those around it, averaged over the recordings by the power of their force; D: the hold.
-[[nodiscard]] FrequencyResponse without_friction(const FrequencyResponse& response, double force,
-                                                 std::span<const Recording> recordings,
-                                                 const FrequencyResponseOptions& options);
+/// The friction and the drag that recordings show beside their smooth responses: a response takes them for damping, but they
+/// have harmonics that no smooth response makes of the force. On the lines of the excited band, block by block,
+///
+///     X = G F + T - G (F_c S + D Q),  w^2 G and T of second degree in the frequency
+///
+/// X, F, S, Q: lines of the motion, the force, the means of sign v and v|v| between samples; where the force repeats, of a whole
+/// period's mean; T: what leaks from the record's ends; F_c and D: one for all blocks, each weighted by what it leaves. A delay
+/// turns them by up to some 60 degrees. Nothing where no recording has lines enough.
+[[nodiscard]] std::optional<HiddenForces> hidden_forces(std::span<const Recording> recordings,
+                                                        std::span<const FrequencyResponse> responses,
+                                                        const FrequencyResponseOptions& options);
+
+/// The pooled response without these (their sizes): 1/G_0 = 1/G - kappa jw/D_h, kappa: the regression of the forces on v, line
+/// by line over those around it, averaged over the recordings by the power of their force; D_h: the hold.
+[[nodiscard]] FrequencyResponse without_forces(const FrequencyResponse& response, const HiddenForces& forces,
+                                               std::span<const Recording> recordings,
+                                               const FrequencyResponseOptions& options);
 
 }  // namespace zwidth::internal

@@ -1,3 +1,0 @@
-#pragma once
-
-#include "identification/crossover/student_t.hpp"
