@@ -88,10 +88,7 @@ TEST(IdentifiedPeriods, LeaveOutTheFirstWhereTheTransientLastsThroughIt) {
   for (double& position : record.position) position = 3e-6 * std::round(position / 3e-6);
   IdentifyOptions options;
   options.structure_values = IdentifyOptions::StructureValues::placeholders;
-<<<<<<< HEAD
   options.method = IdentifyOptions::Method::lines;
-=======
->>>>>>> f052554bed9069d5a1dd8ecf1a360a98e2fcb371
   const Identification found = identify(
       Recording{"three periods", 1e-3, {{"force", record.force}, {"position", record.position}}, {}}, truth, options);
   EXPECT_TRUE(found.trust.sound()) << (found.trust.sound() ? "" : found.trust.reasons.front());

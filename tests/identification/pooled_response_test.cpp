@@ -233,10 +233,7 @@ TEST(PooledResponse, IdentifiesADeviceFromSeveralRecordings) {
   const Device device(test::locked_lhifam_parameters());
   IdentifyOptions options;
   options.fit.free = {"body.motor.mass", "body.motor.damping", "body.motor.stiffness"};
-<<<<<<< HEAD
   options.method = IdentifyOptions::Method::lines;
-=======
->>>>>>> f052554bed9069d5a1dd8ecf1a360a98e2fcb371
   int held = 0;
   const unsigned seeds = test::by_tier(4U, 20U);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

@@ -10,12 +10,8 @@
 #include <vector>
 
 #include "identification/friction_body.hpp"
-<<<<<<< HEAD
 #include "identification/simulated_record.hpp"
-=======
 #include "identification/response/hidden_friction.hpp"
-#include "property/friction_recordings.hpp"
->>>>>>> f052554bed9069d5a1dd8ecf1a360a98e2fcb371
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -143,56 +139,6 @@ TEST(ResponseFriction, ALinearDeviceIsSoundWhereTheNoiseIsLow) {
   EXPECT_GE(10 * sound, 8 * all) << sound << " of " << all;
 }
 
-<<<<<<< HEAD
-/// A motor without friction and a handle that rubs, under noise of 5 N peak.
-Recording handle_rubs(double coulomb, std::uint64_t seed) {
-  DeviceParameters truth;
-  truth.bodies = {{"motor", 0.3, 1.0, 0.0, 0.0}, {"handle", 1.2, 2.0, 0.0, coulomb}};
-  truth.links = {{0, 1, 8e3, 4.0}};
-  truth.loop = {0, 0, 1, 1e-3, 0.0};
-  const std::vector<double> force = ten_seconds(ExcitationKind::noise, 5.0, 100.0, seed);
-  Recording recording{"run", 1e-3, {{"force", force}, {"position", {}}}, {}};
-  recording.channels[1].samples = test::simulated_positions(test::plant_of(truth), recording.channels[0].samples);
-  return recording;
-}
-
-// The handle's reversals do not show in the motor's: they do in what the antiresonance says of its motion. Friction of
-// 1.6 % of the force's peak on the handle alone was sound, 2 times too high.
-TEST(ResponseFriction, OfAHandleShowsThroughTheAntiresonance) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Recording recording = handle_rubs(0.08, seed);
-    const FrequencyResponse response = frequency_response(recording).response;
-    const auto bodies = internal::hidden_bodies(response);
-    ASSERT_FALSE(bodies.empty()) << seed;
-    EXPECT_NEAR(bodies[0].frequency, std::sqrt(8e3 / 1.2), 2.0);
-    const auto of_motor = internal::recorded_sliding(response, recording);
-    const auto of_handle = internal::recorded_sliding(response, recording, {.body = bodies[0]});
-    ASSERT_TRUE(of_motor && of_handle);
-    EXPECT_NEAR(of_handle->friction->force, 0.08, 0.02) << seed;
-    EXPECT_LT(of_motor->friction->force, 0.03) << seed;
-    EXPECT_FALSE(frequency_response(recording).trust.sound()) << seed;
-  }
-}
-
-// Two amplitudes: by how much they differ is the friction.
-TEST(ResponseFriction, OfADependenceOnTheForceHasASize) {
-  for (const double coulomb : {0.4, 0.8}) {
-    const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
-    std::vector<Recording> two{rubbed(coulomb, ExcitationKind::multisine, 1, 8.0, damped),
-                               rubbed(coulomb, ExcitationKind::multisine, 2, 16.0, damped)};
-    two[1].source = "harder";
-    const MeasuredResponse found = frequency_response(two);
-    ASSERT_TRUE(found.dependence && found.dependence->friction);
-    EXPECT_NEAR(*found.dependence->friction, coulomb, 0.25 * coulomb);
-    EXPECT_THAT(found.remarks, Contains(::testing::Field(&Remark::consequence, HasSubstr("N (N m where it turns)"))));
-    for (Recording& each : two) each.channels[0].base_unit = "N m";
-    const MeasuredResponse turning = frequency_response(two);
-    EXPECT_THAT(turning.remarks, Contains(::testing::Field(&Remark::consequence, HasSubstr("N m does: it holds"))));
-  }
-}
-
-=======
->>>>>>> f052554bed9069d5a1dd8ecf1a360a98e2fcb371
 TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
   const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
   const Recording recording = noisy(rubbed(0.0, ExcitationKind::noise, 1, 20.0, damped), 1);
