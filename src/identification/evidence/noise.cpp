@@ -13,19 +13,21 @@ class PastSums {
   explicit PastSums(Eigen::Index reach) : reach_(reach) {}
 
   void take(const Eigen::Ref<const Eigen::VectorXd>& column) {
-    sums_.resize(reach_ + column.size() + 1);
-    for (Eigen::Index k = 0; k <= reach_; ++k) sums_(k) = static_cast<double>(k) * column(0);
-    for (Eigen::Index k = 0; k < column.size(); ++k) sums_(reach_ + k + 1) = sums_(reach_ + k) + column(k);
+    sums_.assign(1, 0.0);
+    sums_.reserve(static_cast<std::size_t>(reach_ + column.size() + 1));
+    for (Eigen::Index k = 0; k < reach_; ++k) sums_.push_back(sums_.back() + column(0));
+    for (const double each : column) sums_.push_back(sums_.back() + each);
   }
   /// The mean of the `length` values that end `lag` before each of `rows` values from `first` on.
   [[nodiscard]] auto means(Eigen::Index first, Eigen::Index rows, Eigen::Index lag, Eigen::Index length) const {
+    const Eigen::Map<const Eigen::VectorXd> sums(sums_.data(), static_cast<Eigen::Index>(sums_.size()));
     const Eigen::Index end = reach_ + first - lag + 1;
-    return (sums_.segment(end, rows) - sums_.segment(end - length, rows)) / static_cast<double>(length);
+    return (sums.segment(end, rows) - sums.segment(end - length, rows)) / static_cast<double>(length);
   }
 
  private:
   Eigen::Index reach_;
-  Eigen::VectorXd sums_;
+  std::vector<double> sums_;
 };
 
 /// n 2^m: so long the m-th mean is, and so far back it ends.
