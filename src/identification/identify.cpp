@@ -49,6 +49,18 @@ FittedLikelihood before_fit(const MeasuredResponse& measured, const Device& stru
   return fit;
 }
 
+/// The remarks, less those of the limit that the response alone shows, which a fit does not ask.
+std::vector<Remark> remarks_of_fit(const MeasuredResponse& measured) {
+  std::vector<Remark> remarks = measured.remarks;
+  std::erase_if(remarks, [&](const Remark& remark) {
+    const auto is_it = [&](const Remark& other) { return other.finding && other.finding == remark.finding; };
+    const bool is_of_response = remark.finding && (remark.finding->code == FindingCode::friction_unknown ||
+                                                   remark.finding->code == FindingCode::table_hides_friction);
+    return is_of_response || (measured.stiffness && std::ranges::any_of(measured.stiffness->remarks, is_it));
+  });
+  return remarks;
+}
+
 /// The range of a found limit; nothing where the data say next to nothing of it.
 std::optional<Interval> told_limit(const Interval& interval) {
   constexpr double widest = 1000.0;
@@ -61,7 +73,7 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
                       const std::optional<FoundDevice>& found, FittedLikelihood fit) {
   Identification result{
       .source = measured.source, .response = measured.response, .fit = {.device = structure, .misfit = {}}};
-  result.remarks = measured.remarks;
+  result.remarks = remarks_of_fit(measured);
   if (found) {
     result.fit = {.device = device_of(*found),
                   .estimates = estimates_of(*found),
@@ -210,7 +222,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   std::optional<FoundDevice> found;
   if (fitted) found = found_device(*fitted, structure, options);
   MeasuredResponse none;
-  none.source = structure.name();
+  none.source = "measured limits";
   FittedLikelihood fit{.motion = structure.parameters().motion};
   if (fitted) fit.left = omnibus_of_lines(*fitted);
   fit.records = {{none.source, 0.0}};
