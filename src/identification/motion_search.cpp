@@ -8,10 +8,12 @@ namespace zwidth::internal {
 namespace {
 
 constexpr Eigen::Index noise_order = 12;
-constexpr double short_segment = 0.5;  // s
-constexpr std::size_t left_out = 20;   // samples at a record's beginning, whose forces came before it
-constexpr int coarse_parts = 1;        // of a sampling period, where terms act
-constexpr int fine_parts = 2;          // finer ones move the limit of records with 10 % of friction by 0.15 % at most
+constexpr double short_segment = 0.5;            // s
+constexpr std::size_t left_out = 20;             // samples at a record's beginning, whose forces came before it
+constexpr std::size_t most_samples = 100000;     // of long records evenly spread segments are fitted
+constexpr std::size_t most_samples_near = 8000;  // tell the numbers roughly
+constexpr int coarse_parts = 1;                  // of a sampling period, where terms act
+constexpr int fine_parts = 2;  // finer ones move the limit of records with 10 % of friction by 0.15 % at most
 
 double rms_of(std::span<const double> samples) {
   double squares = 0.0;
@@ -32,18 +34,16 @@ std::vector<Segment> segments_of(const std::vector<ForceMotionRecord>& records, 
   return segments;
 }
 
-/// Short ones: those that long ones begin with, and others evenly, so many that they tell the numbers roughly.
-std::vector<Segment> sparse_segments(const std::vector<ForceMotionRecord>& records,
-                                     const std::vector<Segment>& long_ones) {
-  constexpr std::size_t most_samples = 8000;
-  const std::vector<Segment> all = segments_of(records, short_segment);
+/// So many of them, evenly, that they hold no more than that; and those that others begin with.
+std::vector<Segment> thinned(const std::vector<Segment>& all, std::size_t most_samples,
+                             const std::vector<Segment>& others) {
   std::size_t samples = 0;
   for (const Segment& each : all) samples += each.count;
-  const std::size_t every = std::max<std::size_t>(1, samples / most_samples);
+  const std::size_t every = (samples + most_samples - 1) / most_samples;
   std::vector<Segment> kept;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool begins = std::ranges::any_of(
-        long_ones, [&](const Segment& other) { return other.record == all[i].record && other.first == all[i].first; });
+        others, [&](const Segment& other) { return other.record == all[i].record && other.first == all[i].first; });
     if (begins || i % every == 0) kept.push_back(all[i]);
   }
   return kept;
@@ -168,8 +168,10 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   FoundMotion found;
   found.model = std::make_unique<MotionModel>(family, parts.terms, start.records, fine_parts);
   const MotionModel& model = *found.model;
-  const std::vector<Segment> long_ones = segments_of(start.records, options.segment);
-  Search near(coarse_model, sparse_segments(start.records, long_ones), start, options);
+  const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples, {});
+  const std::vector<Segment> short_ones =
+      thinned(segments_of(start.records, short_segment), most_samples_near, long_ones);
+  Search near(coarse_model, short_ones, start, options);
   Search whole(model, long_ones, start, options);
 
   const Eigen::VectorXd linear = family.coordinates_of(start.device);
