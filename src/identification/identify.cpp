@@ -68,6 +68,16 @@ std::optional<Interval> told_limit(const Interval& interval) {
   return is_told ? std::optional(interval) : std::nullopt;
 }
 
+/// Whether fewer numbers of a response stand out of their noise than are fitted.
+bool is_drowned(const FrequencyResponse& response, const Device& structure, const IdentifyOptions& options) {
+  constexpr double clear = 3.0;
+  const auto standing_out = std::ranges::count_if(response.points, [](const ResponsePoint& point) {
+    return std::norm(point.value) > clear * clear * point.variance;
+  });
+  return 2 * static_cast<std::size_t>(standing_out) <
+         free_parameters(structure, options.fit.free, options.fit.locked).size();
+}
+
 /// The device, its analysis and the verdict on it, of what was found and is known of it.
 Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
                       const std::optional<FoundDevice>& found, FittedLikelihood fit) {
@@ -107,8 +117,9 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
   keep_what_is_assumed(structure, result.fit.estimates,
                        is_known(options) ? std::vector<std::string>{} : unseen_placeholders(options.fit.locked),
                        result.fit.device, result.trust);
-  result.analysis.trust.inherit(result.trust);
   result.fit.device = with_trust(result.fit.device, result.trust);
+  if (result.trust.refused()) result.analysis = analyze(result.fit.device, {.any_user = false});
+  result.analysis.trust.inherit(result.trust);
   return result;
 }
 
@@ -120,13 +131,15 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
     done += of_rest * (1.0 - done);
     if (progress) progress(done);
   };
+  FittedLikelihood fit = before_fit(measured, structure);
+  if (is_drowned(measured.response, structure, options))
+    return judged(measured, structure, options, std::nullopt, std::move(fit));
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
   const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
                                         {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
                                          options.segment,
                                          options.limits,
                                          tell});
-  FittedLikelihood fit = before_fit(measured, structure);
   std::optional<FoundDevice> found;
   std::vector<FittedMotion> motions;
   if (fitted) {
@@ -171,6 +184,9 @@ FoundDevice found_device(const FittedByLines& fitted, const Device& structure, c
 Identification identified_by_lines(const MeasuredResponse& measured, const Device& structure,
                                    const IdentifyOptions& options) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
+  FittedLikelihood fit = before_fit(measured, structure);
+  if (is_drowned(response, structure, options))
+    return judged(measured, structure, options, std::nullopt, std::move(fit));
   const auto fitted = fit_lines({.structure = structure,
                                  .response = &response,
                                  .limits = options.limits,
@@ -178,7 +194,6 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
                                  .locked = options.fit.locked,
                                  .known = is_known(options),
                                  .frees_lateness = frees_lateness(options)});
-  FittedLikelihood fit = before_fit(measured, structure);
   std::optional<FoundDevice> found;
   if (fitted) {
     found = found_device(*fitted, structure, options);
