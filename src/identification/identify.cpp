@@ -132,7 +132,7 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
     if (progress) progress(done);
   };
   FittedLikelihood fit = before_fit(measured, structure);
-  if (is_drowned(measured.response, structure, options))
+  if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit));
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
   const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
@@ -185,7 +185,7 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
                                    const IdentifyOptions& options) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
   FittedLikelihood fit = before_fit(measured, structure);
-  if (is_drowned(response, structure, options))
+  if (!fit.contradictions.empty() || is_drowned(response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit));
   const auto fitted = fit_lines({.structure = structure,
                                  .response = &response,
