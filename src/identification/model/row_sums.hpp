@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace zwidth::internal {
+
+/// A matrix by its rows, each of a multiple of `lanes` columns: sums of rows go by so many columns at once.
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+inline constexpr Eigen::Index lanes = 4;
+
+/// So many columns, and zeros up to a multiple of `lanes`.
+inline Eigen::Index padded(Eigen::Index columns) { return (columns + lanes - 1) / lanes * lanes; }
+
+/// to += sum_j by[j] from[j], of `count` rows of `width` columns that begin `stride` numbers after each other.
+inline void add_rows(double* to, const double* by, Eigen::Index count, const double* from, Eigen::Index stride,
+                     Eigen::Index width) {
+  using Lanes = Eigen::Array<double, lanes, 1>;
+  for (Eigen::Index column = 0; column < width; column += lanes) {
+    Lanes sum = Eigen::Map<const Lanes>(to + column);
+    const double* row = from + column;
+    for (Eigen::Index j = 0; j < count; ++j, row += stride) sum += by[j] * Eigen::Map<const Lanes>(row);
+    Eigen::Map<Lanes>(to + column) = sum;
+  }
+}
+
+}  // namespace zwidth::internal
