@@ -22,25 +22,25 @@ SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Ei
     : x(State::Zero(device.input.size())),
       device_(device),
       bodies_(bodies),
+      frictions_(static_cast<Eigen::Index>(device.frictions.size())),
       with_slopes_(device.with_slopes),
       forces_(bodies),
       bends_(device.frictions.size()),
       ends_(device.frictions.size()) {
   if (!with_slopes_) return;
-  const auto frictions = static_cast<Eigen::Index>(device.frictions.size());
   const Eigen::Index rows = x.size() + device.bends;
   command_at_ = rows;
   forces_at_ = command_at_ + 1;
   frictions_at_ = forces_at_ + bodies;
-  numbers_at_ = padded(frictions_at_ + frictions);
+  numbers_at_ = padded(frictions_at_ + frictions_);
   const Eigen::Index width = numbers_at_ + std::max(device.before.slopes.cols(), device.after.slopes.cols());
   slopes = Rows::Zero(rows, padded(columns));
   next_slopes_ = slopes;
   ends_slopes_ = Rows::Zero(rows, width);
   force_slopes_ = Rows::Zero(bodies, width);
-  free_slopes_ = Rows::Zero(frictions, width);
-  added_slopes_ = Rows::Zero(frictions, width);
-  answers_ = Rows::Zero(frictions, padded(frictions));
+  free_slopes_ = Rows::Zero(frictions_, width);
+  added_slopes_ = Rows::Zero(frictions_, width);
+  answers_ = Rows::Zero(frictions_, frictions_);
   heard_ = answers_;
   gradients_ = Rows::Zero(bodies, x.size());
 }
@@ -109,7 +109,7 @@ void SegmentPlayer::move(const LinearStep& step, const DriveForce& command, doub
   if (device_.rubbing > 0 || (with_slopes_ && !device_.frictions.empty())) {
     add_frictions(step);
     if (with_slopes_) add_friction_slopes(step);
-    apply(step);
+    if (device_.rubbing > 0) apply(step);
   }
   if (with_slopes_) end_slopes(command);
 }
@@ -125,7 +125,7 @@ void SegmentPlayer::begin_slopes(const LinearStep& step, double command) {
     std::copy_n(&step.columns(i, 0), n, row);
     row[command_at_] = step.columns(i, n);
     add_rows(row + numbers_at_, before_.data(), n, step.slopes.row(i).data(), n * numbers, numbers);
-    add_rows(row + numbers_at_, &command, 1, step.slopes.row(n * n + i).data(), 0, numbers);
+    add_row(row + numbers_at_, command, step.slopes.row(n * n + i).data(), numbers);
   }
 }
 
@@ -156,7 +156,7 @@ void SegmentPlayer::add_forces(double share) {
       const double by = 0.5 * gradients_(body, i);  // of the state halfway
       if (by == 0.0) continue;
       row[i] += by;
-      add_rows(row, &by, 1, &ends_slopes_(i, 0), 0, ends_slopes_.cols());
+      add_row(row, by, &ends_slopes_(i, 0), ends_slopes_.cols());
     }
   }
 }
@@ -178,116 +178,122 @@ void SegmentPlayer::add_force(const PlayedDevice::Force& force, const LawForce& 
   }
 }
 
-double SegmentPlayer::compliance(const LinearStep& step, std::size_t on, std::size_t of) const {
-  return step.columns(speed_of(on), x.size() + 1 + device_.frictions[of].body);
+double SegmentPlayer::compliance(const LinearStep& step, Eigen::Index on, Eigen::Index of) const {
+  return step.columns(speed_of(on), x.size() + 1 + friction(of).body);
 }
 
-const double* SegmentPlayer::compliance_slopes(const LinearStep& step, std::size_t on, std::size_t of) const {
-  return step.slopes.row((x.size() + 1 + device_.frictions[of].body) * x.size() + speed_of(on)).data();
+const double* SegmentPlayer::compliance_slopes(const LinearStep& step, Eigen::Index on, Eigen::Index of) const {
+  return step.slopes.row((x.size() + 1 + friction(of).body) * x.size() + speed_of(on)).data();
 }
 
 void SegmentPlayer::add_frictions(const LinearStep& step) {
   const int sweeps = device_.rubbing > 1 ? most_sweeps : 1;
   forces_.setZero();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      if (device_.frictions[i].limit > 0.0) rub(step, i);
+    for (Eigen::Index i = 0; i < frictions_; ++i) {
+      if (rubs(i)) rub(step, i);
     }
   }
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    if (with_slopes_ && !(device_.frictions[i].limit > 0.0)) rub(step, i);  // no force, but one by the limit
-    bends_[i] = ends_[i].bend.value;
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    if (with_slopes_ && !rubs(i)) rub(step, i);  // no force, but one by the limit
+    bends_[static_cast<std::size_t>(i)] = end(i).bend.value;
   }
 }
 
-void SegmentPlayer::rub(const LinearStep& step, std::size_t i) {
-  const PlayedDevice::Friction& friction = device_.frictions[i];
+void SegmentPlayer::rub(const LinearStep& step, Eigen::Index i) {
   double free = x(speed_of(i));
-  for (std::size_t j = 0; j < ends_.size(); ++j)
-    free += j == i ? 0.0 : compliance(step, i, j) * forces_(device_.frictions[j].body);
+  for (Eigen::Index j = 0; j < frictions_; ++j)
+    free += j == i ? 0.0 : compliance(step, i, j) * forces_(friction(j).body);
   const double before = before_(speed_of(i));
   const double own = compliance(step, i, i);
-  if (friction.length_number) {
-    ends_[i] = presliding_step(before, free, friction.limit, own, bends_[i], friction.length, step.length);
+  const double limit = friction(i).limit;
+  if (friction(i).length_number) {
+    const double bend = bends_[static_cast<std::size_t>(i)];
+    end(i) = presliding_step(before, free, limit, own, bend, friction(i).length, step.length);
   } else {
-    const FrictionStep sticks = friction_step(before, free, friction.limit, own);
-    ends_[i].velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};
+    const FrictionStep sticks = friction_step(before, free, limit, own);
+    end(i).velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};
   }
-  if (friction.limit > 0.0) forces_(friction.body) = (ends_[i].velocity.value - free) / own;
+  if (rubs(i)) forces_(friction(i).body) = (end(i).velocity.value - free) / own;
 }
 
 void SegmentPlayer::add_friction_slopes(const LinearStep& step) {
   const Eigen::Index width = ends_slopes_.cols();
-  const Eigen::Index numbers = step.slopes.cols();
-  const auto count = static_cast<Eigen::Index>(ends_.size());
-  const auto add_unit = [](double* row, double by, const double* from, Eigen::Index columns) {
-    add_rows(row, &by, 1, from, 0, columns);
-  };
   added_slopes_.setZero();
   force_slopes_.setZero();
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    const PlayedDevice::Friction& friction = device_.frictions[i];
-    const PreslidingStep::End& velocity = ends_[i].velocity;
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    const Eigen::Index column = frictions_at_ + i;
     const double own = compliance(step, i, i);
-    const auto at = static_cast<Eigen::Index>(i);
-    double* free = &free_slopes_(at, 0);
-    double* added = &added_slopes_(at, 0);
-    added[frictions_at_ + at] = 1.0;
-    own_slopes_.push_back(
-        {friction.number, frictions_at_ + at, velocity.by_limit / own * device_.number_slopes(friction.number)});
-    if (!(friction.limit > 0.0)) continue;
-    std::copy_n(&ends_slopes_(speed_of(i), 0), width, free);
-    for (std::size_t j = 0; j < ends_.size(); ++j) {
-      if (j != i)
-        add_unit(free + numbers_at_, forces_(device_.frictions[j].body), compliance_slopes(step, i, j), numbers);
-    }
-    add_unit(added, (velocity.by_free - 1.0) / own, free, width);
-    added[speed_of(i)] += velocity.by_before / own;
-    add_unit(added + numbers_at_, (velocity.by_compliance - forces_(friction.body)) / own,
-             compliance_slopes(step, i, i), numbers);
-    if (friction.bend < 0) continue;
-    added[x.size() + friction.bend] += velocity.by_bend / own;
-    own_slopes_.push_back({*friction.length_number, frictions_at_ + at,
-                           velocity.by_length / own * device_.number_slopes(*friction.length_number)});
+    const auto add_own = [&](Eigen::Index number, double by) {
+      own_slopes_.push_back({number, column, by / own * device_.number_slopes(number)});
+    };
+    add_own(friction(i).number, end(i).velocity.by_limit);
+    if (friction(i).bend >= 0) add_own(*friction(i).length_number, end(i).velocity.by_length);
+    added_slopes_(i, column) = 1.0;
+    if (rubs(i)) add_slopes_of(step, i);
+    if (device_.rubbing == 0)  // none answers
+      ends_slopes_.col(column).head(x.size()) = step.columns.col(x.size() + 1 + friction(i).body);
   }
+  if (device_.rubbing == 0) return;
   answer(step);
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    const PlayedDevice::Friction& friction = device_.frictions[i];
-    const auto at = static_cast<Eigen::Index>(i);
-    add_rows(&force_slopes_(friction.body, 0), &answers_(at, 0), count, added_slopes_.data(), width, width);
-    if (friction.bend < 0) continue;
-    const PreslidingStep::End& bend = ends_[i].bend;
-    const Eigen::Index row = x.size() + friction.bend;
-    double* free = &free_slopes_(at, 0);
-    double* end = &ends_slopes_(row, 0);
-    add_rows(free, &heard_(at, 0), count, added_slopes_.data(), width, width);
-    add_unit(end, bend.by_free, free, width);
-    end[speed_of(i)] += bend.by_before;
-    end[row] += bend.by_bend;
-    add_unit(end + numbers_at_, bend.by_compliance, compliance_slopes(step, i, i), numbers);
-    bend_slopes_.push_back({row, friction.number, bend.by_limit * device_.number_slopes(friction.number)});
-    bend_slopes_.push_back(
-        {row, *friction.length_number, bend.by_length * device_.number_slopes(*friction.length_number)});
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    const double* by = answers_.row(i).data();
+    add_rows(&force_slopes_(friction(i).body, 0), by, frictions_, added_slopes_.data(), width, width);
+    if (friction(i).bend >= 0) bend_slopes_of(step, i);
   }
 }
 
+void SegmentPlayer::add_slopes_of(const LinearStep& step, Eigen::Index i) {
+  const Eigen::Index numbers = step.slopes.cols();
+  const PreslidingStep::End& velocity = end(i).velocity;
+  const double own = compliance(step, i, i);
+  double* free = &free_slopes_(i, 0);
+  double* added = &added_slopes_(i, 0);
+  std::copy_n(&ends_slopes_(speed_of(i), 0), free_slopes_.cols(), free);
+  for (Eigen::Index j = 0; j < frictions_; ++j) {
+    if (j != i) add_row(free + numbers_at_, forces_(friction(j).body), compliance_slopes(step, i, j), numbers);
+  }
+  add_row(added, (velocity.by_free - 1.0) / own, free, added_slopes_.cols());
+  added[speed_of(i)] += velocity.by_before / own;
+  if (friction(i).bend >= 0) added[x.size() + friction(i).bend] += velocity.by_bend / own;
+  const double by_compliance = (velocity.by_compliance - forces_(friction(i).body)) / own;
+  add_row(added + numbers_at_, by_compliance, compliance_slopes(step, i, i), numbers);
+}
+
 void SegmentPlayer::answer(const LinearStep& step) {
-  const int sweeps = ends_.size() > 1 ? most_sweeps : 1;
-  answers_.setZero();
+  const int sweeps = device_.rubbing > 1 ? most_sweeps : 1;
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    answers_.row(i).setZero();
+    answers_(i, i) = rubs(i) ? 0.0 : 1.0;
+  }
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      const double by_free = (ends_[i].velocity.by_free - 1.0) / compliance(step, i, i);
-      for (Eigen::Index k = 0; k < answers_.rows(); ++k) {
+    for (Eigen::Index i = 0; i < frictions_; ++i) {
+      if (!rubs(i)) continue;
+      const double by_free = (end(i).velocity.by_free - 1.0) / compliance(step, i, i);
+      for (Eigen::Index k = 0; k < frictions_; ++k) {
         double heard = 0.0;
-        for (std::size_t j = 0; j < ends_.size(); ++j)
-          heard += j == i ? 0.0 : compliance(step, i, j) * answers_(static_cast<Eigen::Index>(j), k);
-        heard_(at, k) = heard;
+        for (Eigen::Index j = 0; j < frictions_; ++j) heard += j == i ? 0.0 : compliance(step, i, j) * answers_(j, k);
+        heard_(i, k) = heard;
       }
-      for (Eigen::Index k = 0; k < answers_.rows(); ++k)
-        answers_(at, k) = (k == at ? 1.0 : 0.0) + by_free * heard_(at, k);
+      for (Eigen::Index k = 0; k < frictions_; ++k) answers_(i, k) = (k == i ? 1.0 : 0.0) + by_free * heard_(i, k);
     }
   }
+}
+
+void SegmentPlayer::bend_slopes_of(const LinearStep& step, Eigen::Index i) {
+  const PreslidingStep::End& bend = end(i).bend;
+  const Eigen::Index row = x.size() + friction(i).bend;
+  const Eigen::Index width = ends_slopes_.cols();
+  double* free = &free_slopes_(i, 0);
+  double* own = &ends_slopes_(row, 0);
+  add_rows(free, &heard_(i, 0), frictions_, added_slopes_.data(), width, width);
+  add_row(own, bend.by_free, free, width);
+  own[speed_of(i)] += bend.by_before;
+  own[row] += bend.by_bend;
+  add_row(own + numbers_at_, bend.by_compliance, compliance_slopes(step, i, i), step.slopes.cols());
+  for (const auto& [number, by] :
+       {std::pair(friction(i).number, bend.by_limit), std::pair(*friction(i).length_number, bend.by_length)})
+    bend_slopes_.push_back({row, number, by * device_.number_slopes(number)});
 }
 
 void SegmentPlayer::apply(const LinearStep& step) {
@@ -312,13 +318,12 @@ void SegmentPlayer::end_slopes(const DriveForce& command) {
   add_own(device_.dead_band_number, command.by_dead_band);
   add_own(device_.saturation_number, command.by_saturation);
   add_own(device_.drift_number, command.by_drift);
-  next_slopes_.setZero();
-  constexpr double once = 1.0;
   for (Eigen::Index i = 0; i < slopes.rows(); ++i) {
     const double* part = &ends_slopes_(i, 0);
     double* row = &next_slopes_(i, 0);
+    std::copy_n(part + numbers_at_, numbers, row);
+    std::fill(row + numbers, row + width, 0.0);
     add_rows(row, part, slopes.rows(), slopes.data(), width, width);
-    add_rows(row, &once, 1, part + numbers_at_, 0, numbers);
     for (const OwnSlope& own : own_slopes_) row[own.number] += part[own.column] * own.slope;
   }
   for (const BendSlope& bend : bend_slopes_) next_slopes_(bend.row, bend.number) += bend.slope;

@@ -57,24 +57,33 @@ class SegmentPlayer {
   };
 
   [[nodiscard]] DriveForce through_drive(double command) const;
-  [[nodiscard]] Eigen::Index speed_of(std::size_t friction) const { return bodies_ + device_.frictions[friction].body; }
+  [[nodiscard]] const PlayedDevice::Friction& friction(Eigen::Index i) const {
+    return device_.frictions[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] PreslidingStep& end(Eigen::Index friction) { return ends_[static_cast<std::size_t>(friction)]; }
+  [[nodiscard]] bool rubs(Eigen::Index i) const { return friction(i).limit > 0.0; }
+  [[nodiscard]] Eigen::Index speed_of(Eigen::Index i) const { return bodies_ + friction(i).body; }
   /// How the velocity of a friction's body grows with the force of another friction, and the slopes of that.
-  [[nodiscard]] double compliance(const LinearStep& step, std::size_t on, std::size_t of) const;
-  [[nodiscard]] const double* compliance_slopes(const LinearStep& step, std::size_t on, std::size_t of) const;
+  [[nodiscard]] double compliance(const LinearStep& step, Eigen::Index on, Eigen::Index of) const;
+  [[nodiscard]] const double* compliance_slopes(const LinearStep& step, Eigen::Index on, Eigen::Index of) const;
 
   void begin_slopes(const LinearStep& step, double command);
   void add_forces(double share);
   void add_force(const PlayedDevice::Force& force, const LawForce& now, Eigen::Index on, double sign);
   void add_frictions(const LinearStep& step);
-  void rub(const LinearStep& step, std::size_t friction);
+  void rub(const LinearStep& step, Eigen::Index i);
   void add_friction_slopes(const LinearStep& step);
+  void add_slopes_of(const LinearStep& step, Eigen::Index i);
+  /// How each friction answers the others' slopes, in sweeps as it answers their forces.
   void answer(const LinearStep& step);
+  void bend_slopes_of(const LinearStep& step, Eigen::Index i);
   /// The part's end by the forces on the bodies so far.
   void apply(const LinearStep& step);
   void end_slopes(const DriveForce& command);
 
   const PlayedDevice& device_;
   Eigen::Index bodies_;
+  Eigen::Index frictions_;
   bool with_slopes_;
   State before_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_bodies, 1> forces_;
