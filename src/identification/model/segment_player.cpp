@@ -132,16 +132,13 @@ void SegmentPlayer::begin_slopes(const LinearStep& step, double command) {
 void SegmentPlayer::add_forces(double share) {
   forces_.setZero();
   if (with_slopes_) gradients_.setZero();
-  const auto middle = [&](Eigen::Index body, int order) {
-    const Eigen::Index row = order == 1 ? bodies_ + body : body;
-    const double own = 0.5 * (before_(row) + x(row));
-    return order == 1 || body == 0 ? own : own + 0.5 * (before_(0) + x(0));
-  };
+  const auto middle = [&](Eigen::Index i) { return 0.5 * (before_(i) + x(i)); };
+  const auto position_of = [&](Eigen::Index body) { return body == 0 ? middle(0) : middle(0) + middle(body); };
   for (const PlayedDevice::Force& force : device_.forces) {
-    LawState state{middle(force.body, 0), middle(force.body, 1), share};
+    LawState state{position_of(force.body), middle(bodies_ + force.body), share};
     if (force.against >= 0) {
-      state.position -= middle(force.against, 0);
-      state.velocity -= middle(force.against, 1);
+      state.position -= position_of(force.against);
+      state.velocity -= middle(bodies_ + force.against);
     }
     const LawForce now = force.law->at(state, force.values.data());
     add_force(force, now, force.body, 1.0);
@@ -191,16 +188,16 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
   forces_.setZero();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (Eigen::Index i = 0; i < frictions_; ++i) {
-      if (rubs(i)) rub(step, i);
+      if (rubs(i)) rub(step, i, with_slopes_ && sweep + 1 == sweeps);
     }
   }
   for (Eigen::Index i = 0; i < frictions_; ++i) {
-    if (with_slopes_ && !rubs(i)) rub(step, i);  // no force, but one by the limit
+    if (with_slopes_ && !rubs(i)) rub(step, i, true);  // no force, but one by the limit
     bends_[static_cast<std::size_t>(i)] = end(i).bend.value;
   }
 }
 
-void SegmentPlayer::rub(const LinearStep& step, Eigen::Index i) {
+void SegmentPlayer::rub(const LinearStep& step, Eigen::Index i, bool with_slopes) {
   double free = x(speed_of(i));
   for (Eigen::Index j = 0; j < frictions_; ++j)
     free += j == i ? 0.0 : compliance(step, i, j) * forces_(friction(j).body);
@@ -209,7 +206,7 @@ void SegmentPlayer::rub(const LinearStep& step, Eigen::Index i) {
   const double limit = friction(i).limit;
   if (friction(i).length_number) {
     const double bend = bends_[static_cast<std::size_t>(i)];
-    end(i) = presliding_step(before, free, limit, own, bend, friction(i).length, step.length);
+    end(i) = presliding_step(before, free, limit, own, bend, friction(i).length, step.length, with_slopes);
   } else {
     const FrictionStep sticks = friction_step(before, free, limit, own);
     end(i).velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};

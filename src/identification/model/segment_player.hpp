@@ -71,7 +71,7 @@ class SegmentPlayer {
   void add_forces(double share);
   void add_force(const PlayedDevice::Force& force, const LawForce& now, Eigen::Index on, double sign);
   void add_frictions(const LinearStep& step);
-  void rub(const LinearStep& step, Eigen::Index i);
+  void rub(const LinearStep& step, Eigen::Index i, bool with_slopes);
   void add_friction_slopes(const LinearStep& step);
   void add_slopes_of(const LinearStep& step, Eigen::Index i);
   /// How each friction answers the others' slopes, in sweeps as it answers their forces.
