@@ -123,43 +123,6 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
   return result;
 }
 
-Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
-                                    const Device& structure, const IdentifyOptions& options, const Progress& progress) {
-  double done = 0.0;
-  const auto tell = [&] {
-    constexpr double of_rest = 0.02;  // how many steps there will be is not known
-    done += of_rest * (1.0 - done);
-    if (progress) progress(done);
-  };
-  FittedLikelihood fit = before_fit(measured, structure);
-  if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
-    return judged(measured, structure, options, std::nullopt, std::move(fit));
-  const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
-  const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
-                                        {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
-                                         options.segment,
-                                         options.limits,
-                                         tell});
-  std::optional<FoundDevice> found;
-  std::vector<FittedMotion> motions;
-  if (fitted) {
-    found = fitted->found;
-    motions = fitted->motions;
-    fit.left = fitted->left;
-    fit.delay = fitted->delay;
-    for (const Recording& each : recordings) {
-      fit.records.push_back({each.source, each.sampling_period});
-      const Device device = device_of(*found);
-      std::ranges::move(doubts_of_recording(each, recordings, options.response.output, device),
-                        std::back_inserter(fit.doubts_of_data));
-    }
-  }
-  Identification result = judged(measured, structure, options, found, std::move(fit));
-  result.method = IdentifyOptions::Method::motion;
-  result.motions = std::move(motions);
-  return result;
-}
-
 /// A device found from lines or limits, in the words of one found from its motion.
 FoundDevice found_device(const FittedByLines& fitted, const Device& structure, const IdentifyOptions& options) {
   FoundDevice found{.device = fitted.device, .best = {}, .settled = fitted.settled};
@@ -182,9 +145,10 @@ FoundDevice found_device(const FittedByLines& fitted, const Device& structure, c
 }
 
 Identification identified_by_lines(const MeasuredResponse& measured, const Device& structure,
-                                   const IdentifyOptions& options) {
+                                   const IdentifyOptions& options, const std::vector<Finding>& doubts = {}) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
   FittedLikelihood fit = before_fit(measured, structure);
+  fit.doubts_of_data.insert(fit.doubts_of_data.end(), doubts.begin(), doubts.end());
   if (!fit.contradictions.empty() || is_drowned(response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit));
   const auto fitted = fit_lines({.structure = structure,
@@ -202,6 +166,39 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
   }
   Identification result = judged(measured, structure, options, found, std::move(fit));
   result.method = IdentifyOptions::Method::lines;
+  return result;
+}
+
+Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
+                                    const Device& structure, const IdentifyOptions& options, const Progress& progress) {
+  double done = 0.0;
+  const auto tell = [&] {
+    constexpr double of_rest = 0.02;  // how many steps there will be is not known
+    done += of_rest * (1.0 - done);
+    if (progress) progress(done);
+  };
+  FittedLikelihood fit = before_fit(measured, structure);
+  if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
+    return judged(measured, structure, options, std::nullopt, std::move(fit));
+  const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
+  const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
+                                        {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
+                                         options.segment,
+                                         options.limits,
+                                         tell});
+  if (!fitted) {  // the motion has no fit, or its device no limit: the lines are left
+    return identified_by_lines(measured, structure, options, {{.code = FindingCode::search_stopped}});
+  }
+  fit.left = fitted->left;
+  fit.delay = fitted->delay;
+  for (const Recording& each : recordings) {
+    fit.records.push_back({each.source, each.sampling_period});
+    std::ranges::move(doubts_of_recording(each, recordings, options.response.output, Device(fitted->found.device)),
+                      std::back_inserter(fit.doubts_of_data));
+  }
+  Identification result = judged(measured, structure, options, fitted->found, std::move(fit));
+  result.method = IdentifyOptions::Method::motion;
+  result.motions = fitted->motions;
   return result;
 }
 
