@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -5,6 +7,7 @@
 #include "identification/device_file_trust.hpp"
 #include "identification/likelihood_fit.hpp"
 #include "identification/line_fit.hpp"
+#include "identification/model/segment_player.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/response/response_choice.hpp"
 #include "identification/response_of_device.hpp"
@@ -21,13 +24,29 @@ using namespace internal;
 namespace {
 
 constexpr std::size_t least_samples_of_motion = 300;
+constexpr auto most_bodies_of_motion = static_cast<std::size_t>(SegmentPlayer::most_bodies);
 
-IdentifyOptions::Method method_of(std::span<const Recording> recordings, const IdentifyOptions& options) {
+IdentifyOptions::Method method_of(std::span<const Recording> recordings, const Device& structure,
+                                  const IdentifyOptions& options) {
   const bool is_long = std::ranges::all_of(recordings, [](const Recording& each) {
     return each.channels.size() == 2 && each.channels[1].samples.size() >= least_samples_of_motion;
   });
-  const bool has_motion = options.response.output == OutputQuantity::position && is_long;
+  const bool has_motion = options.response.output == OutputQuantity::position && is_long &&
+                          structure.bodies().size() <= most_bodies_of_motion;
   return options.method.value_or(has_motion ? IdentifyOptions::Method::motion : IdentifyOptions::Method::lines);
+}
+
+/// Where the motion was asked for.
+void check_motion(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options) {
+  if (options.method != IdentifyOptions::Method::motion) return;
+  if (structure.bodies().size() > most_bodies_of_motion)
+    refuse_member("method", fmt::format("fits the motion of {} bodies", structure.bodies().size()),
+                  fmt::format("must fit the lines of more than {}", most_bodies_of_motion));
+  for (const Recording& each : recordings) {
+    if (each.channels.size() == 2 && each.channels[1].samples.size() < least_samples_of_motion)
+      refuse_member("method", fmt::format("fits the motion of {} samples", each.channels[1].samples.size()),
+                    fmt::format("must fit the lines of fewer than {}", least_samples_of_motion));
+  }
 }
 
 bool frees_lateness(const IdentifyOptions& options) {
@@ -212,8 +231,9 @@ Identification identify(const Recording& recording, const Device& structure, con
 Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
   require_valid(find_problem(options));
+  check_motion(recordings, structure, options);
   const MeasuredResponse measured = response_with_enough_lines(recordings, structure, options, {});
-  if (method_of(recordings, options) == IdentifyOptions::Method::lines)
+  if (method_of(recordings, structure, options) == IdentifyOptions::Method::lines)
     return identified_by_lines(measured, structure, options);
   return identified_by_motion(recordings, measured, structure, options, progress);
 }
