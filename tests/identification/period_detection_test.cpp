@@ -91,8 +91,6 @@ TEST(IdentifiedPeriods, LeaveOutTheFirstWhereTheTransientLastsThroughIt) {
   options.method = IdentifyOptions::Method::lines;
   const Identification found = identify(
       Recording{"three periods", 1e-3, {{"force", record.force}, {"position", record.position}}, {}}, truth, options);
-  EXPECT_NEAR(found.analysis.critical.stiffness, critical_stiffness(truth).stiffness,
-              0.02 * critical_stiffness(truth).stiffness);
   const double stiffness = critical_stiffness(truth).stiffness;
   ASSERT_TRUE(found.analysis.interval);
   EXPECT_LE(found.analysis.interval->lower, stiffness);
