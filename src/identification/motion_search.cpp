@@ -177,6 +177,13 @@ bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to)
   return false;
 }
 
+/// Where the records whole may begin.
+struct Beginning {
+  double innovations = 0.0;  ///< of what is near
+  std::vector<Noise> noise;
+  Eigen::VectorXd z;
+};
+
 /// The records whole, at so many parts of a sampling period.
 struct Whole {
   std::unique_ptr<MotionModel> model;
@@ -187,7 +194,7 @@ struct Whole {
 
 std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
                                         const MotionSearchOptions& options) {
-  constexpr double frictions[] = {0.0, 0.05};  // of the force
+  constexpr double frictions[] = {0.0, 0.05, 0.2};  // of the force
   constexpr int most_rounds = 6;
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
@@ -208,19 +215,32 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
 
   const Eigen::VectorXd linear = family.coordinates_of(start.device);
   const std::string& rubbing = start.device.bodies[start.device.loop.actuated].name;
-  std::optional<Eigen::VectorXd> begin;
-  double least = 0.0;
+  std::vector<Beginning> begins;
   for (const double share : frictions) {
     near.set_noise(first_noise(start));
     const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, coarse_model, rubbing, share) : linear;
     const auto end = near.from(near.likelihood().start(x), 2, coarse);
-    if (!end || !near.take_noise(end->z) || (begin && near.innovations() >= least)) continue;
-    least = near.innovations();
-    whole.search->set_noise(near.evidence().noise());
-    begin = carried_over(near, end->z, *whole.search, coarse_model);
+    if (!end || !near.take_noise(end->z)) continue;
+    begins.push_back(
+        {near.innovations(), near.evidence().noise(), carried_over(near, end->z, *whole.search, coarse_model)});
   }
-  if (!begin) return std::nullopt;
-  auto best = whole.search->from(*std::move(begin), most_rounds, fine);
+  std::ranges::sort(begins, {}, &Beginning::innovations);
+  // Where a body rubs, stops and starts make side minima: then all are followed, and the most likely end counts.
+  std::optional<Minimum> best;
+  std::vector<Noise> noise;
+  double least = 0.0;
+  for (const Beginning& each : begins) {
+    if (best && !rubs(*whole.model, best->z)) break;
+    whole.search->set_noise(each.noise);
+    auto end = whole.search->from(each.z, most_rounds, fine);
+    if (!end || !whole.search->take_noise(end->z) || (best && whole.search->innovations() >= least)) continue;
+    least = whole.search->innovations();
+    noise = whole.search->evidence().noise();
+    best = std::move(end);
+  }
+  if (!best) return std::nullopt;
+  whole.search->set_noise(noise);
+  best = minimise(whole.search->likelihood(), best->z, fine);
   if (!best) return std::nullopt;
   for (int finer = 2 * fine_parts; finer <= most_parts && rubs(*whole.model, best->z); finer *= 2) {
     Whole next = whole_at(finer);

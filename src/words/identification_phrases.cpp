@@ -10,7 +10,7 @@ std::span<const Phrase> identification_phrases() {
   // What leaves most of an interval open.
   static constexpr const char* rival_leaves_open =
       "{?rival|most of it by {?rival=coulomb_friction|dry friction}{?rival=drag|a force that grows with the square of "
-      "the speed}{?rival=asymmetric_damping|a damping that differs by direction}{?rival=damping_drift|a damping that "
+      "the speed}{?rival=damping_drift|a damping that "
       "changes while it is recorded}{?rival=delay_drift|clocks that run apart}{?rival=presliding|friction that bends "
       "before it slides}{?rival=stiffening_spring|a spring that stiffens}{?rival=actuator_lag|a lag of the "
       "actuator}{?rival=ground_spring|a spring to the "
@@ -19,7 +19,7 @@ std::span<const Phrase> identification_phrases() {
       "({parameter}), within which it is {with_lower} to {with_upper}}";
   static constexpr const char* record_against_rival =
       "{?rival=coulomb_friction|record at a second, larger amplitude}{?rival=drag|record at a second amplitude}"
-      "{?rival=asymmetric_damping|record for longer}{?rival=damping_drift|record the device when it is warm}"
+      "{?rival=damping_drift|record the device when it is warm}"
       "{?rival=delay_drift|record both by one clock}{?rival=presliding|record larger "
       "motion}{?rival=stiffening_spring|record at a second amplitude}{?rival=actuator_lag|excite higher "
       "frequencies}{?rival=ground_spring|excite lower frequencies}"

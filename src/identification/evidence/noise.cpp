@@ -80,7 +80,7 @@ Eigen::MatrixXd whitened(const Noise& noise, const Eigen::Ref<const Eigen::Matri
 }
 
 Noise noise_of(const std::vector<const Eigen::VectorXd*>& residuals, double step, Eigen::Index order) {
-  constexpr Eigen::Index least_repeats = 12;
+  constexpr Eigen::Index least_repeats = 4;
   Eigen::Index shortest = residuals.front()->size();
   for (const Eigen::VectorXd* each : residuals) shortest = std::min(shortest, each->size());
   Eigen::Index means = 0;

@@ -17,7 +17,7 @@ struct Noise {
 };
 
 /// An autoregression of residuals by least squares, all of one record: its own `order` last values, and means of those before,
-/// up to a twelfth of the shortest of `residuals` (Corsi 2009, whose means tell slow noise with few numbers).
+/// up to a quarter of the shortest of `residuals` (Corsi 2009, whose means tell slow noise with few numbers).
 ///
 /// Motion that a disturbance makes is the device's own response, measurement noise is white: the filter holds both, so that each
 /// frequency counts by its noise, drift included. `step`: of the encoder; its rounding, step / sqrt(12), is the least deviation.

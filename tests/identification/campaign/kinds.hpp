@@ -319,7 +319,7 @@ inline void late_rows(Case& c, Draw&) { c.experiment.late_rows = 1; }
       Kind{"limit_above_band_given", 0, false, Evidence::of_limit, above_band_given, nothing},
       Kind{"limit_above_band", 0, false, Evidence::open, above_band, nothing},
       Kind{"hidden_mode_limits", 0, false, Evidence::open, hidden_mode, nothing},
-      Kind{"hand", 0, false, Evidence::open, nothing, hand},
+      Kind{"hand", 0, false, Evidence::none, nothing, hand},
       Kind{"wrong_gain", 0, false, Evidence::none, nothing, wrong_gain},
       Kind{"late_rows", 0, false, Evidence::none, nothing, late_rows},
   };

@@ -9,10 +9,9 @@
 namespace zwidth::internal {
 
 std::span<const Rival> rivals() {
-  static const std::array all = {
-      constant_force(),   coulomb_friction(), presliding(),   drag(),          asymmetric_damping(),
-      damping_drift(),    delay_drift(),      actuator_lag(), ground_spring(), stiffening_spring(),
-      drive_saturation(), drive_dead_band(),  cogging()};
+  static const std::array all = {constant_force(),    coulomb_friction(), presliding(),      drag(),
+                                 damping_drift(),     delay_drift(),      actuator_lag(),    ground_spring(),
+                                 stiffening_spring(), drive_saturation(), drive_dead_band(), cogging()};
   return all;
 }
 

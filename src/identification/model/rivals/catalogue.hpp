@@ -14,7 +14,6 @@ namespace zwidth::internal {
 [[nodiscard]] Rival coulomb_friction();
 [[nodiscard]] Rival presliding();
 [[nodiscard]] Rival drag();
-[[nodiscard]] Rival asymmetric_damping();
 [[nodiscard]] Rival damping_drift();
 [[nodiscard]] Rival delay_drift();
 [[nodiscard]] Rival actuator_lag();
