@@ -210,6 +210,7 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
   }
   fit.left = fitted->left;
   fit.delay = fitted->delay;
+  fit.doubts_of_data.insert(fit.doubts_of_data.end(), fitted->contradicted.begin(), fitted->contradicted.end());
   for (const Recording& each : recordings) {
     fit.records.push_back({each.source, each.sampling_period});
     std::ranges::move(doubts_of_recording(each, recordings, options.response.output, Device(fitted->found.device)),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "identification/contradicted_numbers.hpp"
 #include "identification/motion_search.hpp"
 #include "identification/verdict/left_over.hpp"
 #include "identification/verdict/limit_moment.hpp"
@@ -178,6 +179,8 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
                           wider),
       .motion = structure.parameters().motion};
   fit.motions = motions_of(*motion, recordings, found);
+  fit.contradicted =
+      contradicted_numbers(*motion, start, options.free.locked, found.best.interval, recordings.front().source);
   fit.delay = given_delay_of(*motion, found.best, limit, range->moment);
   return fit;
 }

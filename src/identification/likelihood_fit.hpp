@@ -31,6 +31,7 @@ struct LikelihoodFit {
   Omnibus left;                       ///< of what it leaves
   std::vector<FittedMotion> motions;  ///< by recording
   std::optional<GivenDelay> delay;    ///< where the structure's was taken
+  std::vector<Finding> contradicted;  ///< contradicted_numbers()
 };
 
 /// The most likely device of a structure, with all that may explain its records beside it (add_rivals()), and the least and

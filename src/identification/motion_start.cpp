@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "identification/model/device_numbers.hpp"
@@ -31,8 +32,12 @@ MotionStart motion_start(std::span<const Recording> recordings, const FrequencyR
                          const Device& structure, const FreeNumbers& free) {
   MotionStart start{.device = structure.parameters()};
   start.device.uncertainty.reset();
+  start.positions.reserve(recordings.size());
   for (const Recording& each : recordings) {
-    start.records.push_back({each.channels[0].samples, each.channels[1].samples, each.sampling_period});
+    std::vector<double>& position = start.positions.emplace_back(each.channels[1].samples);
+    const double mean = std::accumulate(position.begin(), position.end(), 0.0) / static_cast<double>(position.size());
+    for (double& sample : position) sample -= mean;
+    start.records.push_back({each.channels[0].samples, position, each.sampling_period});
     start.encoder_steps.push_back(encoder_step(each.channels[1].samples));
   }
   const double period = recordings.front().sampling_period;

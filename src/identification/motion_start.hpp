@@ -23,6 +23,7 @@ struct FreeNumbers {
 
 /// The records, what is fitted to them, and the linear device that the search begins at.
 struct MotionStart {
+  std::vector<std::vector<double>> positions = {};  ///< m or rad, about the mean of each record: no origin matters
   std::vector<ForceMotionRecord> records = {};
   std::vector<double> encoder_steps = {};  ///< m or rad, of each
   DeviceParameters device;

@@ -63,13 +63,17 @@ std::span<const Phrase> identification_phrases() {
              "than a factor of {more_than:.0f}}{!factor|{!more_than|down to 0, where not even the softest wall is "
              "stable}}",
              rival_leaves_open, record_against_rival},
-      Phrase{residual_stands_out, "residual_stands_out", doubt,
-             "the fitted device leaves more than the noise of {source}{?to|, most from {from:.4g} to {to:.4g} s}: what "
-             "is left {?kind=follows_force|follows the force, as a missing body or mode "
-             "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}",
-             "the critical stiffness may lie outside its interval",
-             "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
-             "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}"},
+      Phrase{
+          residual_stands_out, "residual_stands_out", doubt,
+          "the fitted device leaves more than the noise of {source}{?to|, most from {from:.4g} to {to:.4g} s}: what "
+          "is left {?kind=follows_force|follows the force, as a missing body or mode "
+          "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}{?kind=given|would be less with another "
+          "{number} than the "
+          "given one, {shown:.4g} in place of {given:.4g}}",
+          "the critical stiffness may lie outside its interval",
+          "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
+          "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}{?kind=given|free {number}, or "
+          "measure it}"},
       Phrase{lag_beyond_drives, "lag_beyond_drives", doubt,
              "the actuator's lag comes out as {lag:.4g} s, {periods:.3g} sampling periods: it was probably exchanged "
              "with the time that a body's mass takes on its damping, or friction or a spring hides it",

@@ -1,3 +1,4 @@
+#include "identification/verdict/calibration.hpp"
 #include "identification/verdict/widening.hpp"
 
 #include <gtest/gtest.h>
@@ -81,8 +82,8 @@ TEST(Widening, AResidualThatRepeatsCountsOnce) {
 TEST(Widening, AnEndIsAtLeastAsFarAsTheDeviation) {
   const OpenLimit limit{.best = 2.0, .lower = 1.9, .upper = 2.0, .deviation = 0.02};
   const Interval interval = widened(limit, 1.5);
-  EXPECT_DOUBLE_EQ(interval.lower, std::exp(2.0 - 0.15));
-  EXPECT_DOUBLE_EQ(interval.upper, std::exp(2.0 + 1.5 * 1.96 * 0.02));
+  EXPECT_DOUBLE_EQ(interval.lower, std::exp(2.0 - Calibration::more_than_noise * 0.15));
+  EXPECT_DOUBLE_EQ(interval.upper, std::exp(2.0 + Calibration::more_than_noise * 1.5 * 1.96 * 0.02));
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ class MotionModel {
   [[nodiscard]] const DeviceFamily& family() const noexcept { return family_; }
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return family_.numbers(); }
   [[nodiscard]] const std::vector<ForceMotionRecord>& records() const noexcept { return records_; }
+  [[nodiscard]] int parts() const noexcept { return parts_; }
   [[nodiscard]] Eigen::Index states() const noexcept { return 2 * bodies_; }
 
   /// From the recorded position alone: no link stretched, all bodies at the sensed one's velocity.
