@@ -17,6 +17,7 @@
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth {
@@ -59,13 +60,24 @@ bool is_known(const IdentifyOptions& options) {
 }
 
 /// What the data say before anything is fitted.
-FittedLikelihood before_fit(const MeasuredResponse& measured, const Device& structure) {
-  FittedLikelihood fit{.motion = structure.parameters().motion};
+FittedLikelihood before_fit(const MeasuredResponse& measured, const Device& structure, std::vector<Finding> doubts) {
+  FittedLikelihood fit{.motion = structure.parameters().motion, .doubts_of_data = std::move(doubts)};
   if (auto turned = turned_sign(measured.response)) fit.contradictions.push_back(*std::move(turned));
   for (const Finding& each : measured.trust.findings) {
     if (each.code == FindingCode::clipped_for_response) fit.doubts_of_data.push_back(each);
   }
   return fit;
+}
+
+/// Why no answer of these recordings is one of the structure's loop.
+std::vector<Finding> doubts_of(std::span<const Recording> recordings, const Device& structure,
+                               const IdentifyOptions& options) {
+  std::vector<Finding> doubts;
+  for (const Recording& each : recordings) {
+    std::ranges::move(doubts_of_recording(each, recordings, options.response.output, structure),
+                      std::back_inserter(doubts));
+  }
+  return doubts;
 }
 
 /// The remarks, less those of the limit that the response alone shows, which a fit does not ask.
@@ -97,11 +109,21 @@ bool is_drowned(const FrequencyResponse& response, const Device& structure, cons
          free_parameters(structure, options.fit.free, options.fit.locked).size();
 }
 
+ParameterEstimate undetermined_estimate(const std::string& key, const Device& structure) {
+  ParameterEstimate estimate;
+  estimate.key = key;
+  estimate.value = parameter(structure.parameters(), key).value_or(0.0);
+  estimate.identifiable = false;
+  return estimate;
+}
+
 /// The device, its analysis and the verdict on it, of what was found and is known of it.
 Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
-                      const std::optional<FoundDevice>& found, FittedLikelihood fit) {
-  Identification result{
-      .source = measured.source, .response = measured.response, .fit = {.device = structure, .misfit = {}}};
+                      const std::optional<FoundDevice>& found, FittedLikelihood fit, IdentifyOptions::Method method) {
+  Identification result{.source = measured.source,
+                        .method = method,
+                        .response = measured.response,
+                        .fit = {.device = structure, .misfit = {}}};
   result.remarks = remarks_of_fit(measured);
   if (found) {
     result.fit = {.device = device_of(*found),
@@ -113,6 +135,9 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
     result.rivals = rival_table(found->best, found->rivals);
     fit.rivals = result.rivals;
     fit.limit = told_limit(found->best.interval);
+  } else {
+    for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
+      result.fit.estimates.push_back(undetermined_estimate(key, structure));
   }
   compare_with_response(result.fit, measured.response, options.fit);
   result.analysis = analyze(result.fit.device, {.any_user = false});
@@ -164,12 +189,11 @@ FoundDevice found_device(const FittedByLines& fitted, const Device& structure, c
 }
 
 Identification identified_by_lines(const MeasuredResponse& measured, const Device& structure,
-                                   const IdentifyOptions& options, const std::vector<Finding>& doubts = {}) {
+                                   const IdentifyOptions& options, std::vector<Finding> doubts = {}) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
-  FittedLikelihood fit = before_fit(measured, structure);
-  fit.doubts_of_data.insert(fit.doubts_of_data.end(), doubts.begin(), doubts.end());
+  FittedLikelihood fit = before_fit(measured, structure, std::move(doubts));
   if (!fit.contradictions.empty() || is_drowned(response, structure, options))
-    return judged(measured, structure, options, std::nullopt, std::move(fit));
+    return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::lines);
   const auto fitted = fit_lines({.structure = structure,
                                  .response = &response,
                                  .limits = options.limits,
@@ -183,41 +207,37 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
     fit.left = omnibus_of_lines(*fitted);
     fit.records = {{measured.source, response.sampling_period.value_or(0.0)}};
   }
-  Identification result = judged(measured, structure, options, found, std::move(fit));
-  result.method = IdentifyOptions::Method::lines;
-  return result;
+  return judged(measured, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
 }
 
 Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
-                                    const Device& structure, const IdentifyOptions& options, const Progress& progress) {
+                                    const Device& structure, const IdentifyOptions& options,
+                                    std::vector<Finding> doubts, const Progress& progress) {
   double done = 0.0;
   const auto tell = [&] {
     constexpr double of_rest = 0.02;  // how many steps there will be is not known
     done += of_rest * (1.0 - done);
     if (progress) progress(done);
   };
-  FittedLikelihood fit = before_fit(measured, structure);
+  FittedLikelihood fit = before_fit(measured, structure, doubts);
   if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
-    return judged(measured, structure, options, std::nullopt, std::move(fit));
+    return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::motion);
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
   const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
                                         {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
                                          options.segment,
                                          options.limits,
                                          tell});
-  if (!fitted) {  // the motion has no fit, or its device no limit: the lines are left
-    return identified_by_lines(measured, structure, options, {{.code = FindingCode::search_stopped}});
+  if (!fitted || !told_limit(fitted->found.best.interval)) {  // the motion tells of no limit: the lines are left
+    doubts.push_back({.code = FindingCode::search_stopped});
+    return identified_by_lines(measured, structure, options, std::move(doubts));
   }
   fit.left = fitted->left;
   fit.delay = fitted->delay;
   fit.doubts_of_data.insert(fit.doubts_of_data.end(), fitted->contradicted.begin(), fitted->contradicted.end());
-  for (const Recording& each : recordings) {
-    fit.records.push_back({each.source, each.sampling_period});
-    std::ranges::move(doubts_of_recording(each, recordings, options.response.output, Device(fitted->found.device)),
-                      std::back_inserter(fit.doubts_of_data));
-  }
-  Identification result = judged(measured, structure, options, fitted->found, std::move(fit));
-  result.method = IdentifyOptions::Method::motion;
+  for (const Recording& each : recordings) fit.records.push_back({each.source, each.sampling_period});
+  Identification result =
+      judged(measured, structure, options, fitted->found, std::move(fit), IdentifyOptions::Method::motion);
   result.motions = fitted->motions;
   return result;
 }
@@ -235,8 +255,9 @@ Identification identify(std::span<const Recording> recordings, const Device& str
   check_motion(recordings, structure, options);
   const MeasuredResponse measured = response_with_enough_lines(recordings, structure, options, {});
   if (method_of(recordings, structure, options) == IdentifyOptions::Method::lines)
-    return identified_by_lines(measured, structure, options);
-  return identified_by_motion(recordings, measured, structure, options, progress);
+    return identified_by_lines(measured, structure, options, doubts_of(recordings, structure, options));
+  return identified_by_motion(recordings, measured, structure, options, doubts_of(recordings, structure, options),
+                              progress);
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
@@ -259,9 +280,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   FittedLikelihood fit{.motion = structure.parameters().motion};
   if (fitted) fit.left = omnibus_of_lines(*fitted);
   fit.records = {{none.source, 0.0}};
-  Identification result = judged(none, structure, options, found, std::move(fit));
-  result.method = IdentifyOptions::Method::lines;
-  return result;
+  return judged(none, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
 }
 
 }  // namespace zwidth

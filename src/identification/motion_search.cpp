@@ -9,13 +9,13 @@ namespace zwidth::internal {
 namespace {
 
 constexpr Eigen::Index noise_order = 12;
-constexpr double short_segment = 0.5;            // s
-constexpr std::size_t left_out = 20;             // samples at a record's beginning, whose forces came before it
-constexpr std::size_t most_samples = 100000;     // of long records evenly spread segments are fitted
-constexpr std::size_t most_samples_near = 8000;  // tell the numbers roughly
-constexpr int coarse_parts = 1;                  // of a sampling period, where terms act
+constexpr double short_segment = 0.5;              // s
+constexpr std::size_t left_out = 20;               // samples at a record's beginning, whose forces came before it
+constexpr std::size_t most_samples_whole = 30000;  // of long records evenly spread segments are fitted
+constexpr std::size_t most_samples_near = 8000;    // tell the numbers roughly
+constexpr int coarse_parts = 1;                    // of a sampling period, where terms act
 constexpr int fine_parts = 2;
-constexpr int most_parts = 16;  // where a body rubs: until finer ones move no number of the device
+constexpr int most_parts = 8;  // where a body rubs: until finer ones move no number of the device
 
 double rms_of(std::span<const double> samples) {
   double squares = 0.0;
@@ -200,7 +200,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked, parts.further_body);
-  const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples, {});
+  const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples_whole, {});
   const auto whole_at = [&](int parts_of_period) {
     Whole made;
     made.model = std::make_unique<MotionModel>(family, parts.terms, start.records, parts_of_period);
