@@ -31,6 +31,7 @@ void SameAnswer::expect_same(const std::vector<Question>& questions) const {
   ASSERT_EQ(ran.status, 0) << ran.errors;
   std::istringstream statuses(ran.output);
   std::size_t failures = 0;
+  std::string told;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     int status = -1;
     statuses >> status;
@@ -44,10 +45,11 @@ void SameAnswer::expect_same(const std::vector<Question>& questions) const {
       EXPECT_EQ(printed, "");
       EXPECT_TRUE(status == 1 || status == 2) << status;
       ++failures;
+      told += contents(fmt::format("{}.err", i));
     }
   }
   constexpr double most_failures = 0.05;
-  EXPECT_LE(static_cast<double>(failures), most_failures * static_cast<double>(questions.size()));
+  EXPECT_LE(static_cast<double>(failures), most_failures * static_cast<double>(questions.size())) << told;
 }
 
 std::size_t how_many(std::size_t usual) {

@@ -102,7 +102,7 @@ constexpr std::array commands = {
     Command{"InverseDynamics", "identify FILE --force force --position position --json --method inverse-dynamics",
             inverse_dynamics},
     Command{"Rigid", "identify FILE --force force --position position --json --points --structure rigid", rigid,
-            "rigid", 1.0},
+            "rigid", 2.0},
     Command{"LinkOfTwoBodies",
             "identify FILE --force force --position position --json --structure DEVICE "
             "--free link.stiffness,link.damping --from-structure",
