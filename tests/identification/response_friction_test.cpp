@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "identification/friction_body.hpp"
-#include "identification/simulated_record.hpp"
 #include "identification/response/hidden_friction.hpp"
+#include "identification/simulated_record.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

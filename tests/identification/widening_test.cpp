@@ -1,4 +1,3 @@
-#include "identification/verdict/calibration.hpp"
 #include "identification/verdict/widening.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +7,8 @@
 #include <numbers>
 #include <random>
 #include <vector>
+
+#include "identification/verdict/calibration.hpp"
 
 namespace zwidth::internal {
 namespace {

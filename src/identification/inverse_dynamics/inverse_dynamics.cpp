@@ -10,9 +10,9 @@
 
 #include "counted.hpp"
 #include "eigenvalues.hpp"
+#include "identification/crossover/student_t.hpp"
 #include "identification/inverse_dynamics/correlated_residuals.hpp"
 #include "identification/inverse_dynamics/rigid_band.hpp"
-#include "identification/crossover/student_t.hpp"
 #include "linear_systems.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"

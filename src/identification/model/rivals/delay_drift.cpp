@@ -10,8 +10,8 @@ constexpr double delay_drift_deviation = 1.0;
 /// The force comes later and later, or earlier: the clocks of the force and of the position differ. The number "loop.delay" is
 /// the delay at a record's beginning, where both clocks agree.
 void add_delay_drift(const RivalSetting& setting, ModelParts& parts) {
-  parts.terms.drive.delay_drift =
-      parts.add({key_of_delay_drift, Number::Scale::any, clock_difference * setting.duration, 0.0, delay_drift_deviation});
+  parts.terms.drive.delay_drift = parts.add(
+      {key_of_delay_drift, Number::Scale::any, clock_difference * setting.duration, 0.0, delay_drift_deviation});
 }
 
 }  // namespace
