@@ -10,8 +10,8 @@ Verdict verdict_of(const FittedLikelihood& fit) {
   Trust& trust = verdict.trust;
   for (const Finding& each : fit.contradictions) trust.refuse(each);
   if (!fit.limit || !(fit.limit->upper > 0.0)) trust.refuse(undetermined(fit));
-  if (trust.refused()) return verdict;
   for (const Finding& each : fit.doubts_of_data) trust.doubt(each);
+  if (trust.refused()) return verdict;
   const bool is_narrow = fit.limit->upper <= Calibration::widest_interval * fit.limit->lower;
   if (!is_narrow) trust.doubt(open_interval(fit));
   if (fit.left && stands_out(*fit.left)) trust.doubt(outstanding(*fit.left, fit.records));
