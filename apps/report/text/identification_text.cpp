@@ -152,7 +152,6 @@ std::string identification_text(const Identification& identified, ShownFindings 
   const FindingsText findings = findings_text(identified.trust, identified.remarks, shown);
   std::string text = limit_line(identified);
   text += fmt::format("{}, identified from {}", display_name(fit.device), identified.source);
-  if (identified.motions.size() > 1) text += fmt::format(" and {} more", identified.motions.size() - 1);
   text += "\n" + findings.reasons + "\n";
   text += layout(estimate_table(fit.estimates, motion)) + correlations(fit.correlations, shown);
   text += rivals_text(identified, shown) + "\n";
