@@ -246,6 +246,7 @@ it('reads a text as it is stated', async () => {
   await page.getByLabel('Names of the columns').selectOption('header')
   await expect.poll(() => page.getByLabel('Force (commanded)').inputValue()).toBe('force')
   await page.getByLabel('Samples of a segment').fill('512')
+  await page.getByLabel('handle', { exact: true }).check()
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
   await page.getByRole('button', { name: 'Use this device' }).waitFor()
   await settled(page)
@@ -262,7 +263,7 @@ it('reads a text as it is stated', async () => {
     '--segment',
     '512',
   ]
-  const fitted = documentOf('identify', file, ...stated, '--structure', 'two-body', '--motion', 'linear')
+  const fitted = documentOf('identify', file, ...stated, '--structure', 'two-body', '--motion', 'linear', '--locked', 'handle')
   const measured = documentOf('frf', file, ...stated)
   const shown = await panel.innerText()
   expect(shown).toContain(`The device fitted: critical stiffness ${say(Number(fitted.critical_stiffness), 'N/m')}`)

@@ -235,7 +235,7 @@ export function everythingAt(width: number): void {
     )
     await settled(page)
     expect(fits).toBe(1)
-    await expect.poll(() => nobody(page)).toBe(`${(Number(fitted.critical_stiffness) / 1000).toPrecision(4)} kN/m`)
+    await expect.poll(() => nobody(page)).toBe(`${Number((Number(fitted.critical_stiffness) / 1000).toPrecision(4))} kN/m`)
     expect(complaints).toEqual([])
     await context.close()
   })
