@@ -1,7 +1,6 @@
 #include "zwidth/identification/rigid_body_identification.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "identification/device_file_trust.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/verdict/verdict.hpp"
 #include "model/option_beyond.hpp"
@@ -201,16 +201,6 @@ void judge_limit(RigidBodyIdentification& identified) {
   }
 }
 
-/// With the verdict, so that its file keeps it.
-Device stating_trust(const Device& device, const Trust& trust) {
-  if (trust.sound()) return device;
-  DeviceParameters parameters = device.parameters();
-  if (!parameters.uncertainty) parameters.uncertainty.emplace();
-  parameters.uncertainty->verdict = trust.verdict;
-  parameters.uncertainty->warning = fmt::format("{}", fmt::join(trust.reasons, "; "));
-  return Device(std::move(parameters));
-}
-
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RigidBodyOptions& options) {
@@ -264,7 +254,7 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   judge_body(identified);
   judge_delay(identified, period);
   judge_limit(identified);
-  identified.device = stating_trust(identified.device, identified.trust);
+  identified.device = with_trust(identified.device, identified.trust);
   return identified;
 }
 
