@@ -1,0 +1,139 @@
+#include "sampling/damper_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "model/rational_form.hpp"
+#include "sampling/decimation.hpp"
+#include "sampling/exact_sampling.hpp"
+#include "sampling/extended_sampling.hpp"
+#include "sampling/plant_of_terms.hpp"
+#include "sampling/sampling_instants.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using PolynomialX = std::vector<Extended>;  // of delta, by rising powers
+
+PolynomialX product(const PolynomialX& a, const PolynomialX& b) {
+  PolynomialX result(a.size() + b.size() - 1, Extended(0.0));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j) result[i + j] += a[i] * b[j];
+  return result;
+}
+
+void drop_leading_zeros(PolynomialX& p) {
+  while (p.size() > 1 && leading(p.back()) == 0.0) p.pop_back();
+}
+
+// z^-samples numerator/denominator, of the whole device.
+struct Response {
+  PolynomialX numerator;
+  PolynomialX denominator{Extended(1.0)};
+  std::size_t samples = 0;
+};
+
+Response sampled_response(const ModalForm& form, const Sampling& sampling) {
+  const SamplingInstants instants = sampling_instants(sampling);
+  std::vector<ExtendedTerm> terms;
+  Response response;
+  for (const ModalTerm& term : form.terms) {
+    if (std::all_of(term.numerator, term.numerator + term.degree, [](double n) { return n == 0.0; })) continue;
+    terms.push_back(sample_precisely(term, instants));
+    std::fill_n(terms.back().denominator.begin(), term.integrators, Extended(0.0));
+    response.denominator = product(response.denominator, terms.back().denominator);
+  }
+  response.numerator = extended_common_numerator(terms);
+  drop_leading_zeros(response.numerator);
+  response.samples = instants.whole_samples + (instants.with_old > 0.0 ? 1U : 0U);
+  return response;
+}
+
+ExtendedTerm extended_term(const ModalTerm& term) {
+  ExtendedTerm result;
+  for (std::size_t i = 0; i < term.degree; ++i) {
+    result.numerator.push_back(Extended(term.numerator[i]) + Extended(term.numerator_rest[i]));
+    result.denominator.push_back(Extended(term.denominator[i]) + Extended(term.denominator_rest[i]));
+  }
+  result.denominator.emplace_back(1.0);
+  return result;
+}
+
+int poles_outside(const std::vector<Complex<Extended>>& poles) {
+  return static_cast<int>(std::ranges::count_if(poles, [](const Complex<Extended>& pole) {
+    return leading(Extended(2.0) * pole.re + pole.re * pole.re + pole.im * pole.im) > 0.0;
+  }));
+}
+
+// The closed loop of the damper from the spring's force to the position, z^-samples apart: a quotient, and what of the
+// force shows at once.
+struct ClosedLoop {
+  PolynomialX numerator;
+  PolynomialX denominator;
+  Extended at_once{0.0};
+  std::size_t samples = 0;
+};
+
+ClosedLoop closed_loop(const ModalForm& form, const Sampling& spring, const DamperLoop& damper) {
+  const Response by_spring = sampled_response(form, spring);
+  const Response by_damper = sampled_response(form, damper.sampling);
+  const double period = damper.sampling.period;
+  const Extended c = damper.velocity_filter_hz > 0.0
+                         ? Extended(-std::expm1(-2.0 * std::numbers::pi * damper.velocity_filter_hz * period))
+                         : Extended(1.0);
+  PolynomialX late{c, Extended(1.0)};  // (delta + c) z^samples
+  for (std::size_t i = 0; i < by_damper.samples; ++i) late = product(late, {Extended(1.0), Extended(1.0)});
+  ClosedLoop loop;
+  loop.samples = by_spring.samples;
+  loop.numerator = product(by_spring.numerator, late);
+  loop.denominator = product(by_damper.denominator, late);
+  const Extended rate = Extended(damper.damping) * c / Extended(period);
+  for (std::size_t i = 0; i < by_damper.numerator.size(); ++i) {
+    loop.denominator[i + 1] += rate * by_damper.numerator[i];
+  }
+  if (loop.numerator.size() == loop.denominator.size()) {
+    loop.at_once = loop.numerator.back() / loop.denominator.back();
+    for (std::size_t i = 0; i < loop.numerator.size(); ++i) loop.numerator[i] -= loop.at_once * loop.denominator[i];
+    loop.numerator.pop_back();
+  }
+  return loop;
+}
+
+}  // namespace
+
+std::size_t damper_steps(const Sampling& spring, const Sampling& damper) {
+  return static_cast<std::size_t>(std::max(0.0, std::round(spring.period / damper.period)));
+}
+
+SampledPlant sample_behind_damper(const ModalForm& form, const Sampling& spring, const DamperLoop& damper) {
+  const std::size_t steps = damper_steps(spring, damper.sampling);
+  const double period = spring.period / static_cast<double>(steps);  // the damper's, without its rounding
+  DamperLoop fast = damper;
+  fast.sampling.period = period;
+  const ClosedLoop loop = closed_loop(form, {period, spring.delay}, fast);
+  const RationalForm quotient = rational_form(loop.numerator, loop.denominator);
+
+  const std::size_t late = loop.samples % steps;
+  SampledPlant plant;
+  plant.period = spring.period;
+  plant.delay_samples = loop.samples / steps + (late > 0 ? 1U : 0U);
+  std::vector<ExtendedTerm> terms;
+  for (const ModalTerm& term : quotient.form.terms) {
+    terms.push_back(decimated(extended_term(term), static_cast<std::size_t>(term.integrators), steps, late));
+    SampledTerm sampled;
+    sampled.degree = term.degree;
+    sampled.integrators = term.integrators;
+    plant.terms.push_back(sampled);
+  }
+  for (std::size_t i = 0; i < terms.front().numerator.size(); ++i) {
+    terms.front().numerator[i] += loop.at_once * terms.front().denominator[i];
+  }
+  plant.terms.front().unstable_poles = poles_outside(quotient.poles);
+  fill_in(terms, plant);
+  return plant;
+}
+
+}  // namespace zwidth::internal
