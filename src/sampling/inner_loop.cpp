@@ -1,4 +1,4 @@
-#include "sampling/damper_loop.hpp"
+#include "sampling/inner_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,32 +68,36 @@ int poles_outside(const std::vector<Complex<Extended>>& poles) {
   }));
 }
 
-// The closed loop of the damper from the spring's force to the position, z^-samples apart: a quotient, and what of the
-// force shows at once.
-struct ClosedLoop {
+// The closed inner loop from the outer force to the position, z^-samples apart: a quotient, and what of the force shows at
+// once.
+struct ClosedInner {
   PolynomialX numerator;
   PolynomialX denominator;
   Extended at_once{0.0};
   std::size_t samples = 0;
 };
 
-ClosedLoop closed_loop(const ModalForm& form, const Sampling& spring, const DamperLoop& damper) {
-  const Response by_spring = sampled_response(form, spring);
-  const Response by_damper = sampled_response(form, damper.sampling);
-  const double period = damper.sampling.period;
-  const Extended c = damper.velocity_filter_hz > 0.0
-                         ? Extended(-std::expm1(-2.0 * std::numbers::pi * damper.velocity_filter_hz * period))
-                         : Extended(1.0);
-  PolynomialX late{c, Extended(1.0)};  // (delta + c) z^samples
-  for (std::size_t i = 0; i < by_damper.samples; ++i) late = product(late, {Extended(1.0), Extended(1.0)});
-  ClosedLoop loop;
-  loop.samples = by_spring.samples;
-  loop.numerator = product(by_spring.numerator, late);
-  loop.denominator = product(by_damper.denominator, late);
-  const Extended rate = Extended(damper.damping) * c / Extended(period);
-  for (std::size_t i = 0; i < by_damper.numerator.size(); ++i) {
-    loop.denominator[i + 1] += rate * by_damper.numerator[i];
+ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
+  const Response by_outer = sampled_response(form, outer);
+  const Response by_inner = sampled_response(form, inner.sampling);
+  const double period = inner.sampling.period;
+  PolynomialX late{Extended(1.0)};  // z^samples, with a damper times delta + c
+  for (std::size_t i = 0; i < by_inner.samples; ++i) late = product(late, {Extended(1.0), Extended(1.0)});
+  PolynomialX force{Extended(inner.stiffness)};  // of the controller, likewise
+  if (inner.damping > 0.0) {
+    const Extended c = inner.velocity_filter_hz > 0.0
+                           ? Extended(-std::expm1(-2.0 * std::numbers::pi * inner.velocity_filter_hz * period))
+                           : Extended(1.0);
+    late = product(late, {c, Extended(1.0)});
+    force = product(force, {c, Extended(1.0)});
+    force[1] += Extended(inner.damping) * c / Extended(period);
   }
+  ClosedInner loop;
+  loop.samples = by_outer.samples;
+  loop.numerator = product(by_outer.numerator, late);
+  loop.denominator = product(by_inner.denominator, late);
+  const PolynomialX fed_back = product(by_inner.numerator, force);
+  for (std::size_t i = 0; i < fed_back.size(); ++i) loop.denominator[i] += fed_back[i];
   if (loop.numerator.size() == loop.denominator.size()) {
     loop.at_once = loop.numerator.back() / loop.denominator.back();
     for (std::size_t i = 0; i < loop.numerator.size(); ++i) loop.numerator[i] -= loop.at_once * loop.denominator[i];
@@ -104,21 +108,20 @@ ClosedLoop closed_loop(const ModalForm& form, const Sampling& spring, const Damp
 
 }  // namespace
 
-std::size_t damper_steps(const Sampling& spring, const Sampling& damper) {
-  return static_cast<std::size_t>(std::max(0.0, std::round(spring.period / damper.period)));
+std::size_t steps_within(const Sampling& outer, const Sampling& inner) {
+  return static_cast<std::size_t>(std::max(0.0, std::round(outer.period / inner.period)));
 }
 
-SampledPlant sample_behind_damper(const ModalForm& form, const Sampling& spring, const DamperLoop& damper) {
-  const std::size_t steps = damper_steps(spring, damper.sampling);
-  const double period = spring.period / static_cast<double>(steps);  // the damper's, without its rounding
-  DamperLoop fast = damper;
-  fast.sampling.period = period;
-  const ClosedLoop loop = closed_loop(form, {period, spring.delay}, fast);
+SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
+  const std::size_t steps = steps_within(outer, inner.sampling);
+  InnerLoop fast = inner;
+  fast.sampling.period = outer.period / static_cast<double>(steps);  // without its rounding
+  const ClosedInner loop = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
   const RationalForm quotient = rational_form(loop.numerator, loop.denominator);
 
   const std::size_t late = loop.samples % steps;
   SampledPlant plant;
-  plant.period = spring.period;
+  plant.period = outer.period;
   plant.delay_samples = loop.samples / steps + (late > 0 ? 1U : 0U);
   std::vector<ExtendedTerm> terms;
   for (const ModalTerm& term : quotient.form.terms) {
