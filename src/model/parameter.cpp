@@ -33,6 +33,7 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   for (auto& body : parameters.bodies) visit_table(DeviceTable::body, "body." + body.name, body);
   visit_tables(DeviceTable::link, parameters.links);
   visit_table(DeviceTable::loop, "loop", parameters.loop);
+  if (parameters.loop.damper) visit_table(DeviceTable::loop_damper, "loop.damper", *parameters.loop.damper);
   visit_table(DeviceTable::actuator, "actuator", parameters.actuator);
   visit_table(DeviceTable::sensor, "sensor", parameters.sensor);
   visit_table(DeviceTable::wall, "wall", parameters.wall);
