@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/one_rate.hpp"
 #include "sampling/cancellation.hpp"
 #include "sampling/exact_sampling.hpp"
 #include "sampling/extended_sampling.hpp"
@@ -159,6 +160,7 @@ FilteredPlant filtered_plant(FilteredPlant plant, const std::vector<WallFilter>&
 }
 
 FilteredPlant filtered_plant(const Device& device) {
+  require_one_rate(device);
   return filtered_plant(sampled_plant(device), device.parameters().wall.filters);
 }
 

@@ -44,6 +44,14 @@ std::span<const Phrase> stability_phrases() {
              "the disk margin is left out: the wall is too far below every limit for its search to end",
              "the gain, phase and delay margins of the wall stand",
              "judge this wall by those, or give a stiffness nearer to the limits"},
+      Phrase{too_many_states_for_damper, "too_many_states_for_damper", refusal,
+             "the damper runs slower than the spring, and the loop over the damper's period has {states:n} states: no "
+             "more than {most:n} are followed, so no limit is given",
+             "", "shorten the delay of the spring, or run it less often"},
+      Phrase{
+          left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
+          "{what} is left out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
+          "apart"},
       Phrase{critical_damping_left_out, "critical_damping_left_out", note,
              "the largest damper without a spring is left out", "{reason}",
              "simulate such a damper before it is rendered"},
