@@ -26,6 +26,15 @@ Device with_one_rate(const Device& device) {
   return Device(std::move(parameters));
 }
 
+Device with_loop_of_damper(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  const auto [period, delay] = damper_timing(parameters.loop);
+  parameters.loop.sampling_period = period;
+  parameters.loop.delay = delay;
+  parameters.loop.damper.reset();
+  return Device(std::move(parameters));
+}
+
 double internal::rate_ratio(double loop_period, double damper_period) {
   if (damper_period >= loop_period) return 1.0 / std::round(damper_period / loop_period);
   const double fewer = std::floor(loop_period / damper_period);

@@ -16,7 +16,10 @@ struct DamperTiming {
 /// Whether the damper runs at another time than the spring. One with the loop's own period and delay does not.
 [[nodiscard]] bool has_damper_loop(const Loop& loop);
 
-/// The same device whose damper runs with its spring.
+/// The same device whose damper runs with its spring: what a spring without a damper is judged by.
 [[nodiscard]] Device with_one_rate(const Device& device);
+
+/// The same device whose loop has the damper's own period and delay: what a damper without a spring is judged by.
+[[nodiscard]] Device with_loop_of_damper(const Device& device);
 
 }  // namespace zwidth

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sampling/sampling_instants.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -38,7 +39,7 @@ struct GroupOf {
 KernelColumns::KernelColumns(const DeviceParameters& base, std::span<const ParameterValues> changes) {
   const std::size_t bodies = base.bodies.size();
   if (base.transfer_function || bodies == 0 || bodies > 2 || base.links.size() != bodies - 1 ||
-      !base.wall.filters.empty()) {
+      !base.wall.filters.empty() || has_damper_loop(base.loop)) {
     return;
   }
   suits_ = true;

@@ -113,8 +113,10 @@ Agreement agreement(const TwoRateDevice& loop, const ScheduledLoop& as_it_runs, 
   return *other == stable ? Agreement::agrees : Agreement::contradicts;
 }
 
-CriticalStiffness unguarded_two_rate_stiffness(const Device& device) {
+CriticalStiffness unguarded_stiffness(const Device& device) {
+  if (!has_damper_loop(device.loop())) return critical_stiffness(filtered_plant(device), virtual_damper(device));
   const double damping = device.parameters().wall.damping;
+  if (damping == 0.0) return unguarded_stiffness(with_one_rate(device));
   const TwoRateDevice loop(device, damping);
   return found_stiffness(loop, loop.as_it_runs(device));
 }

@@ -51,7 +51,7 @@ class TwoRateDevice {
 // the poles of the loop as it runs are followed over K, and the crossings of B behind the closed spring count beside them.
 [[nodiscard]] CriticalStiffness two_rate_stiffness(const Device& device);
 
-// The same without the second count, for many devices.
-[[nodiscard]] CriticalStiffness unguarded_two_rate_stiffness(const Device& device);
+// critical_stiffness() of any device without the second count and the trust, for many devices.
+[[nodiscard]] CriticalStiffness unguarded_stiffness(const Device& device);
 
 }  // namespace zwidth::internal
