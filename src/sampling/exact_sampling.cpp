@@ -103,8 +103,4 @@ ExtendedTerm sample_exactly(const ModalTerm& term, const SamplingInstants& insta
   throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::response_not_computed});
 }
 
-ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& instants) {
-  return term.degree > 2 ? sample_exactly(term, instants) : sample_extended(term, instants);
-}
-
 }  // namespace zwidth::internal

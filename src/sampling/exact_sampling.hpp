@@ -8,7 +8,4 @@ namespace zwidth::internal {
 // crowded poles, whose polynomials double-double cannot follow. Throws Error (did_not_converge) where none suffices.
 ExtendedTerm sample_exactly(const ModalTerm& term, const SamplingInstants& instants);
 
-// In double-double, or where crowded poles are beyond it sample_exactly().
-ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& instants);
-
 }  // namespace zwidth::internal

@@ -8,7 +8,6 @@
 
 #include "model/rational_form.hpp"
 #include "sampling/decimation.hpp"
-#include "sampling/exact_sampling.hpp"
 #include "sampling/extended_sampling.hpp"
 #include "sampling/plant_of_terms.hpp"
 #include "sampling/sampling_instants.hpp"

@@ -6,9 +6,14 @@
 #include <numbers>
 
 #include "sampling/cancellation.hpp"
+#include "sampling/exact_sampling.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
+
+ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& instants) {
+  return term.degree > 2 ? sample_exactly(term, instants) : sample_extended(term, instants);
+}
 
 void round_into(const ExtendedTerm& term, SampledTerm& sampled) {
   const auto round = [](const Extended& exact, double& rounded, double& rest) {

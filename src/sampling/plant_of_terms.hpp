@@ -10,6 +10,9 @@
 
 namespace zwidth::internal {
 
+// In double-double, or where crowded poles are beyond it sample_exactly().
+[[nodiscard]] ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& instants);
+
 // The coefficients in double, and what rounding left out of them. The degree stands.
 void round_into(const ExtendedTerm& term, SampledTerm& sampled);
 

@@ -14,10 +14,10 @@ namespace {
 
 using Pole = std::complex<double>;  // z - 1
 
-constexpr double first_step = 0.25;       // of log K
-constexpr double longest_crossing = 0.1;  // of log K: where a pole crosses, it does so once
-constexpr double shortest_step = 1e-7;    // of log K
-constexpr double far_inside = -1.0;       // of log |z|: such a pole is not followed
+constexpr double first_step_of_scan = 0.25;  // of log K
+constexpr double longest_crossing = 0.1;     // of log K: where a pole crosses, it does so once
+constexpr double shortest_step = 1e-7;       // of log K
+constexpr double far_inside = -1.0;          // of log |z|: such a pole is not followed
 constexpr std::size_t most_evaluations = 20000;
 
 // log |z|
@@ -58,7 +58,7 @@ class StiffnessScan {
   [[nodiscard]] ScannedCrossings between(double least, double most) {
     const double first = std::log(least);
     const double last = std::log(most);
-    const auto steps = static_cast<int>(std::ceil((last - first) / first_step));
+    const auto steps = static_cast<int>(std::ceil((last - first) / first_step_of_scan));
     Sample begin = at(first);
     for (const Pole& pole : begin.poles) found_.initially_unstable += excess(pole) > 0.0 ? 1 : 0;
     for (int i = 1; i <= steps; ++i) {
