@@ -6,7 +6,6 @@
 #include <string>
 
 #include "sampling/sampling_instants.hpp"
-#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -39,9 +38,11 @@ struct GroupOf {
 KernelColumns::KernelColumns(const DeviceParameters& base, std::span<const ParameterValues> changes) {
   const std::size_t bodies = base.bodies.size();
   if (base.transfer_function || bodies == 0 || bodies > 2 || base.links.size() != bodies - 1 ||
-      !base.wall.filters.empty() || has_damper_loop(base.loop)) {
+      !base.wall.filters.empty() || base.loop.damper) {
     return;
   }
+  const auto is_of_damper = [](const ParameterValues& each) { return each.key.starts_with("loop.damper."); };
+  if (std::ranges::any_of(changes, is_of_damper)) return;
   suits_ = true;
   two_bodies_ = bodies == 2;
   collocated_ = base.loop.sensed == base.loop.actuated;
