@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/rational_form.hpp"
+#include "model/feedback_form.hpp"
 #include "sampling/decimation.hpp"
 #include "sampling/extended_sampling.hpp"
 #include "sampling/plant_of_terms.hpp"
@@ -67,12 +67,9 @@ int poles_outside(const std::vector<Complex<Extended>>& poles) {
   }));
 }
 
-// The closed inner loop from the outer force to the position, z^-samples apart: a quotient, and what of the force shows at
-// once.
+// The closed inner loop from the outer force to the position, z^-samples apart.
 struct ClosedInner {
-  PolynomialX numerator;
-  PolynomialX denominator;
-  Extended at_once{0.0};
+  Feedback loop;
   std::size_t samples = 0;
 };
 
@@ -80,29 +77,19 @@ ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const Inn
   const Response by_outer = sampled_response(form, outer);
   const Response by_inner = sampled_response(form, inner.sampling);
   const double period = inner.sampling.period;
-  PolynomialX late{Extended(1.0)};  // z^samples, with a damper times delta + c
-  for (std::size_t i = 0; i < by_inner.samples; ++i) late = product(late, {Extended(1.0), Extended(1.0)});
-  PolynomialX force{Extended(inner.stiffness)};  // of the controller, likewise
+  PolynomialX filter{Extended(1.0)};  // delta + c with a damper
+  PolynomialX force{Extended(inner.stiffness)};
   if (inner.damping > 0.0) {
     const Extended c = inner.velocity_filter_hz > 0.0
                            ? Extended(-std::expm1(-2.0 * std::numbers::pi * inner.velocity_filter_hz * period))
                            : Extended(1.0);
-    late = product(late, {c, Extended(1.0)});
-    force = product(force, {c, Extended(1.0)});
+    filter = {c, Extended(1.0)};
+    force = product(force, filter);
     force[1] += Extended(inner.damping) * c / Extended(period);
   }
-  ClosedInner loop;
-  loop.samples = by_outer.samples;
-  loop.numerator = product(by_outer.numerator, late);
-  loop.denominator = product(by_inner.denominator, late);
-  const PolynomialX fed_back = product(by_inner.numerator, force);
-  for (std::size_t i = 0; i < fed_back.size(); ++i) loop.denominator[i] += fed_back[i];
-  if (loop.numerator.size() == loop.denominator.size()) {
-    loop.at_once = loop.numerator.back() / loop.denominator.back();
-    for (std::size_t i = 0; i < loop.numerator.size(); ++i) loop.numerator[i] -= loop.at_once * loop.denominator[i];
-    loop.numerator.pop_back();
-  }
-  return loop;
+  return {{product(by_outer.numerator, filter), product(by_inner.denominator, filter),
+           product(by_inner.numerator, force), by_inner.samples},
+          by_outer.samples};
 }
 
 }  // namespace
@@ -115,15 +102,15 @@ SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const I
   const std::size_t steps = steps_within(outer, inner.sampling);
   InnerLoop fast = inner;
   fast.sampling.period = outer.period / static_cast<double>(steps);  // without its rounding
-  const ClosedInner loop = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
-  const RationalForm quotient = rational_form(loop.numerator, loop.denominator);
+  const auto [loop, samples] = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
+  const FeedbackForm closed = feedback_form(loop);
 
-  const std::size_t late = loop.samples % steps;
+  const std::size_t late = samples % steps;
   SampledPlant plant;
   plant.period = outer.period;
-  plant.delay_samples = loop.samples / steps + (late > 0 ? 1U : 0U);
+  plant.delay_samples = samples / steps + (late > 0 ? 1U : 0U);
   std::vector<ExtendedTerm> terms;
-  for (const ModalTerm& term : quotient.form.terms) {
+  for (const ModalTerm& term : closed.form.terms) {
     terms.push_back(decimated(extended_term(term), static_cast<std::size_t>(term.integrators), steps, late));
     SampledTerm sampled;
     sampled.degree = term.degree;
@@ -131,9 +118,9 @@ SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const I
     plant.terms.push_back(sampled);
   }
   for (std::size_t i = 0; i < terms.front().numerator.size(); ++i) {
-    terms.front().numerator[i] += loop.at_once * terms.front().denominator[i];
+    terms.front().numerator[i] += closed.at_once * terms.front().denominator[i];
   }
-  plant.terms.front().unstable_poles = poles_outside(quotient.poles);
+  plant.terms.front().unstable_poles = poles_outside(closed.poles);
   fill_in(terms, plant);
   return plant;
 }

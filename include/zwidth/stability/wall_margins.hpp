@@ -53,7 +53,7 @@ struct WallMargins : LoopMargins {
 ///
 /// With a damper in a loop of its own the loop is cut where the slower of spring and damper acts: the margins of gain and
 /// phase, and gain_crossovers, are of that force alone, the other one closed. The delay margin is of both forces at once, and
-/// each has one of its own; all are found by eigenvalues, and absent beyond 64 of the longer periods. The spectral radius is
+/// each has one of its own; all are found by eigenvalues, and absent beyond 16 of the longer periods. The spectral radius is
 /// per sampling period of the spring.
 /// Throws Error (invalid_argument) when the device has no wall stiffness.
 [[nodiscard]] WallMargins wall_margins(const Device& device);

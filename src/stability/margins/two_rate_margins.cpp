@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "stability/limit/two_rate_stiffness.hpp"
@@ -31,9 +32,8 @@ class DelaySearch {
       : continuous_(state_space(device)), loop_(loop), stiffness_(stiffness) {}
 
   [[nodiscard]] std::optional<double> least(bool of_spring, bool of_damper) const {
-    const double shorter = std::min(loop_.spring().period, loop_.damper().sampling.period);
     const double longer = std::max(loop_.spring().period, loop_.damper().sampling.period);
-    const double step = shorter / steps_per_period;
+    const double step = longer / steps_per_period;
     const auto excess = [&](double delay) { return excess_with(of_spring ? delay : 0.0, of_damper ? delay : 0.0); };
     double before = excess(0.0);
     for (double end = step; end <= most_periods * longer; end += step) {
@@ -51,8 +51,9 @@ class DelaySearch {
   }
 
  private:
-  static constexpr double steps_per_period = 4.0;
-  static constexpr double most_periods = 64.0;
+  static constexpr double steps_per_period = 16.0;  // of the longer one
+  static constexpr double most_periods = 16.0;
+  static constexpr std::size_t most_delay_states = 80;
 
   // Infinite where the loop would have too many states.
   [[nodiscard]] double excess_with(double of_spring, double of_damper) const {
@@ -61,7 +62,7 @@ class DelaySearch {
     spring.delay += of_spring;
     damper.sampling.delay += of_damper;
     const ScheduledLoop as_it_runs(continuous_, spring, damper);
-    if (as_it_runs.states() > ScheduledLoop::most_states) return std::numeric_limits<double>::infinity();
+    if (as_it_runs.states() > most_delay_states) return std::numeric_limits<double>::infinity();
     return largest_excess_of(as_it_runs, stiffness_);
   }
 
