@@ -18,6 +18,7 @@ constexpr double first_step_of_scan = 0.25;  // of log K
 constexpr double longest_crossing = 0.1;     // of log K: where a pole crosses, it does so once
 constexpr double shortest_step = 1e-7;       // of log K
 constexpr double far_inside = -1.0;          // of log |z|: such a pole is not followed
+constexpr double most_growth = 1e6;          // of a pole in the longer period: beyond, the others are rounded
 constexpr std::size_t most_evaluations = 20000;
 
 // log |z|
@@ -63,6 +64,8 @@ class StiffnessScan {
     for (const Pole& pole : begin.poles) found_.initially_unstable += excess(pole) > 0.0 ? 1 : 0;
     for (int i = 1; i <= steps; ++i) {
       Sample end = at(first + (last - first) * i / steps);
+      const auto is_lost = [](const Pole& pole) { return !(std::abs(pole) <= most_growth); };
+      if (std::ranges::any_of(end.poles, is_lost)) break;
       look_between(begin, end);
       begin = std::move(end);
     }

@@ -19,7 +19,8 @@ struct ScannedCrossings {
   int initially_unstable = 0;              // poles outside at the least stiffness
 };
 
-// Every crossing between two stiffnesses, 0 < least < most: all poles are followed over K, in steps within which each moves
+// Every crossing between two stiffnesses, 0 < least < most, or up to where a pole grows a millionfold in the longer period,
+// which does not come back: all poles are followed over K, in steps within which each moves
 // on a straight line but for less than half its distance from the circle, and each crossing is found to rounding.
 // Throws Error (did_not_converge) where that takes too many steps.
 [[nodiscard]] ScannedCrossings scan_stiffness(const ScheduledLoop& loop, double least, double most);
