@@ -33,7 +33,7 @@ enum class FindingCode : std::uint16_t {
   disk_margin_contradicts,       ///< the disk margin is larger than gain and phase margins allow
   disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
   too_many_states_for_damper,    ///< a damper slower than its spring, whose loop has too many states to follow
-  left_out_beside_damper_loop,   ///< `what` is not given where the damper runs in a loop of its own
+  left_out_beside_damper_loop,   ///< what is not given where the damper runs in a loop of its own
   critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
   unstable_with_nobody,          ///< the file's user alone keeps the wall stable
   stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate

@@ -65,7 +65,7 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
   const Wall& wall = device.parameters().wall;
   if (!two || !wall.filters.empty()) return std::nullopt;
   if (has_damper_loop(device.loop())) {
-    analysis.remarks.push_back(left_out_beside_damper_loop("Q of eq. 24"));
+    analysis.remarks.push_back(left_out_beside_damper_loop("q"));
     return std::nullopt;
   }
   const TwoMassFactors factors = two_mass_factors(*two);
@@ -184,7 +184,7 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
   if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
   if (has_damper_loop(device.loop())) {
     if (device.parameters().wall.damping > 0.0) {
-      analysis.remarks.push_back(left_out_beside_damper_loop("the limit over all passive users"));
+      analysis.remarks.push_back(left_out_beside_damper_loop("any_user"));
       return;
     }
     // The spring runs alone, and the damper alone has a loop of its own.

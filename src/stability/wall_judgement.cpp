@@ -76,7 +76,7 @@ void judge_two_rate_wall(const Device& device, Analysis& analysis) {
     distrust(agreement(loop, loop.as_it_runs(device), stiffness, analysis.wall->stable), stiffness, analysis.trust);
   }
   if (analysis.trust.refused()) return withdraw_numbers(analysis);
-  analysis.remarks.push_back(left_out_beside_damper_loop("the disk margin"));
+  analysis.remarks.push_back(left_out_beside_damper_loop("disk"));
 }
 
 Remark left_out_beside_damper_loop(const char* what) {
