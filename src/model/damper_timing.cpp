@@ -42,7 +42,7 @@ double internal::rate_ratio(double loop_period, double damper_period) {
   return damper_period - loop_period / more < loop_period / fewer - damper_period ? more : fewer;
 }
 
-void internal::require_one_rate(const Device& device) {
+void require_one_rate(const Device& device) {
   if (!has_damper_loop(device.loop())) return;
   const DeviceProblem problem = device_problem("loop.damper", {.code = ProblemCode::damper_loop_not_known});
   InputProblem told{{}, problem.what, problem.allowed, {}};

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/one_rate.hpp"
 #include "sampling/cancellation.hpp"
 #include "sampling/exact_sampling.hpp"
 #include "sampling/extended_sampling.hpp"
@@ -14,6 +13,7 @@
 #include "sampling/term_on_circle.hpp"
 #include "sampling/unit_circle.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;

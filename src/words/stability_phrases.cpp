@@ -48,11 +48,11 @@ std::span<const Phrase> stability_phrases() {
              "the damper runs slower than the spring, and the loop over the damper's period has {states:n} states: no "
              "more than {most:n} are followed, so no limit is given",
              "", "shorten the delay of the spring, or run it less often"},
-      Phrase{
-          left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
-          "{?what=disk|the disk margin}{?what=q|Q of eq. 24}{?what=any_user|the limit over all passive users} is left "
-          "out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
-          "apart"},
+      Phrase{left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
+             "{?what=disk|the disk margin}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
+             "limit over all passive users} is left "
+             "out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
+             "apart"},
       Phrase{critical_damping_left_out, "critical_damping_left_out", note,
              "the largest damper without a spring is left out", "{reason}",
              "simulate such a damper before it is rendered"},

@@ -16,6 +16,10 @@ struct DamperTiming {
 /// Whether the damper runs at another time than the spring. One with the loop's own period and delay does not.
 [[nodiscard]] bool has_damper_loop(const Loop& loop);
 
+/// Throws Error (invalid_argument) where has_damper_loop(): for computations of one rate, which would answer for another
+/// device.
+void require_one_rate(const Device& device);
+
 /// The same device whose damper runs with its spring: what a spring without a damper is judged by.
 [[nodiscard]] Device with_one_rate(const Device& device);
 

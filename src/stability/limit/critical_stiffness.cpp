@@ -5,7 +5,6 @@
 #include <numbers>
 #include <string>
 
-#include "model/one_rate.hpp"
 #include "require_argument.hpp"
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/limit/guarded_stiffness.hpp"

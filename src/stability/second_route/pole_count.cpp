@@ -9,8 +9,8 @@
 
 #include "eigenvalues.hpp"
 #include "model/balance.hpp"
-#include "model/one_rate.hpp"
 #include "stability/second_route/winding_number.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 #include "zwidth/stability/closed_loop.hpp"
