@@ -39,6 +39,7 @@ enum class FindingCode : std::uint16_t {
   stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
   damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
   too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
+  any_user_limit_scanned,        ///< the limit over all passive users is the least of a scan, not shown to be the least
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed
   any_user_limit_lowered,             ///< a tuned user destabilises softer walls than the bound found: it is lowered
   any_user_limit_loose,               ///< the bound is proven to a share only, which is taken off

@@ -10,6 +10,7 @@
 #include "require_valid.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -171,6 +172,33 @@ void judge_absolute_stability(Analysis& analysis) {
   }
 }
 
+void answer_absolute_stability(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
+                               Analysis& analysis);
+
+/// The same of a damper in a loop of its own.
+void answer_beside_damper_loop(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
+                               Analysis& analysis) {
+  if (device.parameters().wall.damping == 0.0) {  // the spring runs alone
+    answer_absolute_stability(with_one_rate(device), options, stages, analysis);
+  } else {
+    const CriticalStiffness& nobody = analysis.alone ? analysis.alone->critical : analysis.critical;
+    analysis.any_user = two_rate_absolute_stability(device, nobody);
+    if (!analysis.any_user) return analysis.remarks.push_back(left_out_beside_damper_loop("any_user"));
+    analysis.remarks.push_back(note({.code = FindingCode::any_user_limit_scanned}));
+    analysis.trust.inherit(analysis.any_user->trust);
+    HolderLimit& limit = analysis.limits.any_user.emplace();
+    limit.critical_stiffness = analysis.any_user->stiffness;
+    if (analysis.any_user->frequency > 0.0) limit.frequency = analysis.any_user->frequency;
+  }
+  if (!analysis.limits.any_user || !options.critical_damping) return;
+  const AbsoluteStabilityDamping of_damper = absolute_stability_damping(device);
+  HolderLimit& limit = *analysis.limits.any_user;
+  limit.critical_damping.reset();
+  limit.damping_frequency.reset();
+  if (of_damper.trust.sound()) limit.critical_damping = of_damper.damping;
+  if (of_damper.damping > 0.0 && std::isfinite(of_damper.damping)) limit.damping_frequency = of_damper.frequency;
+}
+
 /// The limit over all passive users, of the stiffness and of the damper alone.
 void answer_absolute_stability(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                                Analysis& analysis) {
@@ -182,20 +210,7 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
   }
   // That limit rests on the critical stiffness of the device that nobody holds.
   if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
-  if (has_damper_loop(device.loop())) {
-    if (device.parameters().wall.damping > 0.0) {
-      analysis.remarks.push_back(left_out_beside_damper_loop("any_user"));
-      return;
-    }
-    // The spring runs alone, and the damper alone has a loop of its own.
-    answer_absolute_stability(with_one_rate(device), options, stages, analysis);
-    if (!analysis.limits.any_user || !options.critical_damping) return;
-    const AbsoluteStabilityDamping of_damper = absolute_stability_damping(device);
-    analysis.limits.any_user->critical_damping.reset();
-    if (of_damper.trust.sound()) analysis.limits.any_user->critical_damping = of_damper.damping;
-    analysis.limits.any_user->damping_frequency = of_damper.frequency;
-    return;
-  }
+  if (has_damper_loop(device.loop())) return answer_beside_damper_loop(device, options, stages, analysis);
   const VirtualDamper damper = virtual_damper(device);
   AbsoluteStabilitySearch search(device, stages.stage());
   analysis.any_user = search.limit(damper, stages.stage());

@@ -69,6 +69,10 @@ std::span<const Phrase> stability_phrases() {
       Phrase{too_many_bodies_for_any_user, "too_many_bodies_for_any_user", note,
              "the limit over all passive users is not computed for {bodies:n} bodies; at most {most:n}",
              "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"},
+      Phrase{
+          any_user_limit_scanned, "any_user_limit_scanned", note,
+          "the limit for any passive user is the least at the frequencies looked at, and not shown to be the least in "
+          "between, as it is where spring and damper run in one loop"},
       Phrase{any_user_limit_may_miss_frequency, "any_user_limit_may_miss_frequency", doubt,
              "the limit for any passive user may be missed at a frequency at which the damped bodies hardly move: give "
              "the other bodies some damping, or join bodies that move as one"},
