@@ -13,8 +13,9 @@
 namespace zwidth::internal {
 namespace {
 
-// What the sum of terms may be off on the circle, relative.
-constexpr double error_of_terms = 1e-12;
+// What the sum of terms may be off on the circle, relative: within the band, and at its end, where the terms cancel most.
+constexpr double error_within = 1e-12;
+constexpr double error_at_end = 1e-9;
 
 template <typename Real>
 struct ValueAndSlope {
@@ -111,25 +112,39 @@ Complex<Extended> value_of(const ModalTerm& term, const Complex<Extended>& x) {
   return numerator / denominator;
 }
 
-// Of the sum of the terms beside the loop, the largest relative error at angles from 2^-20 pi to pi.
-double largest_error(const FeedbackForm& form, const FeedbackPencil<Extended>& pencil) {
-  double largest = 0.0;
-  for (int octave = 0; octave <= 20; ++octave) {
-    const double angle = std::ldexp(std::numbers::pi, -octave);
-    const double half = std::sin(0.5 * angle);
-    const Complex<Extended> x(Extended(-2.0 * half * half), Extended(std::sin(angle)));
-    Complex<Extended> whole = pencil.gain(x);
-    Complex<Extended> error = Complex<Extended>() - whole;
-    for (const ModalTerm& term : form.form.terms) error += value_of(term, x);
-    whole.re += form.at_once;
-    largest = std::max(largest, magnitude(error) / magnitude(whole));
+struct ErrorOnCircle {
+  double error = 0.0;
+  double size = 0.0;  // of the loop
+};
+
+// Of the sum of the terms beside the loop, at z = e^{j angle}.
+ErrorOnCircle error_at(const FeedbackForm& form, const FeedbackPencil<Extended>& pencil, double angle) {
+  const double half = std::sin(0.5 * angle);
+  const Complex<Extended> x(Extended(-2.0 * half * half), Extended(std::sin(angle)));
+  Complex<Extended> whole = pencil.gain(x);
+  Complex<Extended> error = Complex<Extended>() - whole;
+  for (const ModalTerm& term : form.form.terms) error += value_of(term, x);
+  whole.re += form.at_once;
+  return {magnitude(error), magnitude(whole)};
+}
+
+bool add_up(const FeedbackForm& form, const FeedbackPencil<Extended>& pencil, double band) {
+  const auto [error_at_band, size_at_band] = error_at(form, pencil, band);
+  if (!(error_at_band <= error_at_end * size_at_band)) return false;
+  for (double angle = 2.0 * band; angle < std::numbers::pi; angle *= 2.0) {
+    if (!(error_at(form, pencil, angle).error <= error_at_end * size_at_band)) return false;
   }
-  return largest;
+  constexpr int octaves = 20;
+  for (int octave = 1; octave <= octaves; ++octave) {
+    const auto [error, size] = error_at(form, pencil, std::ldexp(band, -octave));
+    if (!(error <= error_within * size)) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
-FeedbackForm feedback_form(const Feedback& loop) {
+FeedbackForm feedback_form(const Feedback& loop, double band) {
   FeedbackForm result;
   if (loop.numerator.size() == loop.open.size()) result.at_once = loop.numerator.back();
   FeedbackPencil<Extended> extended;
@@ -151,7 +166,7 @@ FeedbackForm feedback_form(const Feedback& loop) {
   const std::vector<double> rough = rough_denominator(pencil);
   if (rough.size() > 1) result.poles = find_poles(pencil, extended, newton_polygon_start(rough));
   result.form = partial_fractions::expand(extended, result.poles, PoleLabels{});
-  if (!(largest_error(result, extended) <= error_of_terms)) {
+  if (!add_up(result, extended, band)) {
     throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
   }
   return result;

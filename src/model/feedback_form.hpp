@@ -28,7 +28,8 @@ struct FeedbackForm {
   std::vector<Complex<Extended>> poles;  // all, in x
 };
 
-// Throws Error (did_not_converge) where the terms do not add up to the loop on |z| = 1.
-FeedbackForm feedback_form(const Feedback& loop);
+// `band`: the angle up to which the loop counts, and beyond which only beside what it is there: pi over the number of its
+// samples of which one is seen. Throws Error (did_not_converge) where the terms do not add up to the loop on |z| = 1.
+FeedbackForm feedback_form(const Feedback& loop, double band);
 
 }  // namespace zwidth::internal

@@ -103,7 +103,7 @@ SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const I
   InnerLoop fast = inner;
   fast.sampling.period = outer.period / static_cast<double>(steps);  // without its rounding
   const auto [loop, samples] = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
-  const FeedbackForm closed = feedback_form(loop);
+  const FeedbackForm closed = feedback_form(loop, std::numbers::pi / static_cast<double>(steps));
 
   const std::size_t late = samples % steps;
   SampledPlant plant;

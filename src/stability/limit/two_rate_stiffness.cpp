@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
@@ -42,10 +43,11 @@ StiffnessRange followed_range(const TwoRateDevice& loop) {
 
 CriticalStiffness with_damper_outside(const TwoRateDevice& loop, const ScheduledLoop& as_it_runs) {
   CriticalStiffness result;
-  if (as_it_runs.states() > ScheduledLoop::most_states) {
-    result.trust.refuse({.code = FindingCode::too_many_states_for_damper,
-                         .evidence = {{"states", static_cast<double>(as_it_runs.states())},
-                                      {"most", static_cast<double>(ScheduledLoop::most_states)}}});
+  constexpr double most_states = 80.0;  // beyond, following their poles takes many seconds
+  const auto states = static_cast<double>(as_it_runs.states());
+  if (states > most_states) {
+    result.trust.refuse(
+        {.code = FindingCode::too_many_states_for_damper, .evidence = {{"states", states}, {"most", most_states}}});
     return result;
   }
   const StiffnessRange range = followed_range(loop);
@@ -65,6 +67,18 @@ CriticalStiffness found_stiffness(const TwoRateDevice& loop, const ScheduledLoop
   if (!loop.is_damper_inside()) return with_damper_outside(loop, as_it_runs);
   const FilteredPlant plant = loop.seen_by_spring();
   return critical_stiffness_of(plant, stiffness_crossings(plant, VirtualDamper{}), loop.spring_alone());
+}
+
+// Where the loop is never stable the softest walls tell: crossovers lie anywhere above.
+std::vector<Claim> claims_beside(const CriticalStiffness& critical, const TwoRateDevice& loop) {
+  constexpr double soft = 1e-3;  // gain of the loop at mid band
+  const double gain = gain_at_mid_band(filtered_plant(loop.spring_alone(), {}));
+  std::vector<Claim> claims = claims_of(critical, gain);
+  if (critical.status == StiffnessStatus::none_stable) {
+    claims.resize(1);
+    claims.front().stiffness = std::min(claims.front().stiffness, soft / gain);
+  }
+  return claims;
 }
 
 // Nothing where the other route cannot tell.
@@ -137,8 +151,7 @@ CriticalStiffness two_rate_stiffness(const Device& device) {
   }
   critical.trust.inherit(trust_of(device));
   if (!critical.trust.refused()) {
-    const double gain = gain_at_mid_band(filtered_plant(loop->spring_alone(), {}));
-    for (const Claim& claim : claims_of(critical, gain)) {
+    for (const Claim& claim : claims_beside(critical, *loop)) {
       distrust(agreement(*loop, *as_it_runs, claim.stiffness, claim.stable), claim.stiffness, critical.trust);
       if (critical.trust.refused()) break;
     }
