@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/one_rate.hpp"
+#include "stability/users/disc_pieces.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/termination_discs.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -35,7 +36,11 @@ class TwoRateDiscs {
         period_(free.loop().sampling_period),
         fast_period_(damper_timing(free.loop()).sampling_period),
         steps_(static_cast<int>(std::lround(rate_ratio(period_, fast_period_)))),
-        whole_(whole) {}
+        whole_(whole) {
+    if (!discs_.is_undamped()) pieces_ = DiscPieces(discs_, with_loop_of_damper(free));
+  }
+  TwoRateDiscs(const TwoRateDiscs&) = delete;
+  TwoRateDiscs& operator=(const TwoRateDiscs&) = delete;
 
   [[nodiscard]] bool is_undamped() const { return discs_.is_undamped(); }
   [[nodiscard]] double nyquist() const { return pi / period_; }
@@ -43,20 +48,15 @@ class TwoRateDiscs {
   // The least K that the disc of the plant that the spring sees does not allow; 0 where the damper alone is not stable with
   // every user. 0 < frequency <= nyquist().
   [[nodiscard]] double limit_at(double frequency) const {
-    const Part own = part(frequency, 0);
-    if (!(own.radius >= 0.0)) return 0.0;
-    std::complex<double> centre;
-    double radius = 0.0;
-    for (int alias = -(steps_ - 1) / 2; alias <= steps_ / 2; ++alias) {
-      if (alias == 0) continue;
-      const Part other = part(frequency, alias);
-      if (!(other.radius >= 0.0)) return 0.0;
-      centre += other.centre;
-      radius += other.radius;
-    }
-    const double power = own.power + 2.0 * (std::conj(own.centre) * centre).real() + std::norm(centre) -
-                         2.0 * own.radius * radius - radius * radius;
-    return least_root(1.0, own.centre.real() + centre.real(), power);
+    return limit_of([&](int alias) {
+      return part(frequency, alias, [&](double at) { return discs_.scaled_at({0.0, at}); });
+    });
+  }
+  // The same by interpolated sums over aliases beyond the damper's rate.
+  [[nodiscard]] double quick_limit_at(double frequency) const {
+    return limit_of([&](int alias) {
+      return part(frequency, alias, [&](double at) { return pieces_.at({0.0, at}); });
+    });
   }
 
   // Of the held device, as they appear in the spring's band.
@@ -80,15 +80,35 @@ class TwoRateDiscs {
     double power = 0.0;  // |centre|² - radius²
   };
 
-  [[nodiscard]] Part part(double frequency, int alias) const {
+  template <typename PartOf>
+  [[nodiscard]] double limit_of(const PartOf& part_of) const {
+    const Part own = part_of(0);
+    if (!(own.radius >= 0.0)) return 0.0;
+    std::complex<double> centre;
+    double radius = 0.0;
+    for (int alias = -(steps_ - 1) / 2; alias <= steps_ / 2; ++alias) {
+      if (alias == 0) continue;
+      const Part other = part_of(alias);
+      if (!(other.radius >= 0.0)) return 0.0;
+      centre += other.centre;
+      radius += other.radius;
+    }
+    const double power = own.power + 2.0 * (std::conj(own.centre) * centre).real() + std::norm(centre) -
+                         2.0 * own.radius * radius - radius * radius;
+    return least_root(1.0, own.centre.real() + centre.real(), power);
+  }
+
+  // `disc_at`: scaled, at a frequency of the damper's band.
+  template <typename DiscAt>
+  [[nodiscard]] Part part(double frequency, int alias, const DiscAt& disc_at) const {
     double at = frequency + 2.0 * pi * alias / period_;
     const double fast_nyquist = pi / fast_period_;
     if (at > fast_nyquist) at -= 2.0 * fast_nyquist;
     const double positive = std::min(std::abs(at), fast_nyquist);
-    const TerminationDiscs::Disc disc = discs_.at(positive);
+    const TerminationDiscs::Disc disc = disc_at(positive);
     if (!std::isfinite(disc.radius)) return {};
     const std::complex<double> damper = damper_response(damper_, fast_period_, positive);
-    const double divisor = 1.0 + 2.0 * (damper * disc.centre).real() + std::norm(damper) * disc.power;
+    const double divisor = disc.one + 2.0 * (damper * disc.centre).real() + std::norm(damper) * disc.power;
     if (!(divisor > 0.0)) return {};
     // (1 - z^-N)/(1 - z^-1) z^-m / N
     const double angle = positive * fast_period_;
@@ -101,6 +121,7 @@ class TwoRateDiscs {
   }
 
   TerminationDiscs discs_;
+  DiscPieces pieces_;
   VirtualDamper damper_;
   double period_;
   double fast_period_;
@@ -146,7 +167,7 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
   if (discs.is_undamped() || nobody.stiffness == 0.0) return limit;
   const std::vector<double> frequencies = frequencies_to_look_at(discs, free, nobody);
   std::vector<double> limits;
-  for (const double each : frequencies) limits.push_back(discs.limit_at(each));
+  for (const double each : frequencies) limits.push_back(discs.quick_limit_at(each));
   double least = std::numeric_limits<double>::infinity();
   const auto take = [&](double frequency, double stiffness) {
     if (!(stiffness < least)) return;
@@ -160,10 +181,11 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
     if (!(limits[i] > 0.0) || limits[i] > before || limits[i] > after) continue;
     std::uintmax_t most_steps = 100;
     const auto [at, compliance] = boost::math::tools::brent_find_minima(
-        [&](double frequency) { return -1.0 / discs.limit_at(frequency); }, frequencies[i > 0 ? i - 1 : 0],
+        [&](double frequency) { return -1.0 / discs.quick_limit_at(frequency); }, frequencies[i > 0 ? i - 1 : 0],
         frequencies[std::min(i + 1, frequencies.size() - 1)], bits_of_minimum, most_steps);
     take(at, -1.0 / compliance);
   }
+  if (std::isfinite(least) && least > 0.0) least = discs.limit_at(limit.frequency);
   if (limits.front() <= least * (1.0 + same_as_at_zero)) limit.frequency = 0.0;
   limit.needs_no_user = nobody.stiffness <= least;
   limit.stiffness = std::min(least, nobody.stiffness);
