@@ -4,9 +4,9 @@
 function(zwidth_unity target)
   # Long by themselves and with little in common: alone, they spread over the cores.
   set(alone plant_sensitivity identifiability pole_count_in_digits)
-  list(APPEND alone wall_recommendation mat5_matrix)  # some names of theirs are others in wall_search, mat_recording
+  list(APPEND alone wall_recommendation mat5_matrix welch)  # some names of theirs are others in wall_search, mat_recording
   # What the program loads on demand. The kernel includes itself besides, once per instruction set.
-  list(APPEND alone stiffness_kernel mat73_file least_squares shot_fit quiet_solve exact_sampling transfer_function)
+  list(APPEND alone stiffness_kernel mat73_file least_squares quiet_solve exact_sampling transfer_function)
   set(exact exact_fraction exact_modal_form exact_partial_fractions exact_poles)  # together, for the same reason
   # tests that name their seed, cases or period as their neighbours do
   list(APPEND alone absolute_stability_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
@@ -18,6 +18,10 @@ function(zwidth_unity target)
     cmake_path(GET source STEM name)
     if(name IN_LIST exact)
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP exact)
+    endif()
+    if(NOT name IN_LIST alone AND source MATCHES "/src/identification/([a-z_]+)/")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP identification_${CMAKE_MATCH_1})
+      continue()
     endif()
     foreach(letters a-d e-l m-r s-z)
       if(NOT name IN_LIST alone AND NOT name IN_LIST exact AND source MATCHES "/(src|tests)/([a-z]+)/([a-z_]+/)*[${letters}][^/]*$")

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -5,6 +7,7 @@
 #include "identification/device_file_trust.hpp"
 #include "identification/likelihood_fit.hpp"
 #include "identification/line_fit.hpp"
+#include "identification/model/segment_player.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/response/response_choice.hpp"
 #include "identification/response_of_device.hpp"
@@ -22,13 +25,29 @@ using namespace internal;
 namespace {
 
 constexpr std::size_t least_samples_of_motion = 300;
+constexpr auto most_bodies_of_motion = static_cast<std::size_t>(SegmentPlayer::most_bodies);
 
-IdentifyOptions::Method method_of(std::span<const Recording> recordings, const IdentifyOptions& options) {
+IdentifyOptions::Method method_of(std::span<const Recording> recordings, const Device& structure,
+                                  const IdentifyOptions& options) {
   const bool is_long = std::ranges::all_of(recordings, [](const Recording& each) {
     return each.channels.size() == 2 && each.channels[1].samples.size() >= least_samples_of_motion;
   });
-  const bool has_motion = options.response.output == OutputQuantity::position && is_long;
+  const bool has_motion = options.response.output == OutputQuantity::position && is_long &&
+                          structure.bodies().size() <= most_bodies_of_motion;
   return options.method.value_or(has_motion ? IdentifyOptions::Method::motion : IdentifyOptions::Method::lines);
+}
+
+/// Where the motion was asked for.
+void check_motion(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options) {
+  if (options.method != IdentifyOptions::Method::motion) return;
+  if (structure.bodies().size() > most_bodies_of_motion)
+    refuse_member("method", fmt::format("fits the motion of {} bodies", structure.bodies().size()),
+                  fmt::format("must fit the lines of more than {}", most_bodies_of_motion));
+  for (const Recording& each : recordings) {
+    if (each.channels.size() == 2 && each.channels[1].samples.size() < least_samples_of_motion)
+      refuse_member("method", fmt::format("fits the motion of {} samples", each.channels[1].samples.size()),
+                    fmt::format("must fit the lines of fewer than {}", least_samples_of_motion));
+  }
 }
 
 bool frees_lateness(const IdentifyOptions& options) {
@@ -50,6 +69,18 @@ FittedLikelihood before_fit(const MeasuredResponse& measured, const Device& stru
   return fit;
 }
 
+/// The remarks, less those of the limit that the response alone shows, which a fit does not ask.
+std::vector<Remark> remarks_of_fit(const MeasuredResponse& measured) {
+  std::vector<Remark> remarks = measured.remarks;
+  std::erase_if(remarks, [&](const Remark& remark) {
+    const auto is_it = [&](const Remark& other) { return other.finding && other.finding == remark.finding; };
+    const bool is_of_response = remark.finding && (remark.finding->code == FindingCode::friction_unknown ||
+                                                   remark.finding->code == FindingCode::table_hides_friction);
+    return is_of_response || (measured.stiffness && std::ranges::any_of(measured.stiffness->remarks, is_it));
+  });
+  return remarks;
+}
+
 /// The range of a found limit; nothing where the data say next to nothing of it.
 std::optional<Interval> told_limit(const Interval& interval) {
   constexpr double widest = 1000.0;
@@ -57,12 +88,22 @@ std::optional<Interval> told_limit(const Interval& interval) {
   return is_told ? std::optional(interval) : std::nullopt;
 }
 
+/// Whether fewer numbers of a response stand out of their noise than are fitted.
+bool is_drowned(const FrequencyResponse& response, const Device& structure, const IdentifyOptions& options) {
+  constexpr double clear = 3.0;
+  const auto standing_out = std::ranges::count_if(response.points, [](const ResponsePoint& point) {
+    return std::norm(point.value) > clear * clear * point.variance;
+  });
+  return 2 * static_cast<std::size_t>(standing_out) <
+         free_parameters(structure, options.fit.free, options.fit.locked).size();
+}
+
 /// The device, its analysis and the verdict on it, of what was found and is known of it.
 Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
                       const std::optional<FoundDevice>& found, FittedLikelihood fit) {
   Identification result{
       .source = measured.source, .response = measured.response, .fit = {.device = structure, .misfit = {}}};
-  result.remarks = measured.remarks;
+  result.remarks = remarks_of_fit(measured);
   if (found) {
     result.fit = {.device = device_of(*found),
                   .estimates = estimates_of(*found),
@@ -96,43 +137,9 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
   keep_what_is_assumed(structure, result.fit.estimates,
                        is_known(options) ? std::vector<std::string>{} : unseen_placeholders(options.fit.locked),
                        result.fit.device, result.trust);
-  result.analysis.trust.inherit(result.trust);
   result.fit.device = with_trust(result.fit.device, result.trust);
-  return result;
-}
-
-Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
-                                    const Device& structure, const IdentifyOptions& options, const Progress& progress) {
-  double done = 0.0;
-  const auto tell = [&] {
-    constexpr double of_rest = 0.02;  // how many steps there will be is not known
-    done += of_rest * (1.0 - done);
-    if (progress) progress(done);
-  };
-  const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
-  const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
-                                        {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
-                                         options.segment,
-                                         options.limits,
-                                         tell});
-  FittedLikelihood fit = before_fit(measured, structure);
-  std::optional<FoundDevice> found;
-  std::vector<FittedMotion> motions;
-  if (fitted) {
-    found = fitted->found;
-    motions = fitted->motions;
-    fit.left = fitted->left;
-    fit.delay = fitted->delay;
-    for (const Recording& each : recordings) {
-      fit.records.push_back({each.source, each.sampling_period});
-      const Device device = device_of(*found);
-      std::ranges::move(doubts_of_recording(each, recordings, options.response.output, device),
-                        std::back_inserter(fit.doubts_of_data));
-    }
-  }
-  Identification result = judged(measured, structure, options, found, std::move(fit));
-  result.method = IdentifyOptions::Method::motion;
-  result.motions = std::move(motions);
+  if (result.trust.refused()) result.analysis = analyze(result.fit.device, {.any_user = false});
+  result.analysis.trust.inherit(result.trust);
   return result;
 }
 
@@ -158,8 +165,12 @@ FoundDevice found_device(const FittedByLines& fitted, const Device& structure, c
 }
 
 Identification identified_by_lines(const MeasuredResponse& measured, const Device& structure,
-                                   const IdentifyOptions& options) {
+                                   const IdentifyOptions& options, const std::vector<Finding>& doubts = {}) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
+  FittedLikelihood fit = before_fit(measured, structure);
+  fit.doubts_of_data.insert(fit.doubts_of_data.end(), doubts.begin(), doubts.end());
+  if (!fit.contradictions.empty() || is_drowned(response, structure, options))
+    return judged(measured, structure, options, std::nullopt, std::move(fit));
   const auto fitted = fit_lines({.structure = structure,
                                  .response = &response,
                                  .limits = options.limits,
@@ -167,7 +178,6 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
                                  .locked = options.fit.locked,
                                  .known = is_known(options),
                                  .frees_lateness = frees_lateness(options)});
-  FittedLikelihood fit = before_fit(measured, structure);
   std::optional<FoundDevice> found;
   if (fitted) {
     found = found_device(*fitted, structure, options);
@@ -176,6 +186,39 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
   }
   Identification result = judged(measured, structure, options, found, std::move(fit));
   result.method = IdentifyOptions::Method::lines;
+  return result;
+}
+
+Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
+                                    const Device& structure, const IdentifyOptions& options, const Progress& progress) {
+  double done = 0.0;
+  const auto tell = [&] {
+    constexpr double of_rest = 0.02;  // how many steps there will be is not known
+    done += of_rest * (1.0 - done);
+    if (progress) progress(done);
+  };
+  FittedLikelihood fit = before_fit(measured, structure);
+  if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
+    return judged(measured, structure, options, std::nullopt, std::move(fit));
+  const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
+  const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
+                                        {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
+                                         options.segment,
+                                         options.limits,
+                                         tell});
+  if (!fitted) {  // the motion has no fit, or its device no limit: the lines are left
+    return identified_by_lines(measured, structure, options, {{.code = FindingCode::search_stopped}});
+  }
+  fit.left = fitted->left;
+  fit.delay = fitted->delay;
+  for (const Recording& each : recordings) {
+    fit.records.push_back({each.source, each.sampling_period});
+    std::ranges::move(doubts_of_recording(each, recordings, options.response.output, Device(fitted->found.device)),
+                      std::back_inserter(fit.doubts_of_data));
+  }
+  Identification result = judged(measured, structure, options, fitted->found, std::move(fit));
+  result.method = IdentifyOptions::Method::motion;
+  result.motions = fitted->motions;
   return result;
 }
 
@@ -190,8 +233,9 @@ Identification identify(std::span<const Recording> recordings, const Device& str
                         const Progress& progress) {
   require_one_rate(structure);
   require_valid(find_problem(options));
+  check_motion(recordings, structure, options);
   const MeasuredResponse measured = response_with_enough_lines(recordings, structure, options, {});
-  if (method_of(recordings, options) == IdentifyOptions::Method::lines)
+  if (method_of(recordings, structure, options) == IdentifyOptions::Method::lines)
     return identified_by_lines(measured, structure, options);
   return identified_by_motion(recordings, measured, structure, options, progress);
 }
@@ -214,7 +258,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   std::optional<FoundDevice> found;
   if (fitted) found = found_device(*fitted, structure, options);
   MeasuredResponse none;
-  none.source = structure.name();
+  none.source = "measured limits";
   FittedLikelihood fit{.motion = structure.parameters().motion};
   if (fitted) fit.left = omnibus_of_lines(*fitted);
   fit.records = {{none.source, 0.0}};

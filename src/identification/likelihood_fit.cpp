@@ -94,17 +94,20 @@ std::vector<FittedMotion> motions_of(const FoundMotion& found, std::span<const R
     motion.noise = found.evidence->noise()[record].deviation;
     motion.recorded = recording.channels[1].samples;
     motion.residuals.assign(motion.recorded.size(), 0.0);
+    std::size_t fitted = 0;
     for (std::size_t i = 0; left && i < left->size(); ++i) {
       const Segment& segment = found.evidence->segments()[i];
       if (segment.record != record) continue;
+      fitted += segment.count;
       for (std::size_t k = 0; k < segment.count; ++k)
         motion.residuals[segment.first + k] = -(*left)[i](static_cast<Eigen::Index>(k));
     }
     const Eigen::Map<const Eigen::VectorXd> recorded(motion.recorded.data(),
                                                      static_cast<Eigen::Index>(motion.recorded.size()));
     const Eigen::Map<const Eigen::VectorXd> rest(motion.residuals.data(), recorded.size());
-    const double size = (recorded.array() - recorded.mean()).matrix().norm();
-    motion.unexplained = size > 0.0 ? rest.norm() / size : 0.0;
+    const double deviation = std::sqrt((recorded.array() - recorded.mean()).square().mean());
+    if (deviation > 0.0 && fitted > 0)
+      motion.unexplained = rest.norm() / std::sqrt(static_cast<double>(fitted)) / deviation;
     for (Eigen::Index i = 0; i < numbers; ++i) {
       const Number& number = device.best.numbers[static_cast<std::size_t>(i)];
       if (number.key != "constant_force." + std::to_string(record)) continue;

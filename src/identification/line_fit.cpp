@@ -1,6 +1,7 @@
 #include "identification/line_fit.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <memory>
@@ -102,9 +103,13 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
     for (const MeasuredLimit& each : walls) left.freedom += each.frequency_hz ? 2.0 : 1.0;
   }
   found.covariance = shared * best->picture.hessian.fullPivLu().inverse().topLeftCorner(count, count);
-  found.lower = std::exp(low.value);
-  found.value = std::exp(*limit(best->z));
-  found.upper = std::exp(high.value);
+  // Neighbouring lines that are off together are fewer than they count.
+  const double together = left.freedom > 0.0 ? std::sqrt(std::max(1.0, left.sum / left.freedom)) : 1.0;
+  const double middle = *limit(best->z);
+  found.covariance *= together * together;
+  found.lower = std::exp(middle - together * (middle - low.value));
+  found.value = std::exp(middle);
+  found.upper = std::exp(middle + together * (high.value - middle));
   found.settled = best->settled && low.settled && high.settled;
   found.chi_squared_of_bands = p_of(left);
   return found;

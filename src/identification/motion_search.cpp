@@ -1,5 +1,6 @@
 #include "identification/motion_search.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,10 +9,13 @@ namespace zwidth::internal {
 namespace {
 
 constexpr Eigen::Index noise_order = 12;
-constexpr double short_segment = 0.5;  // s
-constexpr std::size_t left_out = 20;   // samples at a record's beginning, whose forces came before it
-constexpr int coarse_parts = 1;        // of a sampling period, where terms act
-constexpr int fine_parts = 2;          // finer ones move the limit of records with 10 % of friction by 0.15 % at most
+constexpr double short_segment = 0.5;            // s
+constexpr std::size_t left_out = 20;             // samples at a record's beginning, whose forces came before it
+constexpr std::size_t most_samples = 100000;     // of long records evenly spread segments are fitted
+constexpr std::size_t most_samples_near = 8000;  // tell the numbers roughly
+constexpr int coarse_parts = 1;                  // of a sampling period, where terms act
+constexpr int fine_parts = 2;
+constexpr int most_parts = 16;  // where a body rubs: until finer ones move no number of the device
 
 double rms_of(std::span<const double> samples) {
   double squares = 0.0;
@@ -32,18 +36,16 @@ std::vector<Segment> segments_of(const std::vector<ForceMotionRecord>& records, 
   return segments;
 }
 
-/// Short ones: those that long ones begin with, and others evenly, so many that they tell the numbers roughly.
-std::vector<Segment> sparse_segments(const std::vector<ForceMotionRecord>& records,
-                                     const std::vector<Segment>& long_ones) {
-  constexpr std::size_t most_samples = 8000;
-  const std::vector<Segment> all = segments_of(records, short_segment);
+/// So many of them, evenly, that they hold no more than that; and those that others begin with.
+std::vector<Segment> thinned(const std::vector<Segment>& all, std::size_t most_samples,
+                             const std::vector<Segment>& others) {
   std::size_t samples = 0;
   for (const Segment& each : all) samples += each.count;
-  const std::size_t every = std::max<std::size_t>(1, samples / most_samples);
+  const std::size_t every = (samples + most_samples - 1) / most_samples;
   std::vector<Segment> kept;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool begins = std::ranges::any_of(
-        long_ones, [&](const Segment& other) { return other.record == all[i].record && other.first == all[i].first; });
+        others, [&](const Segment& other) { return other.record == all[i].record && other.first == all[i].first; });
     if (begins || i % every == 0) kept.push_back(all[i]);
   }
   return kept;
@@ -154,6 +156,33 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
   return x;
 }
 
+bool rubs(const MotionModel& model, const Eigen::VectorXd& z) {
+  constexpr double least = 1e-3;  // of the force: less moves no limit
+  for (std::size_t i = 0; i < model.numbers().size(); ++i) {
+    if (model.numbers()[i].key.starts_with("friction.") && z(static_cast<Eigen::Index>(i)) > least) return true;
+  }
+  return false;
+}
+
+/// Whether numbers of the device differ by more than a quarter of a deviation.
+bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to) {
+  constexpr double notable = 0.25;
+  const Eigen::MatrixXd hessian = from.picture.hessian;
+  const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
+  const Eigen::MatrixXd covariance = scaled.ldlt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()));
+  for (Eigen::Index i = 0; i < model.family().of_device(); ++i) {
+    if (std::abs(to.z(i) - from.z(i)) > notable * unit(i) * std::sqrt(std::max(0.0, covariance(i, i)))) return true;
+  }
+  return false;
+}
+
+/// The records whole, at so many parts of a sampling period.
+struct Whole {
+  std::unique_ptr<MotionModel> model;
+  std::unique_ptr<Search> search;
+};
+
 }  // namespace
 
 std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
@@ -164,13 +193,18 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked, parts.further_body);
+  const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples, {});
+  const auto whole_at = [&](int parts_of_period) {
+    Whole made;
+    made.model = std::make_unique<MotionModel>(family, parts.terms, start.records, parts_of_period);
+    made.search = std::make_unique<Search>(*made.model, long_ones, start, options);
+    return made;
+  };
   const MotionModel coarse_model(family, parts.terms, start.records, coarse_parts);
-  FoundMotion found;
-  found.model = std::make_unique<MotionModel>(family, parts.terms, start.records, fine_parts);
-  const MotionModel& model = *found.model;
-  const std::vector<Segment> long_ones = segments_of(start.records, options.segment);
-  Search near(coarse_model, sparse_segments(start.records, long_ones), start, options);
-  Search whole(model, long_ones, start, options);
+  const std::vector<Segment> short_ones =
+      thinned(segments_of(start.records, short_segment), most_samples_near, long_ones);
+  Search near(coarse_model, short_ones, start, options);
+  Whole whole = whole_at(fine_parts);
 
   const Eigen::VectorXd linear = family.coordinates_of(start.device);
   const std::string& rubbing = start.device.bodies[start.device.loop.actuated].name;
@@ -178,20 +212,28 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   double least = 0.0;
   for (const double share : frictions) {
     near.set_noise(first_noise(start));
-    const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, model, rubbing, share) : linear;
+    const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, coarse_model, rubbing, share) : linear;
     const auto end = near.from(near.likelihood().start(x), 2, coarse);
     if (!end || !near.take_noise(end->z) || (begin && near.innovations() >= least)) continue;
     least = near.innovations();
-    whole.set_noise(near.evidence().noise());
-    begin = carried_over(near, end->z, whole, model);
+    whole.search->set_noise(near.evidence().noise());
+    begin = carried_over(near, end->z, *whole.search, coarse_model);
   }
   if (!begin) return std::nullopt;
-  auto best = whole.from(*std::move(begin), most_rounds, fine);
+  auto best = whole.search->from(*std::move(begin), most_rounds, fine);
   if (!best) return std::nullopt;
-  found.best = *std::move(best);
-  found.likelihood = whole.take_likelihood();
-  found.evidence = whole.take_evidence();
-  return found;
+  for (int finer = 2 * fine_parts; finer <= most_parts && rubs(*whole.model, best->z); finer *= 2) {
+    Whole next = whole_at(finer);
+    next.search->set_noise(whole.search->evidence().noise());
+    auto again = next.search->from(best->z, 2, fine);
+    if (!again) break;
+    const bool stands_still = !has_moved(*next.model, *best, *again);
+    best = std::move(again);
+    whole = std::move(next);
+    if (stands_still) break;
+  }
+  return FoundMotion{std::move(whole.model), whole.search->take_evidence(), whole.search->take_likelihood(),
+                     *std::move(best)};
 }
 
 }  // namespace zwidth::internal

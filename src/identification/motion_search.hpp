@@ -32,7 +32,7 @@ struct MotionSearchOptions {
 /// From several frictions, segments of half a second with states of their own find what is near, by their own noise; from the
 /// most likely of these the records whole are fitted, by the noise of what is left in turn.
 ///
-/// Nothing where no start can be played.
+/// Of records of more than 100 000 samples evenly spread segments are fitted. Nothing where no start can be played.
 [[nodiscard]] std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
                                                       const MotionSearchOptions& options);
 

@@ -41,6 +41,7 @@ MotionStart motion_start(std::span<const Recording> recordings, const FrequencyR
   constexpr double typical_delay = 0.5;  // sampling periods
   if (free.lateness && start.device.loop.delay == 0.0) start.device.loop.delay = typical_delay * period;
   ParameterFitOptions linear{.free = keys, .locked = free.locked};
+  if (response.points.size() <= keys.size() + 1) std::erase(linear.free, loop_delay);  // few lines tell of none
   if (free.is_start) linear.start = ParameterFitOptions::Start::from_structure;
   start.device = fit_parameters(Device(start.device), response, linear).device.parameters();
   start.device.uncertainty.reset();

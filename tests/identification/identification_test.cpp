@@ -86,7 +86,7 @@ Recording of_rotor(double highest_hz, std::uint64_t seed = 1) {
 DeviceParameters rubbing_motor() {
   DeviceParameters device;
   device.name = "rubbing";
-  device.bodies = {{"motor", 0.4, 1.3, 0.0, 0.6}};
+  device.bodies = {{"motor", 0.4, 1.3, 0.0, 0.15}};
   device.loop = {0, 0, 0, 1e-3, 0.25e-3};
   return device;
 }
@@ -198,7 +198,7 @@ TEST(Identification, SeparatesFrictionFromDamping) {
   EXPECT_NEAR(estimate_of(found, "body.body.damping").value, 1.3, 0.1);
   const auto friction = std::ranges::find(found.rivals, "coulomb_friction", &RivalEstimate::code);
   ASSERT_NE(friction, found.rivals.end());
-  EXPECT_NEAR(friction->value, 0.6, 0.01);
+  EXPECT_NEAR(friction->value, 0.15, 0.01);
   EXPECT_GT(friction->log_likelihood_gain, 10.0);
   expect_holds(found, true_stiffness(truth));
   // A linear device takes it for damping.

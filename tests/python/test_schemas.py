@@ -30,7 +30,7 @@ OTHERS = [
     ["identify", MOTION, *COLUMNS, "--structure", "rigid"],
     ["identify", MOTION, *COLUMNS, "--method", "inverse-dynamics"],
     ["identify", MOTION, *COLUMNS, "--method", "frequency-response", "--structure", "rigid"],
-    ["identify", "--structure", LHIFAM, "--free", "body.handle.damping", "--limit", "K=8000, B=0, hz=6"],
+    ["identify", "--structure", LHIFAM, "--free", "body.handle.damping", "--limit", "K=8000,B=0,hz=6"],
     ["relay", LHIFAM, "--recording", CHIRP, *COLUMNS],
     ["diagnose", LHIFAM, "--recording", CHIRP, "--position", "position"],
     ["simulate", LHIFAM, "--user-force", CHIRP, "--user-force-column", "force", "--duration", "0.5", "--wall-position", "0"],

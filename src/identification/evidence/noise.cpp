@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/model/row_sums.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -13,46 +15,68 @@ class PastSums {
   explicit PastSums(Eigen::Index reach) : reach_(reach) {}
 
   void take(const Eigen::Ref<const Eigen::VectorXd>& column) {
-    sums_.resize(reach_ + column.size() + 1);
-    for (Eigen::Index k = 0; k <= reach_; ++k) sums_(k) = static_cast<double>(k) * column(0);
-    for (Eigen::Index k = 0; k < column.size(); ++k) sums_(reach_ + k + 1) = sums_(reach_ + k) + column(k);
+    sums_.assign(1, 0.0);
+    sums_.reserve(static_cast<std::size_t>(reach_ + column.size() + 1));
+    for (Eigen::Index k = 0; k < reach_; ++k) sums_.push_back(sums_.back() + column(0));
+    for (const double each : column) sums_.push_back(sums_.back() + each);
   }
+  /// Of all values before each from `first` on.
+  [[nodiscard]] const double* before(Eigen::Index first) const { return sums_.data() + reach_ + first; }
   /// The mean of the `length` values that end `lag` before each of `rows` values from `first` on.
   [[nodiscard]] auto means(Eigen::Index first, Eigen::Index rows, Eigen::Index lag, Eigen::Index length) const {
+    const Eigen::Map<const Eigen::VectorXd> sums(sums_.data(), static_cast<Eigen::Index>(sums_.size()));
     const Eigen::Index end = reach_ + first - lag + 1;
-    return (sums_.segment(end, rows) - sums_.segment(end - length, rows)) / static_cast<double>(length);
+    return (sums.segment(end, rows) - sums.segment(end - length, rows)) / static_cast<double>(length);
   }
 
  private:
   Eigen::Index reach_;
-  Eigen::VectorXd sums_;
+  std::vector<double> sums_;
 };
+
+/// out[k] += sum_j by[j] newest[k - j lag]
+void add_lagged(double* out, const double* by, Eigen::Index count, const double* newest, Eigen::Index lag,
+                Eigen::Index rows) {
+  const Eigen::Index whole = rows / lanes * lanes;
+  add_rows(out, by, count, newest, -lag, whole);
+  for (Eigen::Index k = whole; k < rows; ++k) {
+    for (Eigen::Index j = 0; j < count; ++j) out[k] += by[j] * newest[k - j * lag];
+  }
+}
 
 /// n 2^m: so long the m-th mean is, and so far back it ends.
 Eigen::Index length_of(Eigen::Index order, Eigen::Index m) { return order << m; }
 
 }  // namespace
 
-Eigen::MatrixXd whitened(const Noise& noise, const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+void whiten(const Noise& noise, Eigen::Ref<Eigen::MatrixXd> columns) {
   const auto order = static_cast<Eigen::Index>(noise.filter.size()) - 1;
   const auto means = static_cast<Eigen::Index>(noise.means.size());
   const Eigen::Index rows = columns.rows() - order;
-  Eigen::MatrixXd white(rows, columns.cols());
+  std::vector<double> filter = noise.filter;
+  for (double& each : filter) each /= noise.deviation;
   PastSums sums(means > 0 ? length_of(order, means) : 0);
+  Eigen::VectorXd before;
   for (Eigen::Index column = 0; column < columns.cols(); ++column) {
-    auto out = white.col(column);
-    out = noise.filter[0] / noise.deviation * columns.col(column).tail(rows);
-    for (Eigen::Index j = 1; j <= order; ++j) {
-      out += noise.filter[static_cast<std::size_t>(j)] / noise.deviation * columns.col(column).segment(order - j, rows);
-    }
+    before = columns.col(column);
+    columns.col(column).setZero();
+    double* out = columns.col(column).data() + order;
+    add_lagged(out, filter.data(), order + 1, before.data() + order, 1, rows);
     if (means == 0) continue;
-    sums.take(columns.col(column));
+    sums.take(before);
     for (Eigen::Index m = 0; m < means; ++m) {
       const Eigen::Index length = length_of(order, m);
-      out += noise.means[static_cast<std::size_t>(m)] / noise.deviation * sums.means(order, rows, length + 1, length);
+      const double by = noise.means[static_cast<std::size_t>(m)] / noise.deviation / static_cast<double>(length);
+      const double ends[] = {by, -by};
+      add_lagged(out, ends, 2, sums.before(order - length), length, rows);
     }
   }
-  return white;
+}
+
+Eigen::MatrixXd whitened(const Noise& noise, const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+  Eigen::MatrixXd white = columns;
+  whiten(noise, white);
+  return white.bottomRows(columns.rows() - static_cast<Eigen::Index>(noise.filter.size()) + 1);
 }
 
 Noise noise_of(const std::vector<const Eigen::VectorXd*>& residuals, double step, Eigen::Index order) {

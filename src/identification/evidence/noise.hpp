@@ -23,6 +23,9 @@ struct Noise {
 /// frequency counts by its noise, drift included. `step`: of the encoder; its rounding, step / sqrt(12), is the least deviation.
 [[nodiscard]] Noise noise_of(const std::vector<const Eigen::VectorXd*>& residuals, double step, Eigen::Index order);
 
+/// Filters columns in place: of as many rows as the filter's order, the first ones, 0 is left.
+void whiten(const Noise& noise, Eigen::Ref<Eigen::MatrixXd> columns);
+
 /// The filtered rows of columns: as many as they have, less the filter's order.
 [[nodiscard]] Eigen::MatrixXd whitened(const Noise& noise, const Eigen::Ref<const Eigen::MatrixXd>& columns);
 

@@ -63,24 +63,28 @@ std::optional<std::vector<Noise>> TimeEvidence::noise_at(const Eigen::VectorXd& 
 }
 
 std::optional<double> TimeEvidence::cost(const Eigen::VectorXd& x, const Eigen::VectorXd& own) const {
-  const auto left = residuals(x, own);
+  auto left = residuals(x, own);
   if (!left) return std::nullopt;
   double squares = 0.0;
-  for (std::size_t i = 0; i < segments_.size(); ++i)
-    squares += whitened(noise_[segments_[i].record], (*left)[i]).squaredNorm();
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    whiten(noise_[segments_[i].record], (*left)[i]);
+    squares += (*left)[i].squaredNorm();
+  }
   return 0.5 * squares;
 }
 
 bool TimeEvidence::add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& own, Eigen::Index first,
                                Picture& sum) const {
-  const auto played = play(x, own, true);
+  auto played = play(x, own, true);  // slopes are large: filtered where they are, their memory is used again
   if (!played) return false;
   const Eigen::Index n = numbers();
   const Eigen::Index s = model_.states();
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Noise& noise = noise_[segments_[i].record];
-    const Eigen::VectorXd left = whitened(noise, (*played)[i].positions - recorded(segments_[i]));
-    const Eigen::MatrixXd slopes = whitened(noise, (*played)[i].slopes);
+    Eigen::VectorXd left = (*played)[i].positions - recorded(segments_[i]);
+    Eigen::MatrixXd& slopes = (*played)[i].slopes;
+    whiten(noise, left);
+    whiten(noise, slopes);
     const Eigen::VectorXd gradient = slopes.transpose() * left;
     Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(n + s, n + s);
     hessian.selfadjointView<Eigen::Lower>().rankUpdate(slopes.transpose());

@@ -75,12 +75,10 @@ LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::
   const auto numbers = static_cast<Eigen::Index>(slopes.size());
   ExponentialWithDerivatives whole = exponential_with_derivatives(square(columns), squares);
   whole.minus_one.diagonal().array() += 1.0;
-  LinearStep step{count, whole.minus_one.topRows(rows), {}, length};
-  for (Eigen::Index j = 0; j < size && numbers > 0; ++j) {
-    Eigen::MatrixXd by_number(rows, numbers);
-    for (Eigen::Index d = 0; d < numbers; ++d)
-      by_number.col(d) = whole.derivatives[static_cast<std::size_t>(d)].col(j).head(rows);
-    step.slopes.push_back(std::move(by_number));
+  LinearStep step{count, whole.minus_one.topRows(rows), Rows::Zero(rows * size, padded(numbers)), length};
+  for (Eigen::Index d = 0; d < numbers; ++d) {
+    const Eigen::MatrixXd changes = whole.derivatives[static_cast<std::size_t>(d)].topRows(rows);
+    step.slopes.col(d) = changes.reshaped();
   }
   return step;
 }

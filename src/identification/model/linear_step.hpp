@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "identification/model/device_family.hpp"
+#include "identification/model/row_sums.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::internal {
@@ -18,9 +19,8 @@ namespace zwidth::internal {
 /// The linear device over a time of constant forces, exactly: x -> [e^{Ah} B C] (x, u, f).
 struct LinearStep {
   int count = 0;  ///< how many follow each other
-  Eigen::MatrixXd columns;
-  /// d columns / dx, rearranged: by column of `columns`, rows as many as x has, a column per number of the device.
-  std::vector<Eigen::MatrixXd> slopes;
+  Rows columns;
+  Rows slopes;  ///< d columns / dx, a row per element, column by column; a column per number of the device, padded
   double length = 0.0;  ///< s, of one
 };
 [[nodiscard]] LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::MatrixXd>& slopes,

@@ -79,30 +79,28 @@ std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorX
     PlayedSegment& out = played[s];
     out.positions.resize(static_cast<Eigen::Index>(segment.count));
     out.slopes.resize(with_slopes ? static_cast<Eigen::Index>(segment.count) : 0, columns);
-    SegmentPlayer::Row older_slopes(0);
-    SegmentPlayer::Row newer_slopes(0);
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(segment.first) - device->delay_samples;
     const auto share_at = [&](std::size_t k) {
       return static_cast<double>(segment.first + k) / static_cast<double>(record.position.size());
     };
-    double older = player.given(record, first - 1, share_at(0), older_slopes);
-    if (player.x.size() > this->states()) player.x(this->states()) = older;  // the lagged force
+    DriveForce older = player.given(record, first - 1, share_at(0));
+    if (player.x.size() > this->states()) player.x(this->states()) = older.force;  // the lagged force
     for (std::size_t k = 0; k < segment.count; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
       out.positions(row) = player.x(0) + (sensed_ == 0 ? 0.0 : player.x(sensed_));
       if (with_slopes) {
-        out.slopes.row(row) = player.slopes.row(0);
-        if (sensed_ != 0) out.slopes.row(row) += player.slopes.row(sensed_);
+        out.slopes.row(row) = player.slopes.row(0).head(columns);
+        if (sensed_ != 0) out.slopes.row(row) += player.slopes.row(sensed_).head(columns);
       }
       const double share = share_at(k);
-      for (int part = 0; part < device->before.count; ++part) player.move(device->before, older, older_slopes, share);
-      const double newer = player.given(record, first + static_cast<std::ptrdiff_t>(k), share, newer_slopes);
+      for (int part = 0; part < device->before.count; ++part) player.move(device->before, older, share);
+      const DriveForce newer = player.given(record, first + static_cast<std::ptrdiff_t>(k), share);
       for (const auto& [number, slope] : device->instants) {
-        if (with_slopes) player.slopes.col(number) += device->input * ((older - newer) * slope);
+        if (with_slopes)
+          player.slopes.col(number).head(player.x.size()) += device->input * ((older.force - newer.force) * slope);
       }
-      for (int part = 0; part < device->after.count; ++part) player.move(device->after, newer, newer_slopes, share);
+      for (int part = 0; part < device->after.count; ++part) player.move(device->after, newer, share);
       older = newer;
-      older_slopes.swap(newer_slopes);
     }
     constexpr double beyond = 1e12;
     const bool stays = std::isfinite(player.x(0)) && out.positions.cwiseAbs().maxCoeff() < beyond * units.position;

@@ -8,7 +8,9 @@ namespace {
 
 using End = PreslidingStep::End;
 
+template <bool with_slopes>
 End sum(const End& a, double by_a, const End& b, double by_b) {
+  if constexpr (!with_slopes) return {by_a * a.value + by_b * b.value};
   return {by_a * a.value + by_b * b.value,
           by_a * a.by_before + by_b * b.by_before,
           by_a * a.by_free + by_b * b.by_free,
@@ -37,11 +39,12 @@ double travel(double reach, double strength, double bend, double rate) {
 }
 
 /// One part: `share` of the step.
+template <bool with_slopes>
 PreslidingStep part(const PreslidingStep& from, const End& change, double limit, double compliance, double length,
                     double duration, double share) {
   const double strength = share * compliance * limit;
   const double rate = share * duration / length;
-  const End reach = sum(from.velocity, 1.0, change, share);
+  const End reach = sum<with_slopes>(from.velocity, 1.0, change, share);
   const double sign = reach.value >= strength * from.bend.value ? 1.0 : -1.0;
   const double bend = sign * from.bend.value;
   const double a = travel(sign * reach.value, strength, bend, rate);
@@ -51,15 +54,15 @@ PreslidingStep part(const PreslidingStep& from, const End& change, double limit,
   const double by_velocity = (1.0 - bend) * left * rate;
   const double by_length = -sign * (1.0 - bend) * left * a / length;
   const double weight = 1.0 / (1.0 + strength * by_velocity);
-  End pushed = sum(reach, 1.0, from.bend, -strength * left);
+  End pushed = sum<with_slopes>(reach, 1.0, from.bend, -strength * left);
   pushed.by_length -= strength * by_length;
   to.bend.value = sign * (1.0 - (1.0 - bend) * left);
   pushed.by_limit -= to.bend.value * share * compliance;
   pushed.by_compliance -= to.bend.value * share * limit;
-  to.velocity = sum(pushed, weight, {}, 0.0);
+  to.velocity = sum<with_slopes>(pushed, weight, {}, 0.0);
   to.velocity.value = sign * a / rate;
   const double value = to.bend.value;
-  to.bend = sum(from.bend, left, to.velocity, by_velocity);
+  to.bend = sum<with_slopes>(from.bend, left, to.velocity, by_velocity);
   to.bend.value = value;
   to.bend.by_length += by_length;
   return to;
@@ -68,6 +71,7 @@ PreslidingStep part(const PreslidingStep& from, const End& change, double limit,
 /// The whole step of a body that does not turn: its way is that of the mean velocity, its friction the mean over that way,
 ///
 ///     mean bend = s - (s - bend) (1 - e^-a) / a,  s: direction
+template <bool with_slopes>
 PreslidingStep slide(const PreslidingStep& from, const End& change, double limit, double compliance, double length,
                      double duration) {
   constexpr int most_steps = 60;
@@ -76,7 +80,7 @@ PreslidingStep slide(const PreslidingStep& from, const End& change, double limit
   const double strength = compliance * limit;
   const double sign = from.velocity.value < 0.0 ? -1.0 : 1.0;
   const double rate = 0.5 * duration / length;
-  const End reach = sum(from.velocity, 1.0, change, 1.0);
+  const End reach = sum<with_slopes>(from.velocity, 1.0, change, 1.0);
   const double unbent = 1.0 - sign * from.bend.value;
   double speed = sign * reach.value - strength;  // below the root
   double a = 0.0;
@@ -97,24 +101,24 @@ PreslidingStep slide(const PreslidingStep& from, const End& change, double limit
   const double by_velocity = sign * rate;       // of the way over the length, former and later alike
   const double by_length = -a / length;
   const double mean_bend = sign * (1.0 - unbent * mean);
-  End pushed = sum(reach, 1.0, from.bend, -strength * mean);
-  pushed = sum(pushed, 1.0, from.velocity, -strength * by_way * by_velocity);
+  End pushed = sum<with_slopes>(reach, 1.0, from.bend, -strength * mean);
+  pushed = sum<with_slopes>(pushed, 1.0, from.velocity, -strength * by_way * by_velocity);
   pushed.by_length -= strength * by_way * by_length;
   pushed.by_limit -= mean_bend * compliance;
   pushed.by_compliance -= mean_bend * limit;
   PreslidingStep to;
-  to.velocity = sum(pushed, 1.0 / (1.0 + strength * by_way * by_velocity), {}, 0.0);
+  to.velocity = sum<with_slopes>(pushed, 1.0 / (1.0 + strength * by_way * by_velocity), {}, 0.0);
   to.velocity.value = sign * speed;
-  to.bend = sum(from.bend, left, sum(from.velocity, 1.0, to.velocity, 1.0), sign * unbent * left * by_velocity);
+  to.bend = sum<with_slopes>(from.bend, left, sum<with_slopes>(from.velocity, 1.0, to.velocity, 1.0),
+                             sign * unbent * left * by_velocity);
   to.bend.by_length += sign * unbent * left * by_length;
   to.bend.value = sign * (1.0 - unbent * left);
   return to;
 }
 
-}  // namespace
-
-PreslidingStep presliding_step(double before, double free, double limit, double compliance, double bend, double length,
-                               double duration) {
+template <bool with_slopes>
+PreslidingStep whole_step(double before, double free, double limit, double compliance, double bend, double length,
+                          double duration) {
   constexpr int parts = 4;
   constexpr double slid = 1e-9;  // of the bend: less is left
   const double direction = bend < 0.0 ? -1.0 : 1.0;
@@ -127,9 +131,18 @@ PreslidingStep presliding_step(double before, double free, double limit, double 
   const double forward = before < 0.0 ? -1.0 : 1.0;
   const bool may_turn = before == 0.0 || free * forward <= compliance * limit;
   const End change{.value = free - before, .by_before = -1.0, .by_free = 1.0};
-  if (!may_turn) return slide(step, change, limit, compliance, length, duration);
-  for (int i = 0; i < parts; ++i) step = part(step, change, limit, compliance, length, duration, 1.0 / parts);
+  if (!may_turn) return slide<with_slopes>(step, change, limit, compliance, length, duration);
+  for (int i = 0; i < parts; ++i)
+    step = part<with_slopes>(step, change, limit, compliance, length, duration, 1.0 / parts);
   return step;
+}
+
+}  // namespace
+
+PreslidingStep presliding_step(double before, double free, double limit, double compliance, double bend, double length,
+                               double duration, bool with_slopes) {
+  return with_slopes ? whole_step<true>(before, free, limit, compliance, bend, length, duration)
+                     : whole_step<false>(before, free, limit, compliance, bend, length, duration);
 }
 
 }  // namespace zwidth::internal

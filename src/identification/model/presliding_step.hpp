@@ -24,8 +24,9 @@ struct PreslidingStep {
 ///
 /// so that friction bends like a spring of limit / length after each turn and is Coulomb's for a length of 0. Parts of the step
 /// whose force is that of their ends, none where the body slides all along: exact then, else to the first order of a part.
+/// Without slopes: the values alone.
 /// Source: Dahl 1968; de Wit et al. 1995 without the bristles' damping.
 [[nodiscard]] PreslidingStep presliding_step(double before, double free, double limit, double compliance, double bend,
-                                             double length, double duration);
+                                             double length, double duration, bool with_slopes = true);
 
 }  // namespace zwidth::internal

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "identification/model/friction_step.hpp"
-#include "identification/model/presliding_step.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -15,292 +16,317 @@ double command_at(const ForceMotionRecord& record, std::ptrdiff_t sample) {
   return sample < 0 ? 0.0 : record.force[static_cast<std::size_t>(std::min(sample, size - 1))];
 }
 
+constexpr int most_sweeps = 3;  // over frictions that rub on each other's bodies
+
 }  // namespace
-
-PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
-                           std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
-                           bool with_slopes_asked)
-    : with_slopes(with_slopes_asked) {
-  const std::vector<Number>& numbers = family.numbers();
-  const auto place = [&](const std::string& key) {
-    return static_cast<Eigen::Index>(std::ranges::find(numbers, key, &Number::key) - numbers.begin());
-  };
-  const auto value = [&](Eigen::Index i) { return numbers[static_cast<std::size_t>(i)].value(x(i)); };
-  const auto index = [&](const std::string& name) { return std::ranges::find(bodies, name) - bodies.begin(); };
-  number_slopes.resize(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Number& number = numbers[static_cast<std::size_t>(i)];
-    number_slopes(i) = number.slope(x(i));
-    if (number.key == "loop.delay") instants.emplace_back(i, number_slopes(i));
-    if (number.key == "actuator.time_constant") instants.emplace_back(i, -number_slopes(i));  // the sum stays
-  }
-  for (const ForceTerm& term : terms.forces) {
-    if (term.record && *term.record != record) continue;
-    Force force{.law = term.law.get(), .body = index(term.body)};
-    if (!term.against.empty()) force.against = index(term.against);
-    for (std::size_t i = 0; i < term.numbers.size(); ++i) {
-      force.numbers[i] = place(term.numbers[i]);
-      force.values[i] = value(force.numbers[i]);
-    }
-    forces.push_back(force);
-  }
-  for (const FrictionTerm& term : terms.frictions) {
-    frictions.push_back({index(term.body), place(term.number), value(place(term.number))});
-    if (!term.presliding_length) continue;
-    constexpr double least_length = 0.01;  // of a unit: shorter, and it sticks
-    const Eigen::Index length = place(*term.presliding_length);
-    if (value(length) < least_length * numbers[static_cast<std::size_t>(length)].unit) continue;
-    frictions.back().length_number = length;
-    frictions.back().length = value(length);
-  }
-  if (terms.drive.dead_band) dead_band_number = place(*terms.drive.dead_band);
-  if (terms.drive.saturation) saturation_number = place(*terms.drive.saturation);
-  if (terms.drive.delay_drift) {
-    drift_number = place(*terms.drive.delay_drift);
-    drift = value(*drift_number) / period;
-    drift_slope = number_slopes(*drift_number) / period;
-  }
-  dead_band = dead_band_number ? value(*dead_band_number) : 0.0;
-  limit = largest_force - (saturation_number ? value(*saturation_number) : 0.0);
-
-  const double samples = family.played_delay(x) / period;
-  constexpr double least = 1e-9;
-  delay_samples = static_cast<std::ptrdiff_t>(std::floor(samples + least));
-  const double share = std::max(0.0, samples - static_cast<double>(delay_samples));
-  Eigen::MatrixXd columns = motion_columns(family.recorded_device(x));
-  input = columns.col(columns.rows());
-  std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
-  if (family.has_further_body()) {  // no term acts on it: 1 / mass, which has no bound, stays out of the exponential
-    columns.rightCols(1).setZero();
-    for (Eigen::MatrixXd& each : slopes) each.rightCols(1).setZero();
-  }
-  const int wanted = forces.empty() && frictions.empty() ? 1 : parts;
-  const auto step = [&](double length) {
-    if (length < least) return LinearStep{};
-    const int count = std::max(1, static_cast<int>(std::lround(length * wanted)));
-    return linear_step(columns, slopes, length * period / count, count);
-  };
-  before = step(share);
-  after = step(1.0 - share);
-}
 
 SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Eigen::Index columns)
     : x(State::Zero(device.input.size())),
-      slopes(Slopes::Zero(device.input.size(), device.with_slopes ? columns : 0)),
       device_(device),
       bodies_(bodies),
-      bend_slopes_(decltype(bend_slopes_)::Zero(bodies, slopes.cols())),
+      frictions_(static_cast<Eigen::Index>(device.frictions.size())),
+      with_slopes_(device.with_slopes),
       forces_(bodies),
-      force_slopes_(bodies, slopes.cols()) {}
+      bends_(device.frictions.size()),
+      ends_(device.frictions.size()) {
+  if (!with_slopes_) return;
+  const Eigen::Index rows = x.size() + device.bends;
+  command_at_ = rows;
+  forces_at_ = command_at_ + 1;
+  frictions_at_ = forces_at_ + bodies;
+  numbers_at_ = padded(frictions_at_ + frictions_);
+  const Eigen::Index width = numbers_at_ + std::max(device.before.slopes.cols(), device.after.slopes.cols());
+  slopes = Rows::Zero(rows, padded(columns));
+  next_slopes_ = slopes;
+  ends_slopes_ = Rows::Zero(rows, width);
+  force_slopes_ = Rows::Zero(bodies, width);
+  free_slopes_ = Rows::Zero(frictions_, width);
+  added_slopes_ = Rows::Zero(frictions_, width);
+  answers_ = Rows::Zero(frictions_, frictions_);
+  heard_ = answers_;
+  gradients_ = Rows::Zero(bodies, x.size());
+}
 
-double SegmentPlayer::given(const ForceMotionRecord& record, std::ptrdiff_t sample, double share,
-                            Row& command_slopes) const {
-  if (!device_.drift_number) return through_drive(command_at(record, sample), command_slopes);
+DriveForce SegmentPlayer::given(const ForceMotionRecord& record, std::ptrdiff_t sample, double share) const {
+  if (!device_.drift_number) return through_drive(command_at(record, sample));
   const double late = device_.drift * share;
   const double whole = std::floor(late);
   const double weight = late - whole;
   sample -= static_cast<std::ptrdiff_t>(whole);
-  Row earlier_slopes(0);
-  const double newer = through_drive(command_at(record, sample), command_slopes);
-  const double earlier = through_drive(command_at(record, sample - 1), earlier_slopes);
-  if (slopes.cols() > 0) {
-    if (earlier_slopes.size() > 0) {
-      command_slopes = (1.0 - weight) * command_slopes + weight * earlier_slopes;
-    } else {
-      command_slopes.setZero(slopes.cols());
-    }
-    command_slopes(*device_.drift_number) = (earlier - newer) * share * device_.drift_slope;
-  }
-  return (1.0 - weight) * newer + weight * earlier;
+  const DriveForce newer = through_drive(command_at(record, sample));
+  const DriveForce earlier = through_drive(command_at(record, sample - 1));
+  const auto mean = [&](double a, double b) { return (1.0 - weight) * a + weight * b; };
+  return {mean(newer.force, earlier.force), mean(newer.by_dead_band, earlier.by_dead_band),
+          mean(newer.by_saturation, earlier.by_saturation),
+          (earlier.force - newer.force) * share * device_.drift_slope};
 }
 
-double SegmentPlayer::through_drive(double command, Row& command_slopes) const {
-  if (!device_.dead_band_number && !device_.saturation_number) return command;
+DriveForce SegmentPlayer::through_drive(double command) const {
+  DriveForce given{command};
+  if (!device_.dead_band_number && !device_.saturation_number) return given;
   const double direction = command < 0.0 ? -1.0 : 1.0;
   const double through = std::max(0.0, std::abs(command) - device_.dead_band);
-  const std::optional<Eigen::Index>& number =
-      through > device_.limit ? device_.saturation_number : device_.dead_band_number;
-  command_slopes.setZero(slopes.cols());
-  if (command_slopes.size() > 0 && number && through > 0.0)
-    command_slopes(*number) = -direction * device_.number_slopes(*number);
-  return direction * std::min(through, device_.limit);
+  const bool is_limited = through > device_.limit;
+  const std::optional<Eigen::Index>& number = is_limited ? device_.saturation_number : device_.dead_band_number;
+  given.force = direction * std::min(through, device_.limit);
+  if (number && through > 0.0)
+    (is_limited ? given.by_saturation : given.by_dead_band) = -direction * device_.number_slopes(*number);
+  return given;
 }
 
 void SegmentPlayer::bend_as_recorded(const ForceMotionRecord& record, std::size_t sample) {
   constexpr std::size_t reach = 200;
-  for (const PlayedDevice::Friction& friction : device_.frictions) {
+  for (std::size_t i = 0; i < bends_.size(); ++i) {
+    const PlayedDevice::Friction& friction = device_.frictions[i];
     if (!friction.length_number) continue;
-    double bend = 0.0;
     double by_length = 0.0;
     for (std::size_t k = sample < reach ? 0 : sample - reach; k < sample; ++k) {
       const double change = record.position[k + 1] - record.position[k];
       const double direction = change < 0.0 ? -1.0 : 1.0;
       const double travel = std::abs(change) / friction.length;
       const double left = std::exp(-travel);
-      by_length = left * by_length - (direction - bend) * left * travel / friction.length;
-      bend = direction - (direction - bend) * left;
+      by_length = left * by_length - (direction - bends_[i]) * left * travel / friction.length;
+      bends_[i] = direction - (direction - bends_[i]) * left;
     }
-    bends_[static_cast<std::size_t>(friction.body)] = bend;
-    if (slopes.cols() > 0) {
-      const Eigen::Index number = *friction.length_number;
-      bend_slopes_(friction.body, number) = by_length * device_.number_slopes(number);
-    }
+    if (!with_slopes_ || friction.bend < 0) continue;
+    const Eigen::Index number = *friction.length_number;
+    slopes(x.size() + friction.bend, number) = by_length * device_.number_slopes(number);
   }
 }
 
-void SegmentPlayer::move(const LinearStep& step, double command, const Row& command_slopes, double share) {
+void SegmentPlayer::move(const LinearStep& step, const DriveForce& command, double share) {
   const Eigen::Index n = x.size();
   before_ = x;
-  x.noalias() = step.columns.leftCols(n).lazyProduct(before_);
-  x += step.columns.col(n) * command;
-  if (slopes.cols() > 0) {
-    before_slopes_.swap(slopes);
-    slopes.resize(before_slopes_.rows(), before_slopes_.cols());
-    for (Eigen::Index i = 0; i < n; ++i) {
-      slopes.row(i) = step.columns(i, 0) * before_slopes_.row(0);
-      for (Eigen::Index j = 1; j < n; ++j) {
-        if (step.columns(i, j) != 0.0) slopes.row(i) += step.columns(i, j) * before_slopes_.row(j);
-      }
-      if (command_slopes.size() > 0) slopes.row(i) += step.columns(i, n) * command_slopes;
-    }
-    const auto numbers = step.slopes.front().cols();
-    auto own = slopes.leftCols(numbers);
-    for (Eigen::Index j = 0; j < n; ++j) own += step.slopes[static_cast<std::size_t>(j)] * before_(j);
-    own += step.slopes[static_cast<std::size_t>(n)] * command;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double* by = &step.columns(i, 0);
+    double sum = by[n] * command.force;
+    for (Eigen::Index j = 0; j < n; ++j) sum += by[j] * before_(j);
+    x(i) = sum;
   }
+  if (with_slopes_) begin_slopes(step, command.force);
   if (!device_.forces.empty()) {
     add_forces(share);
     apply(step);
   }
-  if (!device_.frictions.empty()) {
+  if (device_.rubbing > 0 || (with_slopes_ && !device_.frictions.empty())) {
     add_frictions(step);
-    apply(step);
+    if (with_slopes_) add_friction_slopes(step);
+    if (device_.rubbing > 0) apply(step);
+  }
+  if (with_slopes_) end_slopes(command);
+}
+
+void SegmentPlayer::begin_slopes(const LinearStep& step, double command) {
+  const Eigen::Index n = x.size();
+  const Eigen::Index numbers = step.slopes.cols();
+  ends_slopes_.setZero();
+  own_slopes_.clear();
+  bend_slopes_.clear();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double* row = &ends_slopes_(i, 0);
+    std::copy_n(&step.columns(i, 0), n, row);
+    row[command_at_] = step.columns(i, n);
+    add_rows(row + numbers_at_, before_.data(), n, step.slopes.row(i).data(), n * numbers, numbers);
+    add_row(row + numbers_at_, command, step.slopes.row(n * n + i).data(), numbers);
   }
 }
 
 void SegmentPlayer::add_forces(double share) {
   forces_.setZero();
-  if (slopes.cols() > 0) force_slopes_.setZero();
-  const auto middle = [&](Eigen::Index body, int order) {
-    const Eigen::Index row = order == 1 ? bodies_ + body : body;
-    const double own = 0.5 * (before_(row) + x(row));
-    return order == 1 || body == 0 ? own : own + 0.5 * (before_(0) + x(0));
-  };
-  const auto add_slopes = [&](auto&& row, Eigen::Index body, int order, double factor) {
-    const Eigen::Index own = order == 1 ? bodies_ + body : body;
-    row += (0.5 * factor) * (before_slopes_.row(own) + slopes.row(own));
-    if (order == 0 && body != 0) row += (0.5 * factor) * (before_slopes_.row(0) + slopes.row(0));
-  };
+  if (with_slopes_) gradients_.setZero();
+  const auto middle = [&](Eigen::Index i) { return 0.5 * (before_(i) + x(i)); };
+  const auto position_of = [&](Eigen::Index body) { return body == 0 ? middle(0) : middle(0) + middle(body); };
   for (const PlayedDevice::Force& force : device_.forces) {
-    LawState state{middle(force.body, 0), middle(force.body, 1), share};
+    LawState state{position_of(force.body), middle(bodies_ + force.body), share};
     if (force.against >= 0) {
-      state.position -= middle(force.against, 0);
-      state.velocity -= middle(force.against, 1);
+      state.position -= position_of(force.against);
+      state.velocity -= middle(bodies_ + force.against);
     }
     const LawForce now = force.law->at(state, force.values.data());
-    forces_(force.body) += now.force;
-    if (force.against >= 0) forces_(force.against) -= now.force;
-    if (slopes.cols() == 0) continue;
-    const auto add = [&](Eigen::Index on, double sign) {
-      auto row = force_slopes_.row(on);
-      if (now.by_position != 0.0) {
-        add_slopes(row, force.body, 0, sign * now.by_position);
-        if (force.against >= 0) add_slopes(row, force.against, 0, -sign * now.by_position);
-      }
-      if (now.by_velocity != 0.0) {
-        add_slopes(row, force.body, 1, sign * now.by_velocity);
-        if (force.against >= 0) add_slopes(row, force.against, 1, -sign * now.by_velocity);
-      }
-      for (std::size_t i = 0; i < most_numbers_of_law; ++i) {
-        const Eigen::Index at = force.numbers[i];
-        if (now.by_number[i] != 0.0) row(at) += sign * now.by_number[i] * device_.number_slopes(at);
-      }
-    };
-    add(force.body, 1.0);
-    if (force.against >= 0) add(force.against, -1.0);
+    add_force(force, now, force.body, 1.0);
+    if (force.against >= 0) add_force(force, now, force.against, -1.0);
   }
+  if (!with_slopes_) return;
+  force_slopes_.setZero();
+  for (Eigen::Index body = 0; body < bodies_; ++body) {
+    double* row = &force_slopes_(body, 0);
+    row[forces_at_ + body] = 1.0;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const double by = 0.5 * gradients_(body, i);  // of the state halfway
+      if (by == 0.0) continue;
+      row[i] += by;
+      add_row(row, by, &ends_slopes_(i, 0), ends_slopes_.cols());
+    }
+  }
+}
+
+void SegmentPlayer::add_force(const PlayedDevice::Force& force, const LawForce& now, Eigen::Index on, double sign) {
+  forces_(on) += sign * now.force;
+  if (!with_slopes_) return;
+  const auto hang_on = [&](Eigen::Index body, double factor) {
+    gradients_(on, body) += factor * now.by_position;
+    if (body != 0) gradients_(on, 0) += factor * now.by_position;
+    gradients_(on, bodies_ + body) += factor * now.by_velocity;
+  };
+  hang_on(force.body, sign);
+  if (force.against >= 0) hang_on(force.against, -sign);
+  for (std::size_t i = 0; i < most_numbers_of_law; ++i) {
+    const Eigen::Index number = force.numbers[i];
+    if (now.by_number[i] != 0.0)
+      own_slopes_.push_back({number, forces_at_ + on, sign * now.by_number[i] * device_.number_slopes(number)});
+  }
+}
+
+double SegmentPlayer::compliance(const LinearStep& step, Eigen::Index on, Eigen::Index of) const {
+  return step.columns(speed_of(on), x.size() + 1 + friction(of).body);
+}
+
+const double* SegmentPlayer::compliance_slopes(const LinearStep& step, Eigen::Index on, Eigen::Index of) const {
+  return step.slopes.row((x.size() + 1 + friction(of).body) * x.size() + speed_of(on)).data();
 }
 
 void SegmentPlayer::add_frictions(const LinearStep& step) {
-  constexpr int most_sweeps = 3;
-  const std::size_t count = device_.frictions.size();
-  const int sweeps = count > 1 ? most_sweeps : 1;
-  const Eigen::Index first = x.size() + 1;
-  std::array<PreslidingStep, most_bodies> steps = {};
-  const auto body = [&](std::size_t i) { return device_.frictions[i].body; };
-  const auto compliance = [&](std::size_t on, std::size_t of) {
-    return step.columns(bodies_ + body(on), first + body(of));
-  };
+  const int sweeps = device_.rubbing > 1 ? most_sweeps : 1;
   forces_.setZero();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (std::size_t i = 0; i < count; ++i) {
-      double free = x(bodies_ + body(i));
-      for (std::size_t j = 0; j < count; ++j) free += j == i ? 0.0 : compliance(i, j) * forces_(body(j));
-      const PlayedDevice::Friction& friction = device_.frictions[i];
-      const double before = before_(bodies_ + body(i));
-      if (friction.length_number) {
-        steps[i] = presliding_step(before, free, friction.limit, compliance(i, i),
-                                   bends_[static_cast<std::size_t>(body(i))], friction.length, step.length);
-      } else {
-        const FrictionStep sticks = friction_step(before, free, friction.limit, compliance(i, i));
-        steps[i].velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};
-      }
-      forces_(body(i)) = (steps[i].velocity.value - free) / compliance(i, i);
+    for (Eigen::Index i = 0; i < frictions_; ++i) {
+      if (rubs(i)) rub(step, i, with_slopes_ && sweep + 1 == sweeps);
     }
   }
-  for (std::size_t i = 0; i < count; ++i) bends_[static_cast<std::size_t>(body(i))] = steps[i].bend.value;
-  if (slopes.cols() == 0) return;
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    if (with_slopes_ && !rubs(i)) rub(step, i, true);  // no force, but one by the limit
+    bends_[static_cast<std::size_t>(i)] = end(i).bend.value;
+  }
+}
+
+void SegmentPlayer::rub(const LinearStep& step, Eigen::Index i, bool with_slopes) {
+  double free = x(speed_of(i));
+  for (Eigen::Index j = 0; j < frictions_; ++j)
+    free += j == i ? 0.0 : compliance(step, i, j) * forces_(friction(j).body);
+  const double before = before_(speed_of(i));
+  const double own = compliance(step, i, i);
+  const double limit = friction(i).limit;
+  if (friction(i).length_number) {
+    const double bend = bends_[static_cast<std::size_t>(i)];
+    end(i) = presliding_step(before, free, limit, own, bend, friction(i).length, step.length, with_slopes);
+  } else {
+    const FrictionStep sticks = friction_step(before, free, limit, own);
+    end(i).velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};
+  }
+  if (rubs(i)) forces_(friction(i).body) = (end(i).velocity.value - free) / own;
+}
+
+void SegmentPlayer::add_friction_slopes(const LinearStep& step) {
+  const Eigen::Index width = ends_slopes_.cols();
+  added_slopes_.setZero();
   force_slopes_.setZero();
-  const Eigen::Index numbers = step.slopes.front().cols();
-  const auto compliance_slopes = [&](std::size_t on, std::size_t of) {
-    return step.slopes[static_cast<std::size_t>(first + body(of))].row(bodies_ + body(on));
-  };
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    const Eigen::Index column = frictions_at_ + i;
+    const double own = compliance(step, i, i);
+    const auto add_own = [&](Eigen::Index number, double by) {
+      own_slopes_.push_back({number, column, by / own * device_.number_slopes(number)});
+    };
+    add_own(friction(i).number, end(i).velocity.by_limit);
+    if (friction(i).bend >= 0) add_own(*friction(i).length_number, end(i).velocity.by_length);
+    added_slopes_(i, column) = 1.0;
+    if (rubs(i)) add_slopes_of(step, i);
+    if (device_.rubbing == 0)  // none answers
+      ends_slopes_.col(column).head(x.size()) = step.columns.col(x.size() + 1 + friction(i).body);
+  }
+  if (device_.rubbing == 0) return;
+  answer(step);
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    const double* by = answers_.row(i).data();
+    add_rows(&force_slopes_(friction(i).body, 0), by, frictions_, added_slopes_.data(), width, width);
+    if (friction(i).bend >= 0) bend_slopes_of(step, i);
+  }
+}
+
+void SegmentPlayer::add_slopes_of(const LinearStep& step, Eigen::Index i) {
+  const Eigen::Index numbers = step.slopes.cols();
+  const PreslidingStep::End& velocity = end(i).velocity;
+  const double own = compliance(step, i, i);
+  double* free = &free_slopes_(i, 0);
+  double* added = &added_slopes_(i, 0);
+  std::copy_n(&ends_slopes_(speed_of(i), 0), free_slopes_.cols(), free);
+  for (Eigen::Index j = 0; j < frictions_; ++j) {
+    if (j != i) add_row(free + numbers_at_, forces_(friction(j).body), compliance_slopes(step, i, j), numbers);
+  }
+  add_row(added, (velocity.by_free - 1.0) / own, free, added_slopes_.cols());
+  added[speed_of(i)] += velocity.by_before / own;
+  if (friction(i).bend >= 0) added[x.size() + friction(i).bend] += velocity.by_bend / own;
+  const double by_compliance = (velocity.by_compliance - forces_(friction(i).body)) / own;
+  add_row(added + numbers_at_, by_compliance, compliance_slopes(step, i, i), numbers);
+}
+
+void SegmentPlayer::answer(const LinearStep& step) {
+  const int sweeps = device_.rubbing > 1 ? most_sweeps : 1;
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    answers_.row(i).setZero();
+    answers_(i, i) = rubs(i) ? 0.0 : 1.0;
+  }
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const bool is_last = sweep + 1 == sweeps;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Index row = bodies_ + body(i);
-      const PlayedDevice::Friction& friction = device_.frictions[i];
-      Row free = slopes.row(row);
-      for (std::size_t j = 0; j < count; ++j) {
-        if (j == i) continue;
-        free += compliance(i, j) * force_slopes_.row(body(j));
-        free.head(numbers) += compliance_slopes(i, j) * forces_(body(j));
+    for (Eigen::Index i = 0; i < frictions_; ++i) {
+      if (!rubs(i)) continue;
+      const double by_free = (end(i).velocity.by_free - 1.0) / compliance(step, i, i);
+      for (Eigen::Index k = 0; k < frictions_; ++k) {
+        double heard = 0.0;
+        for (Eigen::Index j = 0; j < frictions_; ++j) heard += j == i ? 0.0 : compliance(step, i, j) * answers_(j, k);
+        heard_(i, k) = heard;
       }
-      // (v - v_free) / compliance
-      auto force = force_slopes_.row(body(i));
-      const auto change_of = [&](const PreslidingStep::End& end, double by_free, double by_compliance) {
-        Row change = by_free * free + end.by_before * before_slopes_.row(row);
-        change(friction.number) += end.by_limit * device_.number_slopes(friction.number);
-        change.head(numbers) += by_compliance * compliance_slopes(i, i);
-        if (!friction.length_number) return change;
-        if (end.by_bend != 0.0) change += end.by_bend * bend_slopes_.row(body(i));
-        change(*friction.length_number) += end.by_length * device_.number_slopes(*friction.length_number);
-        return change;
-      };
-      const PreslidingStep::End& velocity = steps[i].velocity;
-      force = change_of(velocity, velocity.by_free - 1.0, velocity.by_compliance - forces_(body(i)));
-      force /= compliance(i, i);
-      if (is_last && friction.length_number) {
-        const PreslidingStep::End& bend = steps[i].bend;
-        bend_slopes_.row(body(i)) = change_of(bend, bend.by_free, bend.by_compliance);
-      }
+      for (Eigen::Index k = 0; k < frictions_; ++k) answers_(i, k) = (k == i ? 1.0 : 0.0) + by_free * heard_(i, k);
     }
   }
 }
 
+void SegmentPlayer::bend_slopes_of(const LinearStep& step, Eigen::Index i) {
+  const PreslidingStep::End& bend = end(i).bend;
+  const Eigen::Index row = x.size() + friction(i).bend;
+  const Eigen::Index width = ends_slopes_.cols();
+  double* free = &free_slopes_(i, 0);
+  double* own = &ends_slopes_(row, 0);
+  add_rows(free, &heard_(i, 0), frictions_, added_slopes_.data(), width, width);
+  add_row(own, bend.by_free, free, width);
+  own[speed_of(i)] += bend.by_before;
+  own[row] += bend.by_bend;
+  add_row(own + numbers_at_, bend.by_compliance, compliance_slopes(step, i, i), step.slopes.cols());
+  for (const auto& [number, by] :
+       {std::pair(friction(i).number, bend.by_limit), std::pair(*friction(i).length_number, bend.by_length)})
+    bend_slopes_.push_back({row, number, by * device_.number_slopes(number)});
+}
+
 void SegmentPlayer::apply(const LinearStep& step) {
-  const Eigen::Index first = x.size() + 1;
-  for (Eigen::Index body = 0; body < bodies_; ++body) {
-    const double force = forces_(body);
-    x += step.columns.col(first + body) * force;
-    if (slopes.cols() == 0) continue;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if (step.columns(i, first + body) != 0.0)
-        slopes.row(i) += step.columns(i, first + body) * force_slopes_.row(body);
-    }
-    if (force != 0.0)
-      slopes.leftCols(step.slopes.front().cols()) += step.slopes[static_cast<std::size_t>(first + body)] * force;
+  const Eigen::Index n = x.size();
+  const Eigen::Index numbers = step.slopes.cols();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double* by = &step.columns(i, n + 1);
+    for (Eigen::Index body = 0; body < bodies_; ++body) x(i) += by[body] * forces_(body);
+    if (!with_slopes_) continue;
+    double* row = &ends_slopes_(i, 0);
+    add_rows(row, by, bodies_, force_slopes_.data(), force_slopes_.cols(), force_slopes_.cols());
+    add_rows(row + numbers_at_, forces_.data(), bodies_, step.slopes.row((n + 1) * n + i).data(), n * numbers, numbers);
   }
+}
+
+void SegmentPlayer::end_slopes(const DriveForce& command) {
+  const Eigen::Index width = slopes.cols();
+  const Eigen::Index numbers = ends_slopes_.cols() - numbers_at_;
+  const auto add_own = [&](const std::optional<Eigen::Index>& number, double slope) {
+    if (number && slope != 0.0) own_slopes_.push_back({*number, command_at_, slope});
+  };
+  add_own(device_.dead_band_number, command.by_dead_band);
+  add_own(device_.saturation_number, command.by_saturation);
+  add_own(device_.drift_number, command.by_drift);
+  for (Eigen::Index i = 0; i < slopes.rows(); ++i) {
+    const double* part = &ends_slopes_(i, 0);
+    double* row = &next_slopes_(i, 0);
+    std::copy_n(part + numbers_at_, numbers, row);
+    std::fill(row + numbers, row + width, 0.0);
+    add_rows(row, part, slopes.rows(), slopes.data(), width, width);
+    for (const OwnSlope& own : own_slopes_) row[own.number] += part[own.column] * own.slope;
+  }
+  for (const BendSlope& bend : bend_slopes_) next_slopes_(bend.row, bend.number) += bend.slope;
+  slopes.swap(next_slopes_);
 }
 
 }  // namespace zwidth::internal

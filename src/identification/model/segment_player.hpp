@@ -1,96 +1,110 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
-#include <optional>
-#include <utility>
 #include <vector>
 
-#include "identification/model/linear_step.hpp"
 #include "identification/model/motion_model.hpp"
+#include "identification/model/played_device.hpp"
+#include "identification/model/presliding_step.hpp"
+#include "identification/model/row_sums.hpp"
 
 namespace zwidth::internal {
 
-/// A device of the family in one record, ready to be played.
-struct PlayedDevice {
-  /// The device at x.
-  PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
-               std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
-               bool with_slopes);
-
-  struct Force {
-    const ForceLaw* law = nullptr;
-    Eigen::Index body = 0;
-    Eigen::Index against = -1;
-    std::array<Eigen::Index, most_numbers_of_law> numbers = {};  // behind the law's own: not used
-    std::array<double, most_numbers_of_law> values = {};
-  };
-  struct Friction {
-    Eigen::Index body = 0;
-    Eigen::Index number = 0;
-    double limit = 0.0;
-    std::optional<Eigen::Index> length_number = {};
-    double length = 0.0;  ///< m or rad
-  };
-  bool with_slopes = false;
-  LinearStep before;                 ///< until the command changes
-  LinearStep after;                  ///< from then on
-  std::ptrdiff_t delay_samples = 0;  ///< of the command from then on
-  Eigen::VectorXd input;             ///< b
-  std::vector<std::pair<Eigen::Index, double>>
-      instants;                   ///< numbers that move the change of the command, s per unit of x
-  Eigen::VectorXd number_slopes;  ///< d value / dx
-  std::vector<Force> forces;
-  std::vector<Friction> frictions;
-  std::optional<Eigen::Index> dead_band_number;
-  std::optional<Eigen::Index> saturation_number;
-  std::optional<Eigen::Index> drift_number;
-  double drift = 0.0;        ///< samples, by which the command is later at the record's end than at its beginning
-  double drift_slope = 0.0;  ///< samples per unit of x
-  double dead_band = 0.0;    ///< N or N m
-  double limit = 0.0;        ///< N or N m
+/// What a drive gives, N or N m, and how it changes with the drive's own numbers, per unit of x.
+struct DriveForce {
+  double force = 0.0;
+  double by_dead_band = 0.0;
+  double by_saturation = 0.0;
+  double by_drift = 0.0;
 };
 
-/// A motion and how it changes, moved part by part. Rows of a body are contiguous: a step is a few sums of rows.
+/// A motion and how it changes, moved part by part.
+///
+/// A part's end hangs on few things: the state and the bends at its beginning, the command, a force on each body, one of each
+/// friction, and the device's numbers. Their slopes are followed through the part; those of the motion, a column per number
+/// and element of the segment's state, are multiplied by them once, at its end.
 class SegmentPlayer {
  public:
   SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Eigen::Index columns);
 
   static constexpr Eigen::Index most_states = 13;
   static constexpr Eigen::Index most_bodies = 6;
-  static constexpr Eigen::Index most_columns = 80;
   using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_states, 1>;
-  using Slopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_states, most_columns>;
-  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_columns>;
 
-  /// What the drive makes of the command of a sample when `share` of the record is over, and its slopes where it has any. A
-  /// drift of the delay takes the mean of two neighbours by their shares of the period: the impulse is exact, the position
-  /// to (omega T)^3 / 50.
-  [[nodiscard]] double given(const ForceMotionRecord& record, std::ptrdiff_t sample, double share, Row& slopes) const;
+  /// What the drive makes of the command of a sample when `share` of the record is over. A drift of the delay takes the mean
+  /// of two neighbours by their shares of the period: the impulse is exact, the position to (omega T)^3 / 50.
+  [[nodiscard]] DriveForce given(const ForceMotionRecord& record, std::ptrdiff_t sample, double share) const;
   /// Friction that bends, bent as the recorded motion before a sample leaves it.
   void bend_as_recorded(const ForceMotionRecord& record, std::size_t sample);
   /// One part; `share` of the record is over.
-  void move(const LinearStep& step, double command, const Row& command_slopes, double share);
+  void move(const LinearStep& step, const DriveForce& command, double share);
 
   State x;
-  Slopes slopes;
+  Rows slopes;  ///< of x, then of the bends; columns padded
 
  private:
-  [[nodiscard]] double through_drive(double command, Row& slopes) const;
+  /// A number that acts in one place: the motion's column of it grows by a part's column, or by one element.
+  struct OwnSlope {
+    Eigen::Index number = 0;
+    Eigen::Index column = 0;
+    double slope = 0.0;
+  };
+  struct BendSlope {
+    Eigen::Index row = 0;
+    Eigen::Index number = 0;
+    double slope = 0.0;
+  };
+
+  [[nodiscard]] DriveForce through_drive(double command) const;
+  [[nodiscard]] const PlayedDevice::Friction& friction(Eigen::Index i) const {
+    return device_.frictions[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] PreslidingStep& end(Eigen::Index friction) { return ends_[static_cast<std::size_t>(friction)]; }
+  [[nodiscard]] bool rubs(Eigen::Index i) const { return friction(i).limit > 0.0; }
+  [[nodiscard]] Eigen::Index speed_of(Eigen::Index i) const { return bodies_ + friction(i).body; }
+  /// How the velocity of a friction's body grows with the force of another friction, and the slopes of that.
+  [[nodiscard]] double compliance(const LinearStep& step, Eigen::Index on, Eigen::Index of) const;
+  [[nodiscard]] const double* compliance_slopes(const LinearStep& step, Eigen::Index on, Eigen::Index of) const;
+
+  void begin_slopes(const LinearStep& step, double command);
   void add_forces(double share);
+  void add_force(const PlayedDevice::Force& force, const LawForce& now, Eigen::Index on, double sign);
   void add_frictions(const LinearStep& step);
-  /// x and slopes by the forces on the bodies so far.
+  void rub(const LinearStep& step, Eigen::Index i, bool with_slopes);
+  void add_friction_slopes(const LinearStep& step);
+  void add_slopes_of(const LinearStep& step, Eigen::Index i);
+  /// How each friction answers the others' slopes, in sweeps as it answers their forces.
+  void answer(const LinearStep& step);
+  void bend_slopes_of(const LinearStep& step, Eigen::Index i);
+  /// The part's end by the forces on the bodies so far.
   void apply(const LinearStep& step);
+  void end_slopes(const DriveForce& command);
 
   const PlayedDevice& device_;
   Eigen::Index bodies_;
-  std::array<double, most_bodies> bends_ = {};
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_bodies, most_columns> bend_slopes_;
+  Eigen::Index frictions_;
+  bool with_slopes_;
   State before_;
-  Slopes before_slopes_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_bodies, 1> forces_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most_bodies, most_columns> force_slopes_;
+  std::vector<double> bends_;         ///< of frictions
+  std::vector<PreslidingStep> ends_;  ///< of frictions
+
+  // Slopes of a part, by: state and bends, from 0 on; command; force on each body; of each friction; numbers of the device.
+  Eigen::Index command_at_ = 0;
+  Eigen::Index forces_at_ = 0;
+  Eigen::Index frictions_at_ = 0;
+  Eigen::Index numbers_at_ = 0;
+  Rows ends_slopes_;   ///< of state and bends
+  Rows force_slopes_;  ///< of the forces on the bodies
+  Rows free_slopes_;   ///< of each friction's body's velocity without it
+  Rows added_slopes_;  ///< of each friction while all others stay
+  Rows answers_;       ///< of each friction, by those in `added_slopes_`
+  Rows heard_;         ///< of each friction's body's velocity without it, by them
+  Rows gradients_;     ///< of the forces on the bodies, by the state
+  std::vector<OwnSlope> own_slopes_;
+  std::vector<BendSlope> bend_slopes_;
+  Rows next_slopes_;
 };
 
 }  // namespace zwidth::internal

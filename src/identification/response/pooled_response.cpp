@@ -21,7 +21,7 @@ struct Share {
   [[nodiscard]] double freedom() const { return std::max(record->averages - 1.0, 0.0); }
   [[nodiscard]] double weight() const { return record->averages * point->force * point->force; }
 };
-using Line = std::vector<Share>;
+using PooledLine = std::vector<Share>;
 
 /// Of a rigid body under a force that is held for T, -1/(m w^2) as it is sampled, times m:
 ///
@@ -84,7 +84,7 @@ FrequencyResponse held_as(const FrequencyResponse& first, FrequencyResponse resp
 }
 
 /// The shares of each line, by rising frequency.
-std::vector<Line> lines_of(std::span<const FrequencyResponse> measured) {
+std::vector<PooledLine> lines_of(std::span<const FrequencyResponse> measured) {
   constexpr double rounding = 1e-9;
   const double close = tolerance_of(measured);
   constexpr double between_tones = 1e-3;  // of a single sine whose frequency is measured too
@@ -94,7 +94,7 @@ std::vector<Line> lines_of(std::span<const FrequencyResponse> measured) {
   }
   std::ranges::stable_sort(shares, {}, [](const Share& share) { return share.point->frequency; });
   const auto is_tone = [](const Share& share) { return share.record->points.size() == 1; };
-  std::vector<Line> lines;
+  std::vector<PooledLine> lines;
   for (const Share& share : shares) {
     if (!lines.empty()) {
       const Share& first = lines.back().front();
@@ -116,7 +116,7 @@ struct PooledPoint {
   double between = 0.0;  ///< variance of the value that the shares' differences show
 };
 
-PooledPoint pooled(const Line& line) {
+PooledPoint pooled(const PooledLine& line) {
   PooledPoint result{*line.front().point, line.front().freedom(), 0.0};
   if (line.size() == 1) return result;
   double weights = 0.0;
@@ -157,7 +157,7 @@ double surprise(const Share& a, const Share& b) {
 }
 
 /// Compares, line by line, the record with the least and with the greatest force.
-std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, double correlation) {
+std::optional<AmplitudeDependence> compare(const std::vector<PooledLine>& lines, double correlation) {
   constexpr double significant = 5.0;  // standard deviations of the sum of surprises
   constexpr double a_line_says = 4.6;  // 1 %
   constexpr double notable = 0.005;
@@ -166,7 +166,7 @@ std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, doubl
   double louder = 0.0;
   std::vector<double> differences;
   std::vector<double> ratios;
-  for (const Line& line : lines) {
+  for (const PooledLine& line : lines) {
     const auto [weakest, strongest] =
         std::ranges::minmax_element(line, {}, [](const Share& share) { return share.point->force; });
     if (weakest == strongest || weakest->freedom() == 0.0 || strongest->freedom() == 0.0) continue;
@@ -194,7 +194,7 @@ std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, doubl
 PooledResponse pooled_response(std::span<const FrequencyResponse> own) {
   std::vector<FrequencyResponse> measured;
   for (const FrequencyResponse& each : own) measured.push_back(held_as(own.front(), each));
-  const std::vector<Line> lines = lines_of(measured);
+  const std::vector<PooledLine> lines = lines_of(measured);
   PooledResponse result;
   FrequencyResponse& response = result.response;
   response.sampling_period = measured.front().sampling_period;
@@ -203,7 +203,7 @@ PooledResponse pooled_response(std::span<const FrequencyResponse> own) {
   }
   result.dependence = compare(lines, response.line_correlation);
   double freedom = std::numeric_limits<double>::infinity();
-  for (const Line& line : lines) {
+  for (const PooledLine& line : lines) {
     PooledPoint next = pooled(line);
     freedom = std::min(freedom, next.freedom);
     if (result.dependence) next.point.variance = std::max(next.point.variance, next.between);

@@ -39,7 +39,7 @@ struct GivenDelay {
 struct FittedLikelihood {
   Motion motion = Motion::linear;
   std::optional<Interval> limit = {};        ///< all within 1.92 of the best log-likelihood; absent: none was found
-  std::optional<Omnibus> left = {};          ///< of what it leaves in time; absent: lines of a response alone
+  std::optional<Omnibus> left = {};          ///< of what it leaves in time; absent: nothing was fitted
   std::vector<NamedRecord> records = {};     ///< those that `left` counts
   std::vector<RivalEstimate> rivals = {};    ///< rival_table()
   std::optional<LimitPlace> place = {};      ///< of the limit of the most likely device

@@ -115,6 +115,7 @@ double widening(const std::vector<LeftOver>& left, const LimitSlope& limit) {
 Interval widened(const OpenLimit& limit, double by) {
   constexpr double of_95_percent = 1.96;
   const double least = of_95_percent * limit.deviation;
+  by *= Calibration::more_than_noise;
   const double down = by * std::max(limit.best - limit.lower, least);
   const double up = by * std::max(limit.upper - limit.best, least);
   return {std::exp(limit.best - down), std::exp(limit.best + up)};

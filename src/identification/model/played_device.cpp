@@ -1,0 +1,78 @@
+#include "identification/model/played_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zwidth::internal {
+
+PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
+                           std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
+                           bool with_slopes_asked)
+    : with_slopes(with_slopes_asked) {
+  const std::vector<Number>& numbers = family.numbers();
+  const auto place = [&](const std::string& key) {
+    return static_cast<Eigen::Index>(std::ranges::find(numbers, key, &Number::key) - numbers.begin());
+  };
+  const auto value = [&](Eigen::Index i) { return numbers[static_cast<std::size_t>(i)].value(x(i)); };
+  const auto index = [&](const std::string& name) { return std::ranges::find(bodies, name) - bodies.begin(); };
+  number_slopes.resize(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Number& number = numbers[static_cast<std::size_t>(i)];
+    number_slopes(i) = number.slope(x(i));
+    if (number.key == "loop.delay") instants.emplace_back(i, number_slopes(i));
+    if (number.key == "actuator.time_constant") instants.emplace_back(i, -number_slopes(i));  // the sum stays
+  }
+  for (const ForceTerm& term : terms.forces) {
+    if (term.record && *term.record != record) continue;
+    Force force{.law = term.law.get(), .body = index(term.body)};
+    if (!term.against.empty()) force.against = index(term.against);
+    for (std::size_t i = 0; i < term.numbers.size(); ++i) {
+      force.numbers[i] = place(term.numbers[i]);
+      force.values[i] = value(force.numbers[i]);
+    }
+    forces.push_back(force);
+  }
+  for (const FrictionTerm& term : terms.frictions) {
+    frictions.push_back({index(term.body), place(term.number), value(place(term.number))});
+    const bool rubs = frictions.back().limit > 0.0;
+    if (rubs) ++rubbing;
+    if (!term.presliding_length) continue;
+    constexpr double least_length = 0.01;  // of a unit: shorter, and it sticks
+    const Eigen::Index length = place(*term.presliding_length);
+    if (value(length) < least_length * numbers[static_cast<std::size_t>(length)].unit) continue;
+    frictions.back().length_number = length;
+    frictions.back().length = value(length);
+    if (rubs) frictions.back().bend = bends++;
+  }
+  if (terms.drive.dead_band) dead_band_number = place(*terms.drive.dead_band);
+  if (terms.drive.saturation) saturation_number = place(*terms.drive.saturation);
+  if (terms.drive.delay_drift) {
+    drift_number = place(*terms.drive.delay_drift);
+    drift = value(*drift_number) / period;
+    drift_slope = number_slopes(*drift_number) / period;
+  }
+  dead_band = dead_band_number ? value(*dead_band_number) : 0.0;
+  limit = largest_force - (saturation_number ? value(*saturation_number) : 0.0);
+
+  const double samples = family.played_delay(x) / period;
+  constexpr double least = 1e-9;
+  delay_samples = static_cast<std::ptrdiff_t>(std::floor(samples + least));
+  const double share = std::max(0.0, samples - static_cast<double>(delay_samples));
+  Eigen::MatrixXd columns = motion_columns(family.recorded_device(x));
+  input = columns.col(columns.rows());
+  std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
+  if (family.has_further_body()) {  // no term acts on it: 1 / mass, which has no bound, stays out of the exponential
+    columns.rightCols(1).setZero();
+    for (Eigen::MatrixXd& each : slopes) each.rightCols(1).setZero();
+  }
+  const int wanted = forces.empty() && frictions.empty() ? 1 : parts;
+  const auto step = [&](double length) {
+    if (length < least) return LinearStep{};
+    const int count = std::max(1, static_cast<int>(std::lround(length * wanted)));
+    return linear_step(columns, slopes, length * period / count, count);
+  };
+  before = step(share);
+  after = step(1.0 - share);
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "identification/model/device_family.hpp"
+#include "identification/model/force_law.hpp"
+#include "identification/model/linear_step.hpp"
+#include "identification/model/motion_terms.hpp"
+
+namespace zwidth::internal {
+
+/// A device of the family in one record, ready to be played.
+struct PlayedDevice {
+  /// The device at x.
+  PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
+               std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
+               bool with_slopes);
+
+  struct Force {
+    const ForceLaw* law = nullptr;
+    Eigen::Index body = 0;
+    Eigen::Index against = -1;
+    std::array<Eigen::Index, most_numbers_of_law> numbers = {};  // behind the law's own: not used
+    std::array<double, most_numbers_of_law> values = {};
+  };
+  struct Friction {
+    Eigen::Index body = 0;
+    Eigen::Index number = 0;
+    double limit = 0.0;
+    std::optional<Eigen::Index> length_number = {};
+    double length = 0.0;     ///< m or rad
+    Eigen::Index bend = -1;  ///< its place among those whose bend moves the body: none where the limit is 0
+  };
+  bool with_slopes = false;
+  LinearStep before;                 ///< until the command changes
+  LinearStep after;                  ///< from then on
+  std::ptrdiff_t delay_samples = 0;  ///< of the command from then on
+  Eigen::VectorXd input;             ///< b
+  std::vector<std::pair<Eigen::Index, double>>
+      instants;                   ///< numbers that move the change of the command, s per unit of x
+  Eigen::VectorXd number_slopes;  ///< d value / dx
+  std::vector<Force> forces;
+  std::vector<Friction> frictions;
+  Eigen::Index rubbing = 0;  ///< frictions whose limit is above 0
+  Eigen::Index bends = 0;    ///< of them, those that bend
+  std::optional<Eigen::Index> dead_band_number;
+  std::optional<Eigen::Index> saturation_number;
+  std::optional<Eigen::Index> drift_number;
+  double drift = 0.0;        ///< samples, by which the command is later at the record's end than at its beginning
+  double drift_slope = 0.0;  ///< samples per unit of x
+  double dead_band = 0.0;    ///< N or N m
+  double limit = 0.0;        ///< N or N m
+};
+
+}  // namespace zwidth::internal

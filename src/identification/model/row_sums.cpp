@@ -1,0 +1,57 @@
+#include "identification/model/row_sums.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace zwidth::internal {
+namespace {
+
+using Lanes = Eigen::Array<double, lanes, 1>;
+
+/// As many rows as there are `j`: their factors stay in registers.
+template <Eigen::Index... j>
+void add_few_rows(double* to, const double* by, const double* from, Eigen::Index stride, Eigen::Index width,
+                  std::integer_sequence<Eigen::Index, j...> /*rows*/) {
+  const double factors[] = {by[j]...};
+  for (Eigen::Index column = 0; column < width; column += lanes) {
+    Lanes sum = Eigen::Map<const Lanes>(to + column);
+    ((sum += factors[j] * Eigen::Map<const Lanes>(from + column + j * stride)), ...);
+    Eigen::Map<Lanes>(to + column) = sum;
+  }
+}
+
+template <Eigen::Index count>
+void add_few_rows(double* to, const double* by, const double* from, Eigen::Index stride, Eigen::Index width) {
+  add_few_rows(to, by, from, stride, width, std::make_integer_sequence<Eigen::Index, count>());
+}
+
+}  // namespace
+
+void add_rows(double* to, const double* by, Eigen::Index count, const double* from, Eigen::Index stride,
+              Eigen::Index width) {
+  constexpr Eigen::Index most = 8;
+  for (; count > most; count -= most, by += most, from += most * stride)
+    add_few_rows<most>(to, by, from, stride, width);
+  switch (count) {
+    case 1:
+      return add_row(to, *by, from, width);
+    case 2:
+      return add_few_rows<2>(to, by, from, stride, width);
+    case 3:
+      return add_few_rows<3>(to, by, from, stride, width);
+    case 4:
+      return add_few_rows<4>(to, by, from, stride, width);
+    case 5:
+      return add_few_rows<5>(to, by, from, stride, width);
+    case 6:
+      return add_few_rows<6>(to, by, from, stride, width);
+    case 7:
+      return add_few_rows<7>(to, by, from, stride, width);
+    case 8:
+      return add_few_rows<8>(to, by, from, stride, width);
+    default:
+      return;
+  }
+}
+
+}  // namespace zwidth::internal
