@@ -48,6 +48,18 @@ TEST(TwoRates, LhifamWithASlowDamper) {
   EXPECT_NEAR(critical_stiffness(lhifam(1e-4, 1e-3, 100.0)).stiffness, 456719.274, 1e-3);
 }
 
+// 1/(s² (0.5 s + 0.4)), which only a damper makes stable: Routh's criterion without sampling says 0.8 at B = 1.
+TEST(TwoRates, ASlowDamperHoldsWhatIsUnstableWithoutIt) {
+  for (const double damper_period : {1e-3, 1e-5}) {
+    DeviceParameters parameters = test::transfer_function_parameters({1.0}, {0.5, 0.4, 0.0, 0.0}, 1e-4);
+    parameters.loop.damper = LoopDamper{damper_period, 0.0};
+    parameters.wall.damping = 1.0;
+    const CriticalStiffness critical = critical_stiffness(Device(parameters));
+    EXPECT_TRUE(critical.trust.sound());
+    EXPECT_NEAR(critical.stiffness, 0.8, 3e-3);
+  }
+}
+
 TEST(TwoRates, OfOneRateAreThatRateBitForBit) {
   const Device apart = lhifam(1e-3, 1e-3, 100.0, 5e4);
   const Device together = with_one_rate(apart);

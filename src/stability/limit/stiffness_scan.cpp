@@ -14,6 +14,7 @@ namespace {
 
 using Pole = std::complex<double>;  // z - 1
 
+constexpr double at_one = 1e-9;              // of |z - 1|: such a pole is that of a position that hardly anything holds
 constexpr double first_step_of_scan = 0.25;  // of log K
 constexpr double longest_crossing = 0.1;     // of log K: where a pole crosses, it does so once
 constexpr double shortest_step = 1e-7;       // of log K
@@ -61,7 +62,9 @@ class StiffnessScan {
     const double last = std::log(most);
     const auto steps = static_cast<int>(std::ceil((last - first) / first_step_of_scan));
     Sample begin = at(first);
-    for (const Pole& pole : begin.poles) found_.initially_unstable += excess(pole) > 0.0 ? 1 : 0;
+    for (const Pole& pole : begin.poles) {
+      if (excess(pole) > 0.0 && std::abs(pole) > at_one) ++found_.initially_unstable;
+    }
     for (int i = 1; i <= steps; ++i) {
       Sample end = at(first + (last - first) * i / steps);
       const auto is_lost = [](const Pole& pole) { return !(std::abs(pole) <= most_growth); };
@@ -148,6 +151,22 @@ class StiffnessScan {
 };
 
 }  // namespace
+
+double soft_stiffness(const ScheduledLoop& loop, double most) {
+  constexpr double still = 1e-3;
+  constexpr double softer = 1e-2;
+  constexpr int most_steps = 12;
+  const std::vector<Pole> alone = loop.poles_minus_one(0.0);
+  for (int step = 0; step < most_steps; ++step, most *= softer) {
+    const std::vector<Pole> held = matched(alone, loop.poles_minus_one(most));
+    bool stands = true;
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      stands = stands && (std::abs(alone[i]) <= at_one || std::abs(held[i] - alone[i]) <= still * std::abs(alone[i]));
+    }
+    if (stands) break;
+  }
+  return most;
+}
 
 ScannedCrossings scan_stiffness(const ScheduledLoop& loop, double least, double most) {
   return StiffnessScan(loop).between(least, most);

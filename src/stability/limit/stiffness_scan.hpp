@@ -16,8 +16,12 @@ struct ScannedCrossing {
 
 struct ScannedCrossings {
   std::vector<ScannedCrossing> crossings;  // by rising stiffness
-  int initially_unstable = 0;              // poles outside at the least stiffness
+  int initially_unstable = 0;              // poles outside at the least stiffness, but for one that is at z = 1
 };
+
+// A stiffness of at most this one that moves no pole by more than a thousandth of its distance from z = 1, but the one there of a
+// position that nothing holds: what happens for arbitrarily small K has happened there.
+[[nodiscard]] double soft_stiffness(const ScheduledLoop& loop, double most);
 
 // Every crossing between two stiffnesses, 0 < least < most, or up to where a pole grows a millionfold in the longer period,
 // which does not come back: all poles are followed over K, in steps within which each moves

@@ -51,7 +51,7 @@ CriticalStiffness with_damper_outside(const TwoRateDevice& loop, const Scheduled
     return result;
   }
   const StiffnessRange range = followed_range(loop);
-  const ScannedCrossings found = scan_stiffness(as_it_runs, range.least, range.most);
+  const ScannedCrossings found = scan_stiffness(as_it_runs, soft_stiffness(as_it_runs, range.least), range.most);
   const SampledPlant modes = loop.spring_alone();
   for (const ScannedCrossing& each : found.crossings) {
     const double frequency = as_it_runs.frequency_of(each.pole_minus_one, each.stiffness);
