@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +13,40 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+namespace {
+
+constexpr std::string_view of_damper = "loop.damper.";
+
+/// What is uncertain or assumed under the keys that it has now; what new_key() has none for is left out.
+template <typename NewKey>
+void rename_uncertain(DeviceParameters& parameters, const NewKey& new_key) {
+  if (!parameters.uncertainty) return;
+  Uncertainty& uncertainty = *parameters.uncertainty;
+  Uncertainty kept = uncertainty;
+  kept.parameters.clear();
+  kept.covariance.clear();
+  kept.assumed.clear();
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < uncertainty.parameters.size(); ++i) {
+    if (const std::optional<std::string> key = new_key(uncertainty.parameters[i])) {
+      kept.parameters.push_back(*key);
+      rows.push_back(i);
+    }
+  }
+  for (const std::size_t i : rows) {
+    std::vector<double>& row = kept.covariance.emplace_back();
+    for (const std::size_t j : rows) row.push_back(uncertainty.covariance[i][j]);
+  }
+  for (const std::string& each : uncertainty.assumed) {
+    if (const std::optional<std::string> key = new_key(each)) kept.assumed.push_back(*key);
+  }
+  const bool says_anything = !kept.parameters.empty() || !kept.assumed.empty() || !kept.warning.empty() ||
+                             !kept.reasons.empty() || kept.verdict != Trust::Verdict::sound;
+  uncertainty = std::move(kept);
+  if (!says_anything) parameters.uncertainty.reset();
+}
+
+}  // namespace
 
 DamperTiming damper_timing(const Loop& loop) {
   if (!loop.damper) return {loop.sampling_period, loop.delay};
@@ -22,6 +60,9 @@ bool has_damper_loop(const Loop& loop) {
 
 Device with_one_rate(const Device& device) {
   DeviceParameters parameters = device.parameters();
+  rename_uncertain(parameters, [](const std::string& key) {
+    return key.starts_with(of_damper) ? std::nullopt : std::optional(key);
+  });
   parameters.loop.damper.reset();
   return Device(std::move(parameters));
 }
@@ -29,6 +70,12 @@ Device with_one_rate(const Device& device) {
 Device with_loop_of_damper(const Device& device) {
   DeviceParameters parameters = device.parameters();
   const auto [period, delay] = damper_timing(parameters.loop);
+  rename_uncertain(parameters, [damper = parameters.loop.damper](const std::string& key) -> std::optional<std::string> {
+    if (key.starts_with(of_damper)) return "loop." + key.substr(of_damper.size());
+    if (key == "loop.sampling_period" && damper && damper->sampling_period) return std::nullopt;
+    if (key == "loop.delay" && damper && damper->delay) return std::nullopt;
+    return key;
+  });
   parameters.loop.sampling_period = period;
   parameters.loop.delay = delay;
   parameters.loop.damper.reset();

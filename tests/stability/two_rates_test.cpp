@@ -7,7 +7,9 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "../lhifam.hpp"
 #include "zwidth/error.hpp"
@@ -182,6 +184,23 @@ TEST(TwoRates, AnIntervalIsThatOfTheTwoRates) {
   EXPECT_GE(interval.upper, limit);
   EXPECT_GT(interval.upper, interval.lower);
   EXPECT_LT(interval.upper / interval.lower, 1.05);
+}
+
+TEST(TwoRates, UncertainTimesOfEitherLoop) {
+  DeviceParameters parameters = lhifam(1e-3, 1e-4, 100.0, 1e4).parameters();
+  parameters.uncertainty = Uncertainty{.parameters = {"loop.sampling_period", "loop.damper.delay", "body.handle.mass"},
+                                       .covariance = {{1e-10, 0.0, 0.0}, {0.0, 1e-12, 0.0}, {0.0, 0.0, 0.01}}};
+  const Device device(parameters);
+  EXPECT_EQ(with_one_rate(device).parameters().uncertainty->parameters,
+            (std::vector<std::string>{"loop.sampling_period", "body.handle.mass"}));
+  const Uncertainty of_damper = *with_loop_of_damper(device).parameters().uncertainty;
+  EXPECT_EQ(of_damper.parameters, (std::vector<std::string>{"loop.delay", "body.handle.mass"}));
+  EXPECT_EQ(of_damper.covariance, (std::vector<std::vector<double>>{{1e-12, 0.0}, {0.0, 0.01}}));
+  const Analysis analysis = analyze(device, {.draws = 100});
+  ASSERT_TRUE(analysis.interval.has_value());
+  EXPECT_LT(analysis.interval->lower, analysis.critical.stiffness);
+  EXPECT_GT(analysis.interval->upper, analysis.critical.stiffness);
+  EXPECT_TRUE(analysis.limits.nobody.critical_damping.has_value());
 }
 
 TEST(TwoRates, WhatKnowsOneRateAloneRefuses) {
