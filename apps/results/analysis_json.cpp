@@ -27,6 +27,8 @@ Json absolute_stability_json(const Analysis& analysis) {
 Json wall_json(const Analysis& analysis) {
   Json json = analysis.wall;
   if (!analysis.wall) return json;
+  json["spring_delay_margin_s"] = analysis.wall->spring_delay_margin;
+  json["damper_delay_margin_s"] = analysis.wall->damper_delay_margin;
   json["stable"] = stability_of(*analysis.wall_stable_for) != WallStability::unstable;
   json["stable_for"] = analysis.wall_stable_for;
   json["disk_margin"] = analysis.disk_margin;

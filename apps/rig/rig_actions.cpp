@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rig/action_steps.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
@@ -217,6 +218,7 @@ RigIdentification identify_on_rig(const Device& device, Driver& driver, const Ri
 }
 
 RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options, const WallOptions& wall) {
+  require_one_rate(device);
   RigWall result;
   result.controller = wall.controller;
   result.predicted = critical_stiffness(device);
@@ -259,6 +261,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
 
 RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options, const LimitOptions& limit,
                        const Progress& progress) {
+  require_one_rate(device);
   RigLimit result;
   result.predicted = critical_stiffness(device);
   if (device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability) {

@@ -32,11 +32,14 @@ enum class FindingCode : std::uint16_t {
   margins_contradict,            ///< two computations contradict each other on phase, delay and disk margin
   disk_margin_contradicts,       ///< the disk margin is larger than gain and phase margins allow
   disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
+  too_many_states_for_damper,    ///< a damper slower than its spring, whose loop has too many states to follow
+  left_out_beside_damper_loop,   ///< what is not given where the damper runs in a loop of its own
   critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
   unstable_with_nobody,          ///< the file's user alone keeps the wall stable
   stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
   damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
   too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
+  any_user_limit_scanned,        ///< the limit over all passive users is the least of a scan, not shown to be the least
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed
   any_user_limit_lowered,             ///< a tuned user destabilises softer walls than the bound found: it is lowered
   any_user_limit_loose,               ///< the bound is proven to a share only, which is taken off

@@ -338,6 +338,9 @@ enum class ProblemCode : std::uint16_t {
   no_body_at_all,                 ///< a device without bodies and transfer function
   no_such_body,                   ///< no body of the device is called that
   delay_of_too_many_periods,      ///< a delay of more sampling periods than are kept
+  no_whole_ratio,                 ///< a damper's period is no whole part or multiple of the loop's
+  filters_beside_damper_loop,     ///< filters of the wall's force, whose damper runs in a loop of its own
+  damper_loop_not_known,          ///< a computation that knows one rate alone
   travel_per_turn_missing,        ///< a linear device's drive without its travel per turn
   no_letter,                      ///< a drive's command is not one letter
   filter_not_stable,              ///< a filter's pole does not die out

@@ -47,6 +47,7 @@
 #include "zwidth/io/recording_file.hpp"
 #include "zwidth/io/study_file.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/device_key.hpp"
 #include "zwidth/model/device_trust.hpp"

@@ -6,6 +6,7 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 
@@ -17,6 +18,7 @@ std::optional<OptionProblem> find_problem(const DesignOptions& options) {
 }
 
 Design design(const Device& device, const DesignOptions& options) {
+  require_one_rate(device);
   internal::require_valid(find_problem(options));
   Design design;
   internal::StagedProgress stages(options.progress);

@@ -17,6 +17,7 @@
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -251,6 +252,7 @@ Identification identify(const Recording& recording, const Device& structure, con
 
 Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
+  require_one_rate(structure);
   require_valid(find_problem(options));
   check_motion(recordings, structure, options);
   const MeasuredResponse measured = response_with_enough_lines(recordings, structure, options, {});
@@ -261,11 +263,13 @@ Identification identify(std::span<const Recording> recordings, const Device& str
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
+  require_one_rate(structure);
   require_valid(find_problem(options));
   return identified_by_lines(measured, structure, options);
 }
 
 Identification identify_from_limits(const Device& structure, const IdentifyOptions& options) {
+  require_one_rate(structure);
   require_valid(find_problem(options));
   if (options.limits.empty()) refuse_member("limits", "has none", "must be one at least");
   const auto fitted = fit_lines({.structure = structure,

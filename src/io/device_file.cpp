@@ -18,6 +18,7 @@
 #include "io/toml_text.hpp"
 #include "io/wall_filter_reading.hpp"
 #include "zwidth/io/message_words.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -122,6 +123,7 @@ class DeviceReader {
     device_.loop.sensed = loop_body(reader, "sensed", 0);
     device_.loop.held = loop_body(reader, "held", device_.bodies.empty() ? 0 : device_.bodies.size() - 1);
     read_members(reader, DeviceTable::loop, device_.loop);
+    if (reader.has("damper")) read_table(reader, DeviceTable::loop_damper, device_.loop.damper.emplace());
   }
 
   void read_loop_parts() {
@@ -139,7 +141,7 @@ class DeviceReader {
   void read_velocity_filter_tau(TableReader& wall) {
     const std::optional<double> tau = wall.number("velocity_filter_tau", Measure::time);
     if (!tau) return;
-    const double period = device_.loop.sampling_period;
+    const double period = damper_timing(device_.loop).sampling_period;
     constexpr double longest_time_constant = 1e29;  // its cutoff is a number that a device may have
     if (wall.has("velocity_filter_hz")) {
       wall.refuse("velocity_filter_tau",

@@ -73,6 +73,9 @@ void DeviceReading::refuse(const DeviceProblem& problem) {
   }
   InputProblem told{{}, problem.what, problem.allowed, {}};
   told.problem = problem.problem;
+  if (problem.problem && problem.problem->code == ProblemCode::no_whole_ratio) {
+    told.suggestion = fmt::format("{}", problem.problem->evidence.back().value);
+  }
   refuse(found == places_.end() ? toml::source_region{} : found->second, named, std::move(told));
 }
 

@@ -137,6 +137,7 @@ std::string write_device(const DeviceParameters& parameters) {
     out.value("held", text_value(device.bodies[device.loop.held].name));
   }
   out.members(DeviceTable::loop, device.loop);
+  if (device.loop.damper) out.table(DeviceTable::loop_damper, *device.loop.damper);
   out.table(DeviceTable::actuator, device.actuator);
   out.table(DeviceTable::sensor, device.sensor);
   out.table(DeviceTable::wall, device.wall);

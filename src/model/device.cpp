@@ -10,8 +10,10 @@
 
 #include "counted.hpp"
 #include "model/key_members.hpp"
+#include "model/one_rate.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -238,6 +240,33 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
   }
 }
 
+void check_damper(const DeviceParameters& parameters, Checks& checks) {
+  const Loop& loop = parameters.loop;
+  if (!loop.damper) return;
+  checks.numbers(DeviceTable::loop_damper, "loop.damper", *loop.damper);
+  const auto [period, delay] = damper_timing(loop);
+  if (!positive_numbers.contains(loop.sampling_period) || !positive_numbers.contains(period)) return;
+  constexpr double rounding = 1e-9;
+  const double ratio = rate_ratio(loop.sampling_period, period);
+  const double nearest = loop.sampling_period / std::clamp(ratio, 1.0 / max_rate_ratio, max_rate_ratio);
+  if (!(std::abs(period - nearest) <= rounding * nearest)) {
+    checks.refuse(
+        "loop.damper.sampling_period",
+        {.code = ProblemCode::no_whole_ratio,
+         .evidence = {
+             {"value", period}, {"period", loop.sampling_period}, {"most", max_rate_ratio}, {"nearest", nearest}}});
+  }
+  for (const auto& [key, value] : {std::pair{"loop.damper.delay", delay}, std::pair{"loop.delay", loop.delay}}) {
+    const double shorter = std::min(period, loop.sampling_period);
+    if (!(value > max_delay_samples * shorter)) continue;
+    checks.refuse(key, {.code = ProblemCode::delay_of_too_many_periods,
+                        .evidence = {{"delay", value}, {"periods", value / shorter}, {"most", max_delay_samples}}});
+  }
+  if (has_damper_loop(loop) && !parameters.wall.filters.empty()) {
+    checks.refuse("wall.filter", {.code = ProblemCode::filters_beside_damper_loop});
+  }
+}
+
 void check_filters(const DeviceParameters& parameters, Checks& checks) {
   const std::vector<WallFilter>& filters = parameters.wall.filters;
   if (filters.size() > max_wall_filters) {
@@ -287,6 +316,7 @@ std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameter
     check_links(parameters, checks);
   }
   check_loop(parameters, checks);
+  check_damper(parameters, checks);
   check_loop_parts(parameters, checks);
   return std::move(checks).problems();
 }

@@ -16,8 +16,9 @@ namespace zwidth::internal {
 using KeyMember =
     std::variant<std::monostate, double Body::*, double Link::*, double Loop::*, double Actuator::*, double Sensor::*,
                  double Wall::*, double WallFilter::*, double User::*, double MotorDrive::*,
-                 std::optional<double> Actuator::*, std::optional<double> Wall::*, std::optional<double> MotorDrive::*,
-                 int WallFilter::*, std::optional<int> MotorDrive::*, std::string MotorDrive::*>;
+                 std::optional<double> LoopDamper::*, std::optional<double> Actuator::*, std::optional<double> Wall::*,
+                 std::optional<double> MotorDrive::*, int WallFilter::*, std::optional<int> MotorDrive::*,
+                 std::string MotorDrive::*>;
 
 template <typename Member, typename... Members>
 constexpr bool is_member_of(std::type_identity<std::variant<Members...>>) {

@@ -11,10 +11,10 @@
 #include "counted.hpp"
 #include "model/device_matrices.hpp"
 #include "model/exact_modal_form.hpp"
+#include "model/found_poles.hpp"
 #include "model/modal_forms.hpp"
 #include "model/partial_fractions.hpp"
 #include "model/pencil.hpp"
-#include "model/pole_search.hpp"
 #include "model/pole_starts.hpp"
 #include "model/poles_at_zero.hpp"
 #include "zwidth/error.hpp"
@@ -34,41 +34,6 @@ namespace {
 using ComplexD = Complex<double>;
 using ComplexX = Complex<Extended>;
 using partial_fractions::expand;
-
-// Sweeps in double bring the roots near; sweeps in double-double finish. A simple root converges cubically, so a last
-// step of `last_step` leaves an error below last_step² times the root's condition; multiple roots converge linearly
-// and are refined by contour integrals (partial_fractions).
-constexpr int max_sweeps_in_double = 12;
-constexpr int max_sweeps_in_extended = 80;
-constexpr double last_step = 1e-13;
-constexpr double unresolved_step = 1e-3;
-
-// All non-zero roots of both pencils (the same function in two precisions) from starting values.
-template <typename Pencil, typename PencilX>
-std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start) {
-  // Off the real axis, which the iteration would never leave, and distinct: coincident values would move together.
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    if (start[i].im == 0.0) start[i].im = (i % 2 == 0 ? 1e-3 : -1e-3) * start[i].re;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (magnitude(start[i] - start[j]) <= 1e-6 * magnitude(start[i])) {
-        start[i] *= ComplexD(1.0 + 1e-3 * static_cast<double>(i + 1), 2e-3 * static_cast<double>(i + 1));
-      }
-    }
-  }
-  std::vector<ComplexD> rough = start;
-  improve_roots(pencil, rough, 1e-9, max_sweeps_in_double);
-  std::vector<ComplexX> roots;
-  roots.reserve(rough.size());
-  for (std::size_t i = 0; i < rough.size(); ++i) {
-    const double size = magnitude(rough[i]);
-    roots.emplace_back(std::isfinite(size) && size > 0.0 ? rough[i] : start[i]);
-  }
-  const double step = improve_roots(extended, roots, last_step, max_sweeps_in_extended);
-  if (!(step <= unresolved_step)) {
-    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
-  }
-  return roots;
-}
 
 // Where terms exceed their sum by more than the first it is held against G itself; by more, too few digits are left.
 constexpr double checked_cancellation = 1e5;

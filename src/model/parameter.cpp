@@ -33,6 +33,12 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   for (auto& body : parameters.bodies) visit_table(DeviceTable::body, "body." + body.name, body);
   visit_tables(DeviceTable::link, parameters.links);
   visit_table(DeviceTable::loop, "loop", parameters.loop);
+  // A damper that has no numbers of its own is none.
+  LoopDamper damper = parameters.loop.damper.value_or(LoopDamper{});
+  visit_table(DeviceTable::loop_damper, "loop.damper", damper);
+  if constexpr (!std::is_const_v<Parameters>) {
+    if (damper.sampling_period || damper.delay) parameters.loop.damper = damper;
+  }
   visit_table(DeviceTable::actuator, "actuator", parameters.actuator);
   visit_table(DeviceTable::sensor, "sensor", parameters.sensor);
   visit_table(DeviceTable::wall, "wall", parameters.wall);

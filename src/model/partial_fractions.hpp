@@ -79,8 +79,9 @@ ComplexX analytic_value(const Pencil& pencil, const PoleGroup& group, const Comp
          Extended(0.25);
 }
 
-// Two real poles: N = f(first) + f[first, second] (s - first); close together, with q = (half their gap)² and Taylor
-// coefficients f_j about their middle c, N = sum f_2k q^k + (s - c) sum f_2k+1 q^k.
+// Two real poles, or a pair of conjugates: N = f(first) + f[first, second] (s - first); close together, with
+// q = (half their gap)², < 0 of conjugates, and Taylor coefficients f_j about their middle c,
+// N = sum f_2k q^k + (s - c) sum f_2k+1 q^k.
 template <typename Pencil>
 PolynomialX pair_numerator(const Pencil& pencil, const PoleGroup& group, double nearest) {
   const ComplexX& first = group.poles[0];
@@ -103,7 +104,8 @@ PolynomialX pair_numerator(const Pencil& pencil, const PoleGroup& group, double 
     }
   }
   const Extended half_gap = (first.re - second.re) * Extended(0.5) / radius;
-  const Extended q = half_gap * half_gap;
+  const Extended half_height = (first.im - second.im) * Extended(0.5) / radius;  // of a pair of conjugates
+  const Extended q = half_gap * half_gap - half_height * half_height;
   Extended value(0.0);
   Extended slope(0.0);
   for (std::size_t j = taylor_terms; j >= 2; j -= 2) {

@@ -8,10 +8,12 @@
 #include "sampling/exact_sampling.hpp"
 #include "sampling/extended_sampling.hpp"
 #include "sampling/hold_integrals.hpp"
+#include "sampling/plant_of_terms.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "sampling/term_on_circle.hpp"
 #include "sampling/unit_circle.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -69,17 +71,6 @@ bool is_seen(const ModalTerm& term) {
   return std::any_of(term.numerator, term.numerator + term.degree, [](double n) { return n != 0.0; });
 }
 
-void round_into(const ExtendedTerm& term, SampledTerm& sampled) {
-  const auto round = [](const Extended& exact, double& rounded, double& rest) {
-    rounded = leading(exact);
-    rest = leading(exact - Extended(rounded));
-  };
-  for (std::size_t i = 0; i <= sampled.degree; ++i)
-    round(term.numerator[i], sampled.numerator[i], sampled.numerator_rest[i]);
-  for (std::size_t i = 0; i < sampled.degree; ++i)
-    round(term.denominator[i], sampled.denominator[i], sampled.denominator_rest[i]);
-}
-
 // Whether rounding of the coefficients to double could move the poles noticeably towards or across the unit circle: they
 // are cos and sin of an angle of wT, or its square where that is small, less a decay of c1 T.
 bool is_near_circle(const ModalTerm& term, double period) {
@@ -90,11 +81,6 @@ bool is_near_circle(const ModalTerm& term, double period) {
          4.0 * term.denominator[0] > term.denominator[1] * term.denominator[1];
 }
 
-// Terms of crowded poles are beyond double-double.
-ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& instants) {
-  return term.degree > 2 ? sample_exactly(term, instants) : sample_extended(term, instants);
-}
-
 // Fills in what rounding to double left out of the coefficients.
 void keep_rests(const ModalForm& form, const SamplingInstants& instants, SampledPlant& plant) {
   auto sampled = plant.terms.begin();
@@ -102,63 +88,6 @@ void keep_rests(const ModalForm& form, const SamplingInstants& instants, Sampled
     if (is_seen(term)) round_into(sample_precisely(term, instants), *sampled++);
   }
 }
-
-// Products of a few terms must stay in range: an unstable pole may grow that much within one period.
-void check_range(const SampledTerm& sampled) {
-  constexpr double largest = 1e60;
-  const auto in_range = [](double c) { return std::abs(c) <= largest; };
-  if (!std::all_of(sampled.numerator, sampled.numerator + sampled.degree + 1, in_range) ||
-      !std::all_of(sampled.denominator, sampled.denominator + sampled.degree, in_range)) {
-    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::response_out_of_range});
-  }
-}
-
-// Looked at where it is worst, far above the modes.
-double worst_cancellation(const SampledPlant& plant) {
-  return std::max(cancellation(plant, std::numbers::pi / 3.0), cancellation(plant, 2.0 * std::numbers::pi / 3.0));
-}
-
-// The same near the poles of each term.
-double cancellation_at_poles(const SampledPlant& plant) {
-  double worst = 1.0;
-  for (const SampledTerm& term : plant.terms) {
-    const double distance = std::pow(std::abs(term.denominator[0]), 1.0 / static_cast<double>(term.degree));
-    if (!(distance > 0.0)) continue;
-    const double here = cancellation(plant, 2.0 * std::asin(std::min(0.5 * distance, 1.0)));
-    if (std::isfinite(here)) worst = std::max(worst, here);
-  }
-  return worst;
-}
-
-// The same at z = -1, for the coefficients within each numerator: a slow device's response nearly vanishes there.
-double cancellation_at_nyquist(const SampledPlant& plant) {
-  double sum = 0.0;
-  double size = 0.0;
-  for (const SampledTerm& term : plant.terms) {
-    double numerator = 0.0;
-    double numerator_size = 0.0;
-    double denominator = 1.0;
-    for (std::size_t i = term.degree + 1; i-- > 0;) {
-      numerator = -2.0 * numerator + term.numerator[i];
-      numerator_size = 2.0 * numerator_size + std::abs(term.numerator[i]);
-      if (i < term.degree) denominator = -2.0 * denominator + term.denominator[i];
-    }
-    sum += numerator / denominator;
-    size += std::abs(numerator_size / denominator);
-  }
-  return size / std::abs(sum);
-}
-
-// 1e-16 times this is what a stiffness at Nyquist may lose.
-constexpr double tolerable_cancellation_at_nyquist = 1e5;
-
-// The common numerator of more terms cancels in double, by powers of two.
-constexpr std::size_t rounded_terms = 6;
-
-// Beyond this loss the numerators are added up in double-double instead.
-constexpr double tolerable_cancellation = 1e3;
-// And beyond this one, near the poles, as one polynomial.
-constexpr double carried_cancellation = 1e7;
 
 }  // namespace
 
@@ -210,11 +139,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     for (const ModalTerm& term : form.terms)
       if (is_seen(term)) terms.push_back(sample_precisely(term, instants));
     if (sum_cancels) {
-      const bool keeps_rests = crowded || near_circle || terms.size() > rounded_terms;
-      for (const Extended& c : extended_common_numerator(terms)) {
-        plant.numerator.push_back(leading(c));
-        if (keeps_rests) plant.numerator_rest.push_back(leading(c - Extended(plant.numerator.back())));
-      }
+      add_up(terms, crowded || near_circle || terms.size() > rounded_terms, plant);
     }
     plant.at_nyquist = response_at_nyquist(terms, plant.delay_samples);
   }
@@ -235,6 +160,7 @@ FilteredPlant filtered_plant(FilteredPlant plant, const std::vector<WallFilter>&
 }
 
 FilteredPlant filtered_plant(const Device& device) {
+  require_one_rate(device);
   return filtered_plant(sampled_plant(device), device.parameters().wall.filters);
 }
 
@@ -251,17 +177,6 @@ std::complex<double> response(const SampledTerm& term, double angle) {
   const OnCircle<double> product = multiply(numerator, conj(denominator), point);
   const double scale = 1.0 / squared_magnitude(denominator, point);
   return {product.even * scale, product.odd * std::sin(angle) * scale};
-}
-
-double internal::cancellation(const SampledPlant& plant, double angle) {
-  std::complex<double> sum = 0.0;
-  double size = 0.0;
-  for (const SampledTerm& term : plant.terms) {
-    const std::complex<double> value = response(term, angle);
-    sum += value;
-    size += std::abs(value);
-  }
-  return size / std::abs(sum);
 }
 
 std::complex<double> response(const SampledPlant& plant, double frequency) {

@@ -12,6 +12,7 @@
 #include "simulation/continuous_motion.hpp"
 #include "simulation/simulation_setup.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -38,6 +39,8 @@ OutsideForce outside_force(const UserForce& force) {
 void check(const Device& device, const HybridLoopOptions& options) {
   check_bodies(device, options);
   require_valid(find_problem(options, device));
+  const ControllerOptions& controller = options.controller;
+  if (controller.kind == ControllerOptions::Kind::wall && controller.damping > 0.0) require_one_rate(device);
 }
 
 /// Forces on their way to the device, in the order of their arrival: a ring that never grows.

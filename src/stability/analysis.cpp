@@ -9,10 +9,12 @@
 #include "model/implausible_numbers.hpp"
 #include "require_valid.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
-#include "stability/margins/confirmed_margins.hpp"
 #include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/two_rate_users.hpp"
+#include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
@@ -47,6 +49,7 @@ RigidApproximation rigid_approximation(const Device& device, const CriticalStiff
   parameters.bodies.push_back({"body", rigid.mass, rigid.damping, rigid.stiffness, 0.0});
   parameters.loop.sampling_period = device.loop().sampling_period;
   parameters.loop.delay = device.loop().delay;
+  parameters.loop.damper = device.loop().damper;
   parameters.actuator = device.parameters().actuator;
   parameters.wall.filters = device.parameters().wall.filters;
   parameters.wall.damping = device.parameters().wall.damping;
@@ -58,10 +61,14 @@ RigidApproximation rigid_approximation(const Device& device, const CriticalStiff
   return rigid;
 }
 
-std::optional<QCriterion> q_criterion(const Device& device, const RigidApproximation& rigid) {
+std::optional<QCriterion> q_criterion(const Device& device, const RigidApproximation& rigid, Analysis& analysis) {
   const std::optional<TwoMass> two = as_two_mass(device);
   const Wall& wall = device.parameters().wall;
   if (!two || !wall.filters.empty()) return std::nullopt;
+  if (has_damper_loop(device.loop())) {
+    analysis.remarks.push_back(left_out_beside_damper_loop("q"));
+    return std::nullopt;
+  }
   const TwoMassFactors factors = two_mass_factors(*two);
   QCriterion criterion{.stiffness = two->motor_mass * factors.z_n * factors.omega_n};  // eq. 24
   if (wall.damping == 0.0 && device.loop().sensed == device.loop().actuated &&
@@ -71,48 +78,6 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
     criterion.is_similar = criterion.stiffness <= similar * rigid.critical.stiffness;
   }
   return criterion;
-}
-
-/// Of a wall many powers of ten below all limits its search does not settle: nothing else is lost by that.
-void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& analysis) {
-  if (!analysis.wall->stable) return;
-  try {
-    analysis.disk_margin = disk_margin_of_stable(plant, wall);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::did_not_converge) throw;
-    analysis.remarks.push_back(note({FindingCode::disk_margin_left_out}));
-  }
-}
-
-/// The wall given, and whether the second route agrees on it. Within rounding of a crossover there is nothing to agree
-/// on.
-void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCount& poles, Analysis& analysis) {
-  analysis.wall = wall_margins(device);
-  const double stiffness = analysis.wall->stiffness;
-  constexpr double on_crossover = 1e-6;
-  const double damping = analysis.wall->damping;
-  const auto near = [&](const Crossover& each) { return std::abs(each.stiffness / stiffness - 1.0) <= on_crossover; };
-  const auto near_damping = [&](const DampingCrossover& each) {
-    return std::abs(each.damping / damping - 1.0) <= on_crossover;
-  };
-  if (stiffness > 0.0) {
-    if (std::ranges::any_of(analysis.critical.crossovers, near)) return;
-    distrust(agreement(poles, stiffness, analysis.wall->stable), stiffness, analysis.trust);
-  } else {
-    if (damping == 0.0 || std::ranges::any_of(critical_damping(device).crossovers, near_damping)) return;
-    distrust(agreement(poles, weak_spring(device), analysis.wall->stable), stiffness, analysis.trust);
-  }
-  if (!analysis.trust.refused()) {
-    add_disk_margin(plant, device.parameters().wall, analysis);
-    confirm_margins(device, analysis);
-    return;
-  }
-  analysis.wall.reset();
-  analysis.critical.trust.inherit(analysis.trust);
-  withdraw(analysis.critical);
-  if (!analysis.rigid) return;
-  analysis.rigid->critical.trust.inherit(analysis.trust);
-  withdraw(analysis.rigid->critical);
 }
 
 /// A wall within the interval of the critical stiffness is stable for some of the devices that it allows.
@@ -207,10 +172,36 @@ void judge_absolute_stability(Analysis& analysis) {
   }
 }
 
+void answer_absolute_stability(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
+                               Analysis& analysis);
+
+/// The same of a damper in a loop of its own.
+void answer_beside_damper_loop(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
+                               Analysis& analysis) {
+  if (device.parameters().wall.damping == 0.0) {  // the spring runs alone
+    answer_absolute_stability(with_one_rate(device), options, stages, analysis);
+  } else {
+    const CriticalStiffness& nobody = analysis.alone ? analysis.alone->critical : analysis.critical;
+    analysis.any_user = two_rate_absolute_stability(device, nobody);
+    if (!analysis.any_user) return analysis.remarks.push_back(left_out_beside_damper_loop("any_user"));
+    analysis.remarks.push_back(note({.code = FindingCode::any_user_limit_scanned}));
+    analysis.trust.inherit(analysis.any_user->trust);
+    HolderLimit& limit = analysis.limits.any_user.emplace();
+    limit.critical_stiffness = analysis.any_user->stiffness;
+    if (analysis.any_user->frequency > 0.0) limit.frequency = analysis.any_user->frequency;
+  }
+  if (!analysis.limits.any_user || !options.critical_damping) return;
+  const AbsoluteStabilityDamping of_damper = absolute_stability_damping(device);
+  HolderLimit& limit = *analysis.limits.any_user;
+  limit.critical_damping.reset();
+  limit.damping_frequency.reset();
+  if (of_damper.trust.sound()) limit.critical_damping = of_damper.damping;
+  if (of_damper.damping > 0.0 && std::isfinite(of_damper.damping)) limit.damping_frequency = of_damper.frequency;
+}
+
 /// The limit over all passive users, of the stiffness and of the damper alone.
 void answer_absolute_stability(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                                Analysis& analysis) {
-  const VirtualDamper damper = virtual_damper(device);
   if (device.bodies().size() > most_bodies_for_absolute_stability) {
     analysis.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user,
                                      .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
@@ -219,6 +210,8 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
   }
   // That limit rests on the critical stiffness of the device that nobody holds.
   if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
+  if (has_damper_loop(device.loop())) return answer_beside_damper_loop(device, options, stages, analysis);
+  const VirtualDamper damper = virtual_damper(device);
   AbsoluteStabilitySearch search(device, stages.stage());
   analysis.any_user = search.limit(damper, stages.stage());
   stages.next(0.4);
@@ -287,6 +280,7 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
   if (!device.has_bodies()) {
     return option_problem(asked, {.code = ProblemCode::no_body_to_hold});
   }
+  if (has_damper_loop(device.loop())) return option_problem(asked, {.code = ProblemCode::damper_loop_not_known});
   if (options.worst_user && device.bodies().size() > most_bodies_for_absolute_stability) {
     return option_problem("worst_user", {.code = ProblemCode::too_many_bodies,
                                          .evidence = {counted("bodies", device.bodies().size()),
@@ -298,24 +292,27 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
 Analysis analyze(const Device& device, const AnalysisOptions& options) {
   require_valid(find_problem(options, device));
   ModalForm form = modal_form(device);
-  const FilteredPlant plant = filtered_plant(sample(form, {device.loop().sampling_period, device.loop().delay}),
-                                             device.parameters().wall.filters);
   Analysis analysis;
   analysis.remarks = implausible_numbers(device);
   StagedProgress stages(options.progress);
   stages.next(0.05);
-  const PoleCount poles(device);
-  analysis.critical = guarded_stiffness(device, plant, poles);
+  std::optional<OneRate> one_rate;
+  if (!has_damper_loop(device.loop())) one_rate.emplace(device, form);
+  analysis.critical =
+      one_rate ? guarded_stiffness(device, one_rate->plant, one_rate->poles) : critical_stiffness(device);
   analysis.trust = analysis.critical.trust;
   analysis.modes = std::move(form.modes);
   analysis.suspended_rigid_body = form.suspended_rigid_body;
   if (device.has_bodies()) {
     analysis.rigid = rigid_approximation(device, analysis.critical);
-    analysis.q_criterion = q_criterion(device, *analysis.rigid);
+    analysis.q_criterion = q_criterion(device, *analysis.rigid, analysis);
   }
   stages.next(0.1);
   if (analysis.trust.refused()) return analysis;
-  if (device.parameters().wall.stiffness) judge_wall(device, plant, poles, analysis);
+  if (device.parameters().wall.stiffness) {
+    if (one_rate) judge_wall(device, one_rate->plant, one_rate->poles, analysis);
+    if (!one_rate) judge_two_rate_wall(device, analysis);
+  }
   if (analysis.trust.refused()) return analysis;
   stages.next(0.3);
   analysis.force_per_count = force_per_count(device);

@@ -7,6 +7,7 @@
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 
 namespace zwidth {
@@ -74,6 +75,7 @@ double internal::weak_spring(const Device& device) {
 }
 
 CriticalDamping critical_damping(const Device& device) {
+  if (has_damper_loop(device.loop())) return critical_damping(with_loop_of_damper(device));
   const FilteredPlant plant = filtered_plant(device);
   const VirtualDamper unit{1.0, device.parameters().wall.velocity_filter_hz};
   CriticalDamping result;
@@ -90,6 +92,7 @@ CriticalDamping critical_damping(const Device& device) {
 }
 
 AbsoluteStabilityDamping absolute_stability_damping(const Device& device, const Progress& progress) {
+  if (has_damper_loop(device.loop())) return absolute_stability_damping(with_loop_of_damper(device), progress);
   AbsoluteStabilitySearch search(device, progress);
   AbsoluteStabilityLimit limit = search.damping_limit(device.parameters().wall.velocity_filter_hz, progress);
   return {limit.stiffness, limit.frequency, limit.truncation, limit.needs_no_user, std::move(limit.trust)};

@@ -9,6 +9,8 @@
 
 #include "eigenvalues.hpp"
 #include "model/key_members.hpp"
+#include "model/one_rate.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -46,6 +48,12 @@ Eigen::MatrixXd square_root(Eigen::MatrixXd matrix) {
   }
   const SymmetricEigen eigen = symmetric_eigen(matrix);
   return deviation.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+/// The damper's period stays the part or multiple of the spring's that it is.
+void keep_ratio(const Loop& of_device, Loop& drawn) {
+  const double ratio = rate_ratio(of_device.sampling_period, damper_timing(of_device).sampling_period);
+  if (drawn.damper->sampling_period) drawn.damper->sampling_period = drawn.sampling_period / ratio;
 }
 
 }  // namespace
@@ -114,6 +122,7 @@ Device DeviceDraws::next() {
     if (shifts(k) == 0.0) continue;
     set_parameter(drawn, keys[i], std::clamp(mean + std::max(shifts(k), bounds_(k)), smallest_value, largest_value));
   }
+  if (drawn.loop.damper) keep_ratio(device_.loop(), drawn.loop);
   drawn.loop.delay = std::min(drawn.loop.delay, max_delay_samples * drawn.loop.sampling_period);
   return Device(std::move(drawn));
 }

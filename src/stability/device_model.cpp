@@ -2,9 +2,12 @@
 
 #include <utility>
 
+#include "zwidth/model/damper_timing.hpp"
+
 namespace zwidth {
 
 DeviceModel device_model(const Device& device) {
+  require_one_rate(device);
   ContinuousStateSpace continuous = state_space(device);
   DiscreteStateSpace discrete = sample(continuous, {device.loop().sampling_period, device.loop().delay});
   std::optional<DiscreteStateSpace> with_states;

@@ -9,6 +9,7 @@
 #include "batch/kernel/kernel_columns.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "stability/device_draws.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -26,7 +27,7 @@ struct Limit {
 };
 
 Limit limit_of(const Device& device) {
-  const CriticalStiffness critical = critical_stiffness(filtered_plant(device), virtual_damper(device));
+  const CriticalStiffness critical = internal::unguarded_stiffness(device);
   if (!critical.limit) return {critical.stiffness, std::nullopt};
   return {critical.stiffness, critical.limit->limited_by.mode};
 }

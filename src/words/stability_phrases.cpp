@@ -44,6 +44,15 @@ std::span<const Phrase> stability_phrases() {
              "the disk margin is left out: the wall is too far below every limit for its search to end",
              "the gain, phase and delay margins of the wall stand",
              "judge this wall by those, or give a stiffness nearer to the limits"},
+      Phrase{too_many_states_for_damper, "too_many_states_for_damper", refusal,
+             "the damper runs slower than the spring, and the loop over the damper's period has {states:n} states: no "
+             "more than {most:n} are followed, so no limit is given",
+             "", "shorten the delay of the spring, or run it less often"},
+      Phrase{left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
+             "{?what=disk|the disk margin}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
+             "limit over all passive users} is left "
+             "out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
+             "apart"},
       Phrase{critical_damping_left_out, "critical_damping_left_out", note,
              "the largest damper without a spring is left out", "{reason}",
              "simulate such a damper before it is rendered"},
@@ -60,6 +69,10 @@ std::span<const Phrase> stability_phrases() {
       Phrase{too_many_bodies_for_any_user, "too_many_bodies_for_any_user", note,
              "the limit over all passive users is not computed for {bodies:n} bodies; at most {most:n}",
              "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"},
+      Phrase{
+          any_user_limit_scanned, "any_user_limit_scanned", note,
+          "the limit for any passive user is the least at the frequencies looked at, and not shown to be the least in "
+          "between, as it is where spring and damper run in one loop"},
       Phrase{any_user_limit_may_miss_frequency, "any_user_limit_may_miss_frequency", doubt,
              "the limit for any passive user may be missed at a frequency at which the damped bodies hardly move: give "
              "the other bodies some damping, or join bodies that move as one"},

@@ -83,7 +83,7 @@ const BadText texts[] = {
     {"key_of_another_table",
      body_text("delay = 1"),
      {{"f.toml", 4, 1, "body.a.delay"},
-      {.code = ProblemCode::unknown_key, .subjects = {{"name", "delay"}, {"homes", "[loop]"}}}}},
+      {.code = ProblemCode::unknown_key, .subjects = {{"name", "delay"}, {"homes", "[loop] or [loop.damper]"}}}}},
     {"key_of_several_tables",
      body_text("") + loop_text("stiffness = 1"),
      {{"f.toml", 7, 1, "loop.stiffness"},

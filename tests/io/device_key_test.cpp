@@ -19,7 +19,7 @@ tl::expected<Device, InputError> with_key(const DeviceKey& key, const std::strin
   const bool is_rotary = key.name == "inertia";
   const std::string text = fmt::format(
       "motion = \"{}\"\n[[body]]\nname = \"a\"\nmass = 1\n[[body]]\nname = \"b\"\nmass = 1\n[[link]]\n"
-      "between = [\"a\", \"b\"]\nstiffness = 5\ndamping = 5\n[loop]\nsampling_period = 0.1\n[driver]\ntravel = 1\n",
+      "between = [\"a\", \"b\"]\nstiffness = 5\ndamping = 5\n[loop]\nsampling_period = 0.125\n[driver]\ntravel = 1\n",
       is_rotary ? "rotary" : "linear");
   const bool is_many = key.table == DeviceTable::body || key.table == DeviceTable::link;
   const std::vector<std::string> overrides{
@@ -44,7 +44,7 @@ TEST(DeviceKey, EveryNumberIsReadInItsUnitAndRefusedOutsideItsRange) {
     EXPECT_EQ(with_key(key, "0").has_value(), key.range->takes_zero) << key.name;
     EXPECT_FALSE(with_key(key, "\"1 furlong\"")) << key.name;
   }
-  EXPECT_EQ(count, 24);
+  EXPECT_EQ(count, 26);
 }
 
 TEST(DeviceKey, EveryNumberOfTheLoopIsAParameter) {

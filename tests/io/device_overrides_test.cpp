@@ -128,7 +128,7 @@ const BadOverride overrides[] = {
     {"key_without_table",
      "delay=1",
      {test::of_override("delay"),
-      {.code = ProblemCode::unknown_key, .subjects = {{"name", "delay"}, {"homes", "[loop]"}}}}},
+      {.code = ProblemCode::unknown_key, .subjects = {{"name", "delay"}, {"homes", "[loop] or [loop.damper]"}}}}},
     {"key_of_a_value",
      "motion.x=1",
      {test::of_override("motion.x"), {.code = ProblemCode::value_and_no_table, .subjects = {{"name", "motion"}}}}},

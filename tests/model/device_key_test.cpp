@@ -42,6 +42,7 @@ TEST(DeviceKey, DefaultsAreThoseOfTheModel) {
   EXPECT_EQ(stated_defaults<Body>(DeviceTable::body), 3);
   EXPECT_EQ(stated_defaults<Link>(DeviceTable::link), 2);
   EXPECT_EQ(stated_defaults<Loop>(DeviceTable::loop), 1);
+  EXPECT_EQ(stated_defaults<LoopDamper>(DeviceTable::loop_damper), 0);
   EXPECT_EQ(stated_defaults<Actuator>(DeviceTable::actuator), 1);
   EXPECT_EQ(stated_defaults<Sensor>(DeviceTable::sensor), 1);
   EXPECT_EQ(stated_defaults<Wall>(DeviceTable::wall), 2);
@@ -66,6 +67,7 @@ TEST(DeviceKey, TablesAreInTheirOrderAndEveryKeyStandsOnce) {
   EXPECT_EQ(path_of(DeviceTable::filter), "wall.filter");
   EXPECT_EQ(header_of(DeviceTable::filter), "[[wall.filter]]");
   EXPECT_EQ(header_of(DeviceTable::user), "[operator]");
+  EXPECT_EQ(header_of(DeviceTable::loop_damper), "[loop.damper]");
 }
 
 TEST(DeviceKey, RangesHoldTheirEnds) {

@@ -143,6 +143,42 @@ std::vector<Impossible> impossible() {
        0.0},
       {"negative_delay", [](auto& d) { d.loop.delay = -1e-3; }, "loop.delay", no_finite_number, -0.001},
       {"endless_delay", [](auto& d) { d.loop.delay = 10.01; }, "loop.delay", delay_of_too_many_periods, 10.01},
+      {"no_whole_part",
+       [](auto& d) {
+         d.loop.damper = LoopDamper{3e-4, {}};
+       },
+       "loop.damper.sampling_period", no_whole_ratio, 3e-4},
+      {"no_whole_multiple",
+       [](auto& d) {
+         d.loop.damper = LoopDamper{2.6e-3, {}};
+       },
+       "loop.damper.sampling_period", no_whole_ratio, 2.6e-3},
+      {"too_fast_damper",
+       [](auto& d) {
+         d.loop.damper = LoopDamper{1e-3 / 1001, {}};
+       },
+       "loop.damper.sampling_period", no_whole_ratio, 1e-3 / 1001},
+      {"zero_damper_period",
+       [](auto& d) {
+         d.loop.damper = LoopDamper{0.0, {}};
+       },
+       "loop.damper.sampling_period", no_finite_number, 0.0},
+      {"negative_damper_delay",
+       [](auto& d) {
+         d.loop.damper = LoopDamper{1e-4, -1e-4};
+       },
+       "loop.damper.delay", no_finite_number, -1e-4},
+      {"endless_damper_delay",
+       [](auto& d) {
+         d.loop.damper = LoopDamper{1e-4, 1.001};
+       },
+       "loop.damper.delay", delay_of_too_many_periods, 1.001},
+      {"filters_of_both",
+       [](auto& d) {
+         d.loop.damper = LoopDamper{1e-4, {}};
+         d.wall.filters.push_back({.kind = WallFilter::Kind::low_pass, .frequency_hz = 60.0});
+       },
+       "wall.filter", filters_beside_damper_loop},
       {"negative_time_constant", [](auto& d) { d.actuator.time_constant = -1.0; }, "actuator.time_constant",
        no_finite_number, -1.0},
       {"zero_force_limit", [](auto& d) { d.actuator.force_limit = 0.0; }, "actuator.force_limit", no_finite_number,

@@ -71,8 +71,8 @@ TEST(FindingsText, PutsRefusalsFirstThenTheLowestLimit) {
   EXPECT_EQ(found.remarks, "  ... 2 more, 2 of them against the numbers: add --explain\n");
   const std::string against = unwrapped(found.against);
   const std::size_t refusal = against.find(text(a_contradiction));
-  const std::size_t lower = against.find("1000");  // fitted, where 500 are proven
-  const std::size_t higher = against.find("1600");
+  const std::size_t lower = against.find(text(unsafe(500.0)));
+  const std::size_t higher = against.find(text(unsafe(800.0)));
   ASSERT_NE(higher, std::string::npos);
   EXPECT_LT(refusal, lower);
   EXPECT_LT(lower, higher);

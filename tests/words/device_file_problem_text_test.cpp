@@ -49,7 +49,8 @@ TEST(DeviceFileProblemText, SaysWhatIsMissing) {
 
 TEST(DeviceFileProblemText, SaysWhichKeyIsMeant) {
   EXPECT_EQ(told_of_body("dampin = 1"), "f.toml:4:1: body.a.dampin: unknown key \"dampin\"; did you mean \"damping\"?");
-  EXPECT_EQ(told_of_body("delay = 1"), "f.toml:4:1: body.a.delay: unknown key \"delay\"; it belongs in [loop]");
+  EXPECT_EQ(told_of_body("delay = 1"),
+            "f.toml:4:1: body.a.delay: unknown key \"delay\"; it belongs in [loop] or [loop.damper]");
   EXPECT_EQ(told_of_device(body_text("") + loop_text() + "[sensor]\ncolour = 3\n"),
             "f.toml:9:1: sensor.colour: unknown key \"colour\"; the keys of [sensor] are resolution");
   EXPECT_EQ(told_of_body("J = 1"),

@@ -63,7 +63,8 @@ void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t c
 
 /// A filter with a zero at z = -1 (every low-pass) takes the curve down without end: the last of it is not drawn.
 void cut_at_nyquist_zero(const Device& device, std::vector<BodePoint>& points) {
-  const std::vector<FilterSection> filters = filtered_plant(device).filters;
+  const std::vector<FilterSection> filters =
+      filtered_plant(sampled_plant(device), device.parameters().wall.filters).filters;
   if (std::ranges::all_of(filters, [](const FilterSection& each) { return each.nyquist_zeros == 0; })) return;
   constexpr double last_drawn = 0.99;
   if (points.empty() || points.front().frequency > last_drawn * nyquist(device)) return;

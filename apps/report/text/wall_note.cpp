@@ -102,6 +102,12 @@ void add_margins(const WallMargins& wall, std::vector<std::string>& margins) {
   }
   if (wall.phase_margin) margins.push_back(phase_text(*wall.phase_margin));
   if (wall.delay_margin) margins.push_back("delay margin " + quantity(*wall.delay_margin, "s") + " of further delay");
+  if (wall.spring_delay_margin) {
+    margins.push_back("delay margin of the spring alone " + quantity(*wall.spring_delay_margin, "s"));
+  }
+  if (wall.damper_delay_margin) {
+    margins.push_back("delay margin of the damper alone " + quantity(*wall.damper_delay_margin, "s"));
+  }
 }
 
 /// The margins with nobody holding beside those with the file's user, in one line.

@@ -41,13 +41,20 @@ struct TransferFunction {
   std::vector<double> denominator;  ///< by falling powers of s
 };
 
+/// The wall's damper in a loop of its own, as a drive closes it: how often it runs, and how late its force is.
+struct LoopDamper {
+  std::optional<double> sampling_period;  ///< s; > 0, a whole part or multiple of that of the loop; absent: the same
+  std::optional<double> delay;            ///< s, in addition to the zero-order hold; >= 0; absent: that of the loop
+};
+
 /// How the loop is closed around the device. Body members are indices into DeviceParameters::bodies.
 struct Loop {
-  std::size_t actuated = 0;      ///< the body that the actuator pushes
-  std::size_t sensed = 0;        ///< the body whose position is sampled
-  std::size_t held = 0;          ///< the body that the user holds
-  double sampling_period = 0.0;  ///< T, s; > 0
-  double delay = 0.0;            ///< t_d, s, in addition to the zero-order hold; >= 0
+  std::size_t actuated = 0;               ///< the body that the actuator pushes
+  std::size_t sensed = 0;                 ///< the body whose position is sampled
+  std::size_t held = 0;                   ///< the body that the user holds
+  double sampling_period = 0.0;           ///< T, s; > 0
+  double delay = 0.0;                     ///< t_d, s, in addition to the zero-order hold; >= 0
+  std::optional<LoopDamper> damper = {};  ///< absent: the damper runs with the spring
 };
 
 /// What is between the commanded force and the real one.
@@ -110,6 +117,7 @@ inline constexpr std::size_t max_degree = 100;                ///< of a transfer
 inline constexpr std::size_t max_name_size = 200;             ///< bytes
 inline constexpr std::size_t max_uncertain_parameters = 100;  ///< of a device
 inline constexpr double max_delay_samples = 10000;            ///< whole device: delay / sampling_period
+inline constexpr double max_rate_ratio = 1000;                ///< of the periods of spring and damper
 
 /// Finds the first impossible value, or nothing when the parameters make a device.
 ///
@@ -117,7 +125,9 @@ inline constexpr double max_delay_samples = 10000;            ///< whole device:
 /// (coefficients of a transfer function: 1e-100..1e100), so that no product of a few of them overflows; body names
 /// unique and not empty; link ends distinct and existing; every body connected to every other through links; either
 /// bodies or a transfer function; no user, link or second body with a transfer function; uncertain parameters
-/// known, present and each once, their covariance square, symmetric and positive semidefinite.
+/// known, present and each once, their covariance square, symmetric and positive semidefinite; the damper's own period a
+/// whole part or multiple of the loop's (to 1e-9), at most max_rate_ratio, and without filters of the wall where it is
+/// another.
 [[nodiscard]] std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters);
 
 /// The first problem of every key whose value is impossible, beside those of other keys: find_problem() without how the

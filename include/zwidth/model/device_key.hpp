@@ -13,6 +13,7 @@ enum class DeviceTable {
   body,               ///< [[body]]
   link,               ///< [[link]]
   loop,               ///< [loop]
+  loop_damper,        ///< [loop.damper]
   actuator,           ///< [actuator]
   sensor,             ///< [sensor]
   wall,               ///< [wall]

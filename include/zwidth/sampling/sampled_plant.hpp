@@ -83,6 +83,7 @@ class FilteredPlant : public SampledPlant {
 [[nodiscard]] FilteredPlant filtered_plant(FilteredPlant plant, const std::vector<WallFilter>& filters);
 
 /// filtered_plant() of sampled_plant() with the device's own wall.filters: what critical_stiffness() needs for a wall.
+/// Throws Error (invalid_argument) where the damper runs in a loop of its own: no one plant stands for both.
 [[nodiscard]] FilteredPlant filtered_plant(const Device& device);
 
 /// The product of the plant's filters at z = e^{j angle}; 1 without filters.

@@ -31,6 +31,9 @@ struct WallMargins : LoopMargins {
   double stiffness = 0.0;        ///< K
   double damping = 0.0;          ///< B
   double spectral_radius = 0.0;  ///< largest closed-loop |z|; with K = 0 but the pole at z = 1 of a free position
+  /// With a damper in a loop of its own, s: the least delay of the spring's force alone that destabilises
+  std::optional<double> spring_delay_margin = {};
+  std::optional<double> damper_delay_margin = {};  ///< the same of the damper's force alone
 };
 
 /// Margins of L(z) = C(z) P(z), C(z) = K + B v(z) as in Wall; every gain and phase crossover is found as in
@@ -47,6 +50,11 @@ struct WallMargins : LoopMargins {
 ///
 /// The delay margin is exact for any real delay: the least added delay at which a closed-loop pole of the plant sampled
 /// with that delay (modified z-transform) lies on the unit circle, over all crossovers.
+///
+/// With a damper in a loop of its own the loop is cut where the slower of spring and damper acts: the margins of gain and
+/// phase, and gain_crossovers, are of that force alone, the other one closed. The delay margin is of both forces at once, and
+/// each has one of its own; all are found by eigenvalues, and absent beyond 16 of the longer periods. The spectral radius is
+/// per sampling period of the spring.
 /// Throws Error (invalid_argument) when the device has no wall stiffness.
 [[nodiscard]] WallMargins wall_margins(const Device& device);
 

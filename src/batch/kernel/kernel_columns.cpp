@@ -38,9 +38,11 @@ struct GroupOf {
 KernelColumns::KernelColumns(const DeviceParameters& base, std::span<const ParameterValues> changes) {
   const std::size_t bodies = base.bodies.size();
   if (base.transfer_function || bodies == 0 || bodies > 2 || base.links.size() != bodies - 1 ||
-      !base.wall.filters.empty()) {
+      !base.wall.filters.empty() || base.loop.damper) {
     return;
   }
+  const auto is_of_damper = [](const ParameterValues& each) { return each.key.starts_with("loop.damper."); };
+  if (std::ranges::any_of(changes, is_of_damper)) return;
   suits_ = true;
   two_bodies_ = bodies == 2;
   collocated_ = base.loop.sensed == base.loop.actuated;

@@ -15,6 +15,7 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_key.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
@@ -216,6 +217,7 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
 }
 
 Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
+  require_one_rate(device);
   require_valid(find_problem(options, device));
   Diagnosis diagnosis;
   diagnosis.frequency = options.frequency;
@@ -248,6 +250,7 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
 }
 
 Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options) {
+  require_one_rate(device);
   require_valid(find_problem(options, device, recording));
   Diagnosis diagnosis;
   if (const auto found = recorded_oscillation(recording)) {

@@ -11,6 +11,7 @@
 #include "stability/limit/gain_crossings.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
@@ -145,6 +146,7 @@ std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffn
 }  // namespace
 
 std::vector<BranchSwitch> branch_switches(const Device& device, BranchSwitchOptions options) {
+  require_one_rate(device);
   if (!(options.factor > 1.0) || !std::isfinite(options.factor)) {
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::not_finite_and_above,
                                               .evidence = {{"value", options.factor}, {"bound", 1.0}},

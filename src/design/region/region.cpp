@@ -12,6 +12,7 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
@@ -118,6 +119,7 @@ std::optional<OptionProblem> find_problem(const RegionOptions& options) {
 }
 
 WallRegion region(const Device& device, const RegionOptions& options) {
+  require_one_rate(device);
   require_valid(find_problem(options));
   WallRegion result;
   StagedProgress stages(options.progress);

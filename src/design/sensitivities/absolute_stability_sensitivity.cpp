@@ -10,6 +10,7 @@
 #include "design/sensitivities/disc_sensitivity.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "zwidth/design/sensitivity.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -227,12 +228,14 @@ double checked_first_slope(const Device& free, const DesignParameter& parameter,
 }  // namespace
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device) {
+  require_one_rate(device);
   const Wall& wall = device.parameters().wall;
   return absolute_stability_sensitivities(device,
                                           absolute_stability_limit(device, {wall.damping, wall.velocity_filter_hz}));
 }
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device, const AbsoluteStabilityLimit& limit) {
+  require_one_rate(device);
   if (!(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) return {};
   const Device free = device_without_user(device);
   if (limit.needs_no_user) {

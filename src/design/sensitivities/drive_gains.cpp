@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "require_valid.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth {
@@ -228,6 +229,7 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
 }
 
 DriveGains drive_gains(const Device& device, DriveFirmware firmware, const DriveLoopOptions& options) {
+  require_one_rate(device);
   internal::require_valid(find_problem(firmware, device));
   internal::require_valid(find_problem(options, firmware, device));
   DriveGains gains;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
@@ -37,6 +38,7 @@ NumberLimit number_limit(const Device& device, WallNumber number) {
 }
 
 NumberLimit unchecked_number_limit(const Device& device, WallNumber number) {
+  require_one_rate(device);
   return number == WallNumber::stiffness
              ? of_stiffness(critical_stiffness(filtered_plant(device), virtual_damper(device)))
              : of_damping(critical_damping(device));

@@ -8,6 +8,7 @@
 #include "stability/limit/gain_locus.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth {
@@ -57,6 +58,7 @@ std::vector<Sensitivity> at_crossover(const Device& device, const SampledPlant& 
 }  // namespace
 
 std::vector<Sensitivity> stiffness_sensitivities(const Device& device) {
+  require_one_rate(device);
   const Wall& wall = device.parameters().wall;
   const SampledPlant plant = sampled_plant(device);
   const CriticalStiffness critical =
@@ -65,6 +67,7 @@ std::vector<Sensitivity> stiffness_sensitivities(const Device& device) {
 }
 
 std::vector<Sensitivity> stiffness_sensitivities(const Device& device, const CriticalStiffness& critical) {
+  require_one_rate(device);
   return critical.limit ? at_crossover(device, sampled_plant(device), *critical.limit) : std::vector<Sensitivity>{};
 }
 

@@ -9,6 +9,7 @@
 #include "design/synthesis/wall_limits.hpp"
 #include "design/synthesis/worst_case_screening.hpp"
 #include "stability/loop/damper_response.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_damping.hpp"
@@ -175,6 +176,7 @@ class DamperRecommendation {
 }  // namespace
 
 WallRecommendation recommend_damper(const Device& device, const RecommendationOptions& options) {
+  require_one_rate(device);
   return DamperRecommendation(device, options).answer();
 }
 

@@ -19,6 +19,7 @@
 #include "infinity.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -302,6 +303,7 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 }
 
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
+  require_one_rate(device);
   require_valid(find_problem(options, device));
   DesignTargets result;
   const NumberLimit own = number_limit(device, options.limit_of);

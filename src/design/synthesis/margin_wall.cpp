@@ -13,6 +13,7 @@
 #include "stability/margins/loops_of_stiffness.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
@@ -164,6 +165,7 @@ std::optional<OptionProblem> find_problem(const RequiredMargins& margins) {
 }
 
 double stiffest_wall(const Device& device, const RequiredMargins& margins) {
+  require_one_rate(device);
   const VirtualDamper damper = virtual_damper(device);
   StiffnessRange range;
   if (margins.any_user) range.at_most = absolute_stability_limit(device, damper).stiffness / margins.gain;
@@ -206,6 +208,7 @@ double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const Req
 }
 
 bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins) {
+  require_one_rate(device);
   const FilteredPlant plant = filtered_plant(device);
   const VirtualDamper damper = virtual_damper(device);
   const LoopsOfStiffness loops(plant, damper);

@@ -14,6 +14,7 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
@@ -215,6 +216,7 @@ double stiffest_wall(const Device& device, const NotchOptions& options) {
 }
 
 NotchDesign design_notch(const Device& device, const NotchOptions& options) {
+  require_one_rate(device);
   require_valid(find_problem(options, device));
   StagedProgress stages(options.progress);
   NotchOptions staged = options;

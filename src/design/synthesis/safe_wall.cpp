@@ -18,6 +18,7 @@
 #include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_region.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -272,6 +273,7 @@ std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
 }
 
 SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
+  require_one_rate(device);
   require_valid(find_problem(options));
   SafeWall wall;
   wall.trust = trust_of(device);

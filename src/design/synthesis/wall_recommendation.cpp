@@ -14,6 +14,7 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -372,6 +373,7 @@ std::optional<OptionProblem> find_problem(const RecommendationOptions& options, 
 }
 
 WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
+  require_one_rate(device);
   require_valid(find_problem(options, device));
   Trust trust = trust_of(device);
   if (trust.refused()) return refused(std::move(trust));

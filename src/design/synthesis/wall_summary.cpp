@@ -14,6 +14,7 @@
 #include "infinity.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth {
@@ -129,6 +130,11 @@ WallSummary wall_summary(const Device& device, const Analysis& analysis, const W
   WallSummary summary;
   if (analysis.trust.refused()) {
     summary.why_no_damper = summary.why_no_margins = Finding{.code = FindingCode::device_refused};
+    return summary;
+  }
+  if (has_damper_loop(device.loop())) {
+    summary.why_no_damper = summary.why_no_margins =
+        Finding{.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "damper"}}};
     return summary;
   }
   if (device.bodies().size() > options.most_bodies) {

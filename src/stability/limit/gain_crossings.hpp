@@ -36,6 +36,12 @@ GainCrossings stiffness_crossings_up_to(const FilteredPlant& plant, const Virtua
 
 // The critical stiffness that these stiffness crossings say.
 CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& crossings);
+// The same where another plant, of the same period, has the terms that crossovers are named by.
+CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& crossings,
+                                        const SampledPlant& modes);
+// Fills in what follows from the crossovers and the poles outside for arbitrarily small K > 0: the stable intervals and the
+// limit.
+void find_limit(CriticalStiffness& critical, int initially_unstable);
 
 // The end of the stable stiffnesses from 0 on where it is at most `most` > 0, else `most`; infinite where nothing bounds it
 // and `most` is. By stiffness_crossings_up_to().

@@ -33,13 +33,9 @@ int expected_above(const CriticalStiffness& critical, double stiffness) {
   return outside;
 }
 
-// Stiffnesses at which to count, each with whether the loop is said to be stable there.
-struct Claim {
-  double stiffness = 0.0;
-  bool stable = true;
-};
+}  // namespace
 
-std::vector<Claim> claims_of(const CriticalStiffness& critical, const FilteredPlant& plant) {
+std::vector<Claim> claims_of(const CriticalStiffness& critical, double gain) {
   std::vector<Claim> claims;
   if (critical.status == StiffnessStatus::finite) {
     const double above = critical.stiffness * (1.0 + closeness);
@@ -51,7 +47,6 @@ std::vector<Claim> claims_of(const CriticalStiffness& critical, const FilteredPl
   const bool stable = critical.status == StiffnessStatus::unbounded;
   double least = std::numeric_limits<double>::infinity();
   for (const Crossover& each : critical.crossovers) least = std::min(least, each.stiffness);
-  const double gain = std::abs(response(plant, 0.5 * std::numbers::pi / plant.period));
   for (const double loop_gain : loop_gains) {
     const double stiffness = std::isfinite(least) ? 0.5 * least : loop_gain / gain;
     if (stiffness > 0.0 && std::isfinite(stiffness)) claims.push_back({stiffness, stable});
@@ -59,6 +54,12 @@ std::vector<Claim> claims_of(const CriticalStiffness& critical, const FilteredPl
   }
   return claims;
 }
+
+double gain_at_mid_band(const FilteredPlant& plant) {
+  return std::abs(response(plant, 0.5 * std::numbers::pi / plant.period));
+}
+
+namespace {
 
 // A crossing whose K rounding of the plant's terms may move by more than this, relative, is found again with more digits.
 constexpr double closest = 1e-10;
@@ -147,7 +148,7 @@ CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& p
     withdraw(critical);
     return critical;
   }
-  for (const Claim& claim : claims_of(critical, plant)) {
+  for (const Claim& claim : claims_of(critical, gain_at_mid_band(plant))) {
     if (critical.trust.refused()) break;
     distrust(agreement(poles, claim.stiffness, claim.stable), claim.stiffness, critical.trust);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "stability/second_route/pole_count.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -14,6 +16,15 @@ namespace zwidth::internal {
 
 // Takes every number out and leaves the trust: the answer is "refused".
 void withdraw(CriticalStiffness& critical);
+
+// Stiffnesses at which to count, each with whether the loop is said to be stable there. `gain`: of the plant at mid band, where
+// there is no crossover to count beside.
+struct Claim {
+  double stiffness = 0.0;
+  bool stable = true;
+};
+[[nodiscard]] std::vector<Claim> claims_of(const CriticalStiffness& critical, double gain);
+[[nodiscard]] double gain_at_mid_band(const FilteredPlant& plant);
 
 enum class Agreement { agrees, contradicts, undecided };
 

@@ -22,6 +22,7 @@ bool delay_margin_stands(const Device& device, const WallMargins& wall) {
   for (const bool stable : {true, false}) {
     DeviceParameters delayed = device.parameters();
     delayed.uncertainty.reset();  // its covariance was checked before
+    delayed.loop.damper.reset();  // it runs with the spring, and is as late
     delayed.loop.delay += *wall.delay_margin * (stable ? 1.0 - closeness : 1.0 + closeness);
     if (find_problem(delayed)) return true;  // more samples of delay than a device may have
     if (agreement(PoleCount(Device(std::move(delayed))), wall.stiffness, stable) == Agreement::contradicts)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth {
@@ -86,7 +87,9 @@ ForcePerCount force_per_count(const Wall& wall, double period, double resolution
 std::optional<ForcePerCount> force_per_count(const Device& device) {
   const DeviceParameters& parameters = device.parameters();
   if (!(parameters.sensor.resolution > 0.0) || !parameters.wall.stiffness) return std::nullopt;
-  return force_per_count(parameters.wall, parameters.loop.sampling_period, parameters.sensor.resolution);
+  // A damper in a loop of its own takes its difference over its own period, and no filters stand beside it.
+  const double period = damper_timing(parameters.loop).sampling_period;
+  return force_per_count(parameters.wall, period, parameters.sensor.resolution);
 }
 
 ForcePerCountRates force_per_count_rates(const Wall& wall, double period, double resolution) {

@@ -8,9 +8,11 @@
 
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/margins/delay_margin.hpp"
+#include "stability/margins/two_rate_margins.hpp"
 #include "stability/margins/unit_gain.hpp"
 #include "stability/second_route/spectral_radius.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
@@ -103,6 +105,7 @@ LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall) {
 }
 
 WallMargins wall_margins(const Device& device) {
+  if (has_damper_loop(device.loop())) return two_rate_margins(device);
   constexpr std::size_t most_samples_for_eigenvalues = 100;
   const Wall& wall = device.parameters().wall;
   const FilteredPlant plant = filtered_plant(device);

@@ -10,6 +10,7 @@
 #include "eigenvalues.hpp"
 #include "model/balance.hpp"
 #include "stability/second_route/winding_number.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -170,6 +171,7 @@ class ReturnDifference {
 
 PoleCount::PoleCount(const Device& device)
     : device_(device), plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})) {
+  require_one_rate(device);
   const Wall& wall = device.parameters().wall;
   states_ = static_cast<std::size_t>(plant_.Phi.rows()) + plant_.delay_samples + (plant_.Gamma2.isZero(0.0) ? 0 : 1) +
             (wall.damping > 0.0 ? 1 : 0);
