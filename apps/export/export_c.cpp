@@ -12,6 +12,7 @@
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::report {
@@ -208,6 +209,7 @@ std::string c_identifier(std::string_view name) {
 }
 
 std::string export_c(const CodedWall& wall) {
+  require_one_rate(wall.wall.device);
   if (!wall.wall.device.parameters().wall.stiffness) {
     throw Error(ErrorCode::invalid_argument, "there is no wall to write: wall.stiffness is missing");
   }
