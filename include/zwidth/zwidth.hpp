@@ -3,6 +3,7 @@
 #include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/control/running_filter.hpp"
 #include "zwidth/control/sampled_controller.hpp"
+#include "zwidth/control/sampled_damper.hpp"
 #include "zwidth/control/velocity_filter.hpp"
 #include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/branch_switch.hpp"

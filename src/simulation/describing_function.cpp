@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "simulation/check_relay.hpp"
+#include "simulation/loop_schedule.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -214,15 +216,24 @@ std::vector<LimitCycle> without_hysteresis(const SampledPlant& plant, const Rela
   return cycles;
 }
 
+/// Nothing where the damper that runs apart makes it another plant from sample to sample, or rubs too.
+std::optional<SampledPlant> seen_by_relay(const Device& device) {
+  if (!damper_runs_apart(device)) return sampled_plant(device);
+  const TwoRateDevice loop(device, device.parameters().wall.damping);
+  if (!loop.is_damper_inside() || has_friction(device)) return std::nullopt;
+  return loop.seen_by_spring();
+}
+
 }  // namespace
 
 std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, const Relay& relay,
                                                          const Progress& progress) {
   StagedProgress stages(progress);
   check_relay(relay);
-  const SampledPlant plant = sampled_plant(device);
+  const std::optional<SampledPlant> plant = seen_by_relay(device);
+  if (!plant) return {};
   const std::vector<LimitCycle> frictionless =
-      relay.hysteresis > 0.0 ? with_hysteresis(plant, relay) : without_hysteresis(plant, relay);
+      relay.hysteresis > 0.0 ? with_hysteresis(*plant, relay) : without_hysteresis(*plant, relay);
   if (!has_friction(device)) return frictionless;
   std::vector<double> stiffnesses;
   for (const LimitCycle& each : frictionless) stiffnesses.push_back(each.stiffness);

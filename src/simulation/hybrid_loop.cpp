@@ -1,6 +1,7 @@
 #include "zwidth/simulation/hybrid_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -8,11 +9,12 @@
 #include <string>
 
 #include "require_valid.hpp"
-#include "sampling/sampling_instants.hpp"
 #include "simulation/continuous_motion.hpp"
+#include "simulation/held_path.hpp"
+#include "simulation/loop_schedule.hpp"
 #include "simulation/simulation_setup.hpp"
+#include "zwidth/control/sampled_damper.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -39,68 +41,30 @@ OutsideForce outside_force(const UserForce& force) {
 void check(const Device& device, const HybridLoopOptions& options) {
   check_bodies(device, options);
   require_valid(find_problem(options, device));
-  const ControllerOptions& controller = options.controller;
-  if (controller.kind == ControllerOptions::Kind::wall && controller.damping > 0.0) require_one_rate(device);
 }
-
-/// Forces on their way to the device, in the order of their arrival: a ring that never grows.
-class ForcesUnderWay {
- public:
-  explicit ForcesUnderWay(std::size_t capacity) : ring_(capacity) {}
-
-  struct Force {
-    std::size_t step = 0;  // in which it arrives
-    double within = 0.0;   // s from the start of that step, < T
-    double value = 0.0;
-  };
-
-  void clear() noexcept { first_ = count_ = 0; }
-  /// s from the start of `step`; never in a later one.
-  [[nodiscard]] double next_arrival(std::size_t step) const noexcept {
-    return count_ == 0 || ring_[first_].step > step ? never : ring_[first_].within;
-  }
-  double pop() noexcept {
-    const double value = ring_[first_].value;
-    first_ = (first_ + 1) % ring_.size();
-    --count_;
-    return value;
-  }
-  /// Older forces that would arrive later are out of date: they are dropped.
-  void push(Force force) noexcept {
-    while (count_ > 0 && !arrives_before(at(count_ - 1), force)) --count_;
-    if (count_ == ring_.size()) pop();
-    at(count_++) = force;
-  }
-
- private:
-  static bool arrives_before(const Force& a, const Force& b) noexcept {
-    return a.step < b.step || (a.step == b.step && a.within < b.within);
-  }
-  [[nodiscard]] Force& at(std::size_t i) noexcept { return ring_[(first_ + i) % ring_.size()]; }
-
-  std::vector<Force> ring_;
-  std::size_t first_ = 0;
-  std::size_t count_ = 0;
-};
 
 }  // namespace
 
 struct HybridLoop::State {
-  enum Length : std::size_t { whole_step, until_arrival, after_arrival };
+  using Kind = LoopSchedule::Event::Kind;
 
   State(const Device& device, const HybridLoopOptions& given)
       : options(given),
         period(device.loop().sampling_period),
-        instants(sampling_instants({period, device.loop().delay})),
-        motion(
-            device, outside_force(given.user_force),
-            instants.with_old > 0.0 ? std::vector{period, instants.with_old, instants.with_new} : std::vector{period}),
-        controller(given.controller, period),
+        is_apart(damper_runs_apart(device, given.controller)),
+        schedule(loop_schedule(device.loop(), is_apart)),
+        motion(device, outside_force(given.user_force), schedule.lengths),
+        controller(is_apart ? without_damper(given.controller) : given.controller, period),
         resolution(device.parameters().sensor.resolution),
         limit(device.parameters().actuator.force_limit.value_or(never)),
-        delay_line(instants.whole_samples + 1),
-        under_way(static_cast<std::size_t>(std::ceil((device.loop().delay + given.faults.overrun_delay) / period)) + 3),
-        delay(device.loop().delay) {
+        only_pushes(is_unilateral_wall(given.controller)) {
+    for (const LoopSchedule::HeldPath& path : schedule.paths) {
+      paths.emplace_back(path, schedule.tick, options.faults.overrun_delay);
+    }
+    if (is_apart) {
+      const double ticks = static_cast<double>(schedule.paths[LoopSchedule::damper].every);
+      damper.emplace(given.controller, ticks * schedule.tick);
+    }
     const std::size_t bodies = device.bodies().size();
     if (options.initial_position.empty()) options.initial_position.assign(bodies, 0.0);
     if (options.initial_velocity.empty()) options.initial_velocity.assign(bodies, 0.0);
@@ -118,11 +82,11 @@ struct HybridLoop::State {
   void reset() noexcept {
     motion.reset();
     controller.reset();
+    if (damper) damper->reset();
     random.seed(options.faults.seed);
-    std::fill(delay_line.begin(), delay_line.end(), 0.0);
-    under_way.clear();
-    sample = oldest = user_sample = 0;
-    command = work = 0.0;
+    for (RunningPath& path : paths) path.reset();
+    tick = phase = user_sample = 0;
+    command = spring_command = work = 0.0;
     user_has_started = false;
     motion.set_motion(options.initial_position.data(), options.initial_velocity.data());
     measured = quantised(motion.sensed());
@@ -132,15 +96,38 @@ struct HybridLoop::State {
     return resolution > 0.0 ? resolution * std::floor(position / resolution + 0.5) : position;
   }
 
-  void measure_and_update() noexcept {
+  /// What the actuator can give.
+  [[nodiscard]] double limited(double force) const noexcept { return std::clamp(force, -limit, limit); }
+  [[nodiscard]] double sum(double spring, double of_damper) const noexcept {
+    return limited(sum_of_paths(spring, of_damper, only_pushes));
+  }
+
+  void read(LoopSchedule::Path path) noexcept {
+    if (path == LoopSchedule::damper) {
+      paths[path].asked = damper->update(quantised(motion.sensed()));
+      return;
+    }
     measured = quantised(motion.sensed());
-    command = std::clamp(controller.update(measured), -limit, limit);
+    ask(controller.update(measured));
+  }
+
+  /// The force of the spring, which is the wall's where the damper does not run apart.
+  void ask(double force) noexcept {
+    spring_command = is_apart ? force : limited(force);
+    command = is_apart ? sum(force, paths[LoopSchedule::damper].asked) : spring_command;
+    paths[LoopSchedule::spring].asked = spring_command;
+  }
+
+  void apply() noexcept {
+    const double force = paths[LoopSchedule::spring].held;
+    motion.set_command(is_apart ? sum(force, paths[LoopSchedule::damper].held) : force);
   }
 
   double uniform() noexcept { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-  /// Moves the device by `duration`; a recurring one by its index.
-  void move(double duration, Length which) noexcept {
+  /// Moves the device by one of the schedule's lengths.
+  void move_recurring(std::size_t which) noexcept {
+    const double duration = schedule.lengths[which];
     const double start = motion.actuated();
     if (user_changes_within(duration)) {
       move_with_user(duration);
@@ -163,14 +150,14 @@ struct HybridLoop::State {
     within += duration;
   }
 
-  /// Time of the user force's next change (start, or next sample), s from the start of the current step.
+  /// Time of the user force's next change (start, or next sample), s from the start of the current tick.
   [[nodiscard]] double next_user_change() const noexcept {
     const UserForce& force = options.user_force;
     if (force.kind == UserForce::Kind::none) return never;
-    const double step_start = static_cast<double>(sample) * period;
-    if (!user_has_started) return force.start - step_start;
+    const double tick_start = static_cast<double>(tick) * schedule.tick;
+    if (!user_has_started) return force.start - tick_start;
     if (force.kind != UserForce::Kind::recorded || user_sample >= force.samples.size()) return never;
-    return force.start + static_cast<double>(user_sample) * force.period - step_start;
+    return force.start + static_cast<double>(user_sample) * force.period - tick_start;
   }
 
   [[nodiscard]] bool user_changes_within(double duration) const noexcept {
@@ -212,79 +199,119 @@ struct HybridLoop::State {
   }
 
   void step() noexcept {
-    measure_and_update();
-    move_commanded();
-  }
-
-  /// With the command of this sample.
-  void move_commanded() noexcept {
-    within = 0.0;
-    delay_line[oldest] = command;  // l samples behind the next one to leave
-    oldest = oldest + 1 == delay_line.size() ? 0 : oldest + 1;
-    const double arriving = delay_line[oldest];
-    if (instants.with_old > 0.0) {
-      move(instants.with_old, until_arrival);
-      motion.set_command(arriving);
-      move(instants.with_new, after_arrival);
-    } else {
-      motion.set_command(arriving);
-      move(period, whole_step);
-    }
-    ++sample;
-  }
-
-  /// Lets a force arrive `later` than now, s.
-  void send(double force, double later) noexcept {
-    const double arrival = within + later;
-    const double whole = std::floor(arrival / period);
-    under_way.push({sample + static_cast<std::size_t>(whole), std::max(0.0, std::fma(-whole, period, arrival)), force});
-  }
-
-  void step_with_faults() noexcept {
-    const Faults& faults = options.faults;
-    within = 0.0;
-    const double sampled_at = faults.sampling_jitter > 0.0 ? faults.sampling_jitter * uniform() : 0.0;
-    const bool is_lost = uniform() < faults.lost_sample_probability;
-    const bool overruns = uniform() < faults.overrun_probability;
-    bool is_sampled = false;
-    for (;;) {
-      const double arrival = under_way.next_arrival(sample);
-      const double next = std::min(is_sampled ? never : sampled_at, arrival);
-      if (next >= period) break;
-      move(next - within);
-      within = std::max(within, next);
-      if (!is_sampled && sampled_at <= arrival) {
-        is_sampled = true;
-        if (is_lost) continue;
-        measure_and_update();
-        send(command, delay + (overruns ? faults.overrun_delay : 0.0));
+    for (std::size_t i = 0; i < schedule.ticks_per_step; ++i) {
+      if (is_faulty) {
+        tick_with_faults();
       } else {
-        motion.set_command(under_way.pop());
+        tick_by_schedule(nullptr);
       }
     }
-    move(period - within);
-    ++sample;
+  }
+
+  void step_with(double force) noexcept {
+    for (std::size_t i = 0; i < schedule.ticks_per_step; ++i) tick_by_schedule(&force);
+  }
+
+  /// `given`: the spring's force, instead of the controller's.
+  void tick_by_schedule(const double* given) noexcept {
+    within = 0.0;
+    for (const LoopSchedule::Event& event : schedule.ticks[phase]) {
+      switch (event.kind) {
+        case Kind::reads:
+          if (given != nullptr && event.path == LoopSchedule::spring) {
+            ask(*given);
+          } else {
+            read(event.path);
+          }
+          paths[event.path].send();
+          break;
+        case Kind::arrives:
+          paths[event.path].arrive();
+          apply();
+          break;
+        case Kind::moves:
+          move_recurring(event.length);
+          break;
+      }
+    }
+    end_tick();
+  }
+
+  void end_tick() noexcept {
+    ++tick;
+    phase = phase + 1 == schedule.ticks.size() ? 0 : phase + 1;
+  }
+
+  /// A read of a path in this tick, and what goes wrong with it.
+  struct Reading {
+    double at = never;  // s from the start of the tick; never where the path does not read, or has read
+    bool is_lost = false;
+    bool overruns = false;
+  };
+
+  Reading draw() noexcept {
+    const Faults& faults = options.faults;
+    Reading reading;
+    reading.at = faults.sampling_jitter > 0.0 ? faults.sampling_jitter * uniform() : 0.0;
+    reading.is_lost = uniform() < faults.lost_sample_probability;
+    reading.overruns = uniform() < faults.overrun_probability;
+    return reading;
+  }
+
+  void tick_with_faults() noexcept {
+    within = 0.0;
+    std::array<Reading, 2> readings;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (phase % schedule.paths[i].every == 0) readings[i] = draw();
+    }
+    for (;;) {
+      std::size_t reader = 0;
+      std::size_t arriving = 0;
+      for (std::size_t i = 1; i < paths.size(); ++i) {
+        if (readings[i].at <= readings[reader].at) reader = i;  // the damper first, as by the schedule
+        if (paths[i].next_arrival(tick) < paths[arriving].next_arrival(tick)) arriving = i;
+      }
+      Reading& reading = readings[reader];
+      const double arrival = paths[arriving].next_arrival(tick);
+      const double next = std::min(reading.at, arrival);
+      if (next >= schedule.tick) break;
+      move(next - within);
+      within = std::max(within, next);
+      if (reading.at <= arrival) {
+        reading.at = never;
+        if (reading.is_lost) continue;
+        read(static_cast<LoopSchedule::Path>(reader));
+        paths[reader].send(tick, within, reading.overruns ? options.faults.overrun_delay : 0.0, schedule.tick);
+      } else {
+        paths[arriving].arrive_late();
+        apply();
+      }
+    }
+    move(schedule.tick - within);
+    end_tick();
   }
 
   HybridLoopOptions options;
-  double period;
-  SamplingInstants instants;
+  double period;  // of the spring
+  bool is_apart;
+  LoopSchedule schedule;
   ContinuousMotion motion;
-  SampledController controller;
+  SampledController controller;         // without its damper where that runs apart
+  std::optional<SampledDamper> damper;  // that runs apart
   double resolution;
   double limit;
-  std::vector<double> delay_line;
-  ForcesUnderWay under_way;
-  double delay;
+  bool only_pushes;
+  std::vector<RunningPath> paths;
   std::mt19937_64 random;
   bool is_faulty = false;
   bool user_has_started = false;
-  std::size_t sample = 0;
-  std::size_t oldest = 0;
+  std::size_t tick = 0;
+  std::size_t phase = 0;  // of the tick within the longer period
   std::size_t user_sample = 0;
-  double within = 0.0;  // s since the start of the current step
+  double within = 0.0;  // s since the start of the current tick
   double measured = 0.0;
   double command = 0.0;
+  double spring_command = 0.0;
   double work = 0.0;
 };
 
@@ -297,25 +324,16 @@ HybridLoop::HybridLoop(HybridLoop&&) noexcept = default;
 HybridLoop& HybridLoop::operator=(HybridLoop&&) noexcept = default;
 HybridLoop::~HybridLoop() = default;
 
-void HybridLoop::step() noexcept {
-  if (state_->is_faulty) {
-    state_->step_with_faults();
-  } else {
-    state_->step();
-  }
-}
+void HybridLoop::step() noexcept { state_->step(); }
 
 double HybridLoop::measure() noexcept { return state_->measured = state_->quantised(state_->motion.sensed()); }
 
-void HybridLoop::move(double force) noexcept {
-  state_->command = std::clamp(force, -state_->limit, state_->limit);
-  state_->move_commanded();
-}
+void HybridLoop::move(double force) noexcept { state_->step_with(force); }
 
 void HybridLoop::reset() noexcept { state_->reset(); }
 
-std::size_t HybridLoop::sample() const noexcept { return state_->sample; }
-double HybridLoop::time() const noexcept { return static_cast<double>(state_->sample) * state_->period; }
+std::size_t HybridLoop::sample() const noexcept { return state_->tick / state_->schedule.ticks_per_step; }
+double HybridLoop::time() const noexcept { return static_cast<double>(sample()) * state_->period; }
 double HybridLoop::sensed_position() const noexcept { return state_->motion.sensed(); }
 double HybridLoop::position(std::size_t body) const noexcept { return state_->motion.position(body); }
 double HybridLoop::velocity(std::size_t body) const noexcept { return state_->motion.velocity(body); }
@@ -323,6 +341,7 @@ bool HybridLoop::sticks(std::size_t body) const noexcept { return state_->motion
 double HybridLoop::user_force() const noexcept { return state_->motion.outside_force(); }
 double HybridLoop::measured() const noexcept { return state_->measured; }
 double HybridLoop::command() const noexcept { return state_->command; }
+double HybridLoop::spring_command() const noexcept { return state_->spring_command; }
 double HybridLoop::work() const noexcept { return state_->work; }
 std::size_t HybridLoop::friction_events() const noexcept { return state_->motion.events(); }
 std::size_t HybridLoop::overloaded_steps() const noexcept { return state_->motion.overloaded(); }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "counted.hpp"
+#include "simulation/loop_schedule.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
 namespace zwidth {
@@ -91,11 +92,14 @@ std::optional<OptionProblem> motion_problem(const char* member, const std::vecto
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const HybridLoopOptions& options, const Device& device) {
-  const double period = device.loop().sampling_period;
-  if (auto problem = find_problem(options.controller, period)) {
+  if (auto problem = find_problem(options.controller, device.loop().sampling_period)) {
     problem->member.insert(0, "controller.");
     return problem;
   }
+  if (internal::damper_runs_apart(device, options.controller) && !options.controller.filters.empty()) {
+    return option_problem("controller.filters", {.code = ProblemCode::filters_beside_damper_loop});
+  }
+  const double period = internal::shortest_period(device, options.controller);
   if (auto problem = faults_problem(options.faults, period)) return problem;
   if (!device.has_bodies() && options.user_force.kind != UserForce::Kind::none) {
     return option_problem("user_force", {.code = ProblemCode::user_force_without_body});

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "simulation/loop_schedule.hpp"
 #include "simulation/oscillation_cycles.hpp"
 
 namespace zwidth::internal {
@@ -22,7 +23,7 @@ bool is_faulty(const Faults& faults) {
 QuantisationForceObserver::QuantisationForceObserver(const Device& device, const HybridLoopOptions& loop,
                                                      std::size_t samples)
     : observes_(device.parameters().sensor.resolution > 0.0 && !is_faulty(loop.faults) &&
-                loop.controller.kind == ControllerOptions::Kind::wall),
+                loop.controller.kind == ControllerOptions::Kind::wall && !damper_runs_apart(device, loop.controller)),
       exact_(loop.controller, device.loop().sampling_period),
       limit_(device.parameters().actuator.force_limit.value_or(std::numeric_limits<double>::infinity())),
       period_(device.loop().sampling_period),

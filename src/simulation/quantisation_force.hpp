@@ -18,8 +18,8 @@ class QuantisationForceObserver {
   /// The unrounded position of one sample, and the command that the loop's controller made of the rounded one.
   void note(double position, double command);
 
-  /// Absent without encoder or wall, with faults (the instant of measuring is not known then), for fewer than two
-  /// cycles, and where the command does not change in the last tenth of the run.
+  /// Absent without encoder or wall, with faults (the instant of measuring is not known then), where the damper runs
+  /// apart (it reads between), for fewer than two cycles, and where the command does not change in the last tenth of the run.
   [[nodiscard]] std::optional<QuantisationForce> found() const;
 
  private:

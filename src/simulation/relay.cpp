@@ -10,6 +10,7 @@
 #include "counted.hpp"
 #include "doubt_all.hpp"
 #include "require_valid.hpp"
+#include "simulation/loop_schedule.hpp"
 #include "simulation/relay_explanation.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -84,7 +85,9 @@ void conclude(RelayResult& result, const Progress& progress) {
   result.trust = trust_of_reading(result);
   if (!result.device) return;
   const Wall& wall = result.device->parameters().wall;
-  if (wall.damping > 0.0 || !wall.filters.empty()) {
+  if (damper_runs_apart(*result.device)) {
+    result.remarks.push_back(note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "relay"}}}));
+  } else if (wall.damping > 0.0 || !wall.filters.empty()) {
     result.remarks.push_back(note({.code = FindingCode::relay_without_wall, .key = "wall"}));
   }
 }

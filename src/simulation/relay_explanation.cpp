@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "simulation/loop_schedule.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -183,6 +184,7 @@ std::vector<Finding> relay_explanation(const RelayResult& result) {
   }
   const RelayMean& mean = *result.mean;
   std::vector<Finding> findings{beside_crossover(mean, result.prediction->linear), beside_limit(result)};
+  if (result.device && damper_runs_apart(*result.device)) return findings;  // no other prediction is whole
   if (std::optional<Finding> friction = by_friction(result, mean)) findings.push_back(*std::move(friction));
   findings.push_back(beside_sampled_relay(result, mean));
   return findings;

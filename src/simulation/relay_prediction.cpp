@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "simulation/check_relay.hpp"
+#include "simulation/loop_schedule.hpp"
 #include "staged_progress.hpp"
 
 namespace zwidth {
@@ -34,11 +35,23 @@ RelayPrediction relay_prediction(const Device& device, const Relay& relay, const
   stages.next(0.1);
   const double period = device.loop().sampling_period;
   const double delay = device.loop().delay;
-  const ContinuousStateSpace system = state_space(device);
   RelayPrediction prediction;
-  DeviceParameters without_wall = device.parameters();
-  without_wall.wall = {};
-  prediction.linear = critical_stiffness(Device(std::move(without_wall)));
+  DeviceParameters without_spring = device.parameters();
+  without_spring.wall = {};
+  if (damper_runs_apart(device)) {
+    without_spring.wall.damping = device.parameters().wall.damping;
+    without_spring.wall.velocity_filter_hz = device.parameters().wall.velocity_filter_hz;
+  }
+  prediction.linear = critical_stiffness(Device(std::move(without_spring)));
+  if (damper_runs_apart(device)) {
+    prediction.lowest_frequency = std::numbers::pi / period;
+    if (prediction.linear.trust.refused()) return prediction;
+    stages.next(1.0);
+    prediction.describing_function = describing_function_limit_cycles(device, relay, stages.stage());
+    stages.done();
+    return prediction;
+  }
+  const ContinuousStateSpace system = state_space(device);
   const double states = static_cast<double>(system.A.rows());
   const double longest =
       std::max(2.0, std::min(half_period_samples(prediction.linear, period), most_work / std::pow(states, 3)));

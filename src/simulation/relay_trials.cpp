@@ -9,6 +9,7 @@
 
 #include "counted.hpp"
 #include "require_valid.hpp"
+#include "simulation/loop_schedule.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
 #include "zwidth/error.hpp"
@@ -50,6 +51,10 @@ HybridLoop loop_of(const Device& device, const Relay& relay, const RelayTrial& t
   options.controller.kind = ControllerOptions::Kind::relay;
   options.controller.amplitude = relay.amplitude;
   options.controller.hysteresis = relay.hysteresis;
+  if (damper_runs_apart(device)) {
+    options.controller.damping = parameters.wall.damping;
+    options.controller.velocity_filter_hz = parameters.wall.velocity_filter_hz;
+  }
   options.initial_position.assign(parameters.bodies.size(), trial.start_offset);
   return {Device(std::move(parameters)), options};
 }
@@ -60,7 +65,7 @@ void run(RelayTrial& trial, HybridLoop loop, std::size_t samples, SharedProgress
   std::size_t reported = 0;
   for (std::size_t k = 1; k <= samples; ++k) {
     loop.step();
-    trial.force.push_back(loop.command());
+    trial.force.push_back(loop.spring_command());
     trial.position.push_back(loop.measured());
     if (k - reported < samples_per_report && k < samples) continue;
     progress.add(k - reported);

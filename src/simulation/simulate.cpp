@@ -8,6 +8,7 @@
 #include "require_valid.hpp"
 #include "signal/fitted_sine.hpp"
 #include "simulation/loop_judgement.hpp"
+#include "simulation/loop_schedule.hpp"
 #include "simulation/quantisation_force.hpp"
 #include "simulation/simulation_remarks.hpp"
 #include "simulation/simulation_setup.hpp"
@@ -231,7 +232,7 @@ Simulation simulate(const Device& device, const SimulationOptions& options, cons
     compare_with_linear(result, device, sensed);
     result.remarks = simulation_remarks(result, device, options, sensed);
     if (options.duration || is_firm(result) || longer >= longest ||
-        result.duration * next_longer > most_samples_to_be_firm * device.loop().sampling_period) {
+        result.duration * next_longer > most_samples_to_be_firm * shortest_period(device, result.loop.controller)) {
       break;
     }
   }

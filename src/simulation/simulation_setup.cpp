@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/holder_limit.hpp"
@@ -236,7 +237,7 @@ LinearAnswer linear_answer(const Device& device, const SimulationOptions& option
 
 double default_duration(const Device& device, const CriticalStiffness& critical, const UserForce& force) {
   const Loop& loop = device.loop();
-  double duration = std::max(least_duration, default_delays * loop.delay);
+  double duration = std::max(least_duration, default_delays * std::max(loop.delay, damper_timing(loop).delay));
   if (critical.limit && critical.limit->frequency > 0.0) {
     duration = std::max(duration, default_periods * 2.0 * std::numbers::pi / critical.limit->frequency);
   }

@@ -11,6 +11,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/words/finding_text.hpp"
 
@@ -123,9 +124,12 @@ std::string prediction_table(const RelayResult& result) {
   const std::string_view length = units_of(result.motion).length;
   TextTable table{{Align::left, Align::right, Align::right, Align::right}, {{"", "Hz", "K (dB)", "amplitude"}}};
   add_crossovers(table, prediction.linear);
+  const bool has_exact =
+      !(result.device && result.device->parameters().wall.damping > 0.0 && has_damper_loop(result.device->loop()));
+  const std::string none =
+      has_exact ? fmt::format("none above {}", number(hertz(prediction.lowest_frequency))) : std::string("left out");
   add_cycles(table, result.friction_level.value_or(0.0) > 0.0 ? "first harmonics, with friction" : "first harmonics",
-             prediction.describing_function, "none", length);
-  const std::string none = fmt::format("none above {}", number(hertz(prediction.lowest_frequency)));
+             prediction.describing_function, has_exact ? "none" : "none known", length);
   add_cycles(table, "sampled relay, exact", prediction.sampled_relay, none, length);
   add_cycles(table, "continuous relay, exact", prediction.continuous_relay, none, length);
   return "What theory expects\n" + layout(table) +

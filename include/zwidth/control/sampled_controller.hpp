@@ -20,7 +20,7 @@ struct ControllerOptions {
 
   // Wall: C(z) = F(z) (K + B v(z)) on the penetration of the measured position into `position`.
   double stiffness = 0.0;                ///< K, N/m or N m/rad; >= 0
-  double damping = 0.0;                  ///< B, N s/m or N m s/rad; >= 0
+  double damping = 0.0;                  ///< B, N s/m or N m s/rad; >= 0; a relay has none, but one that runs apart
   double velocity_filter_hz = 0.0;       ///< f_c; 0: none
   std::vector<WallFilter> filters = {};  ///< F: on the whole force, in the order in which they run; at most 20
   double position = 0.0;                 ///< where the wall begins, m or rad; it fills all beyond

@@ -30,10 +30,11 @@ struct UserForce {
   double period = 0.0;          ///< s; > 0 for a recorded force
 };
 
-/// What goes wrong at times in a real controller. A force that would arrive after a newer one is dropped.
+/// What goes wrong at times in a real controller. A force that would arrive after a newer one is dropped. Where the damper
+/// runs apart, each sample of spring and damper has its own fate.
 struct Faults {
   double lost_sample_probability = 0.0;  ///< nothing is measured or computed: the last force stays
-  double sampling_jitter = 0.0;          ///< s; each sample is late by a uniform part of it; < T
+  double sampling_jitter = 0.0;          ///< s; each sample is late by a uniform part of it; < T, and the damper's
   double overrun_probability = 0.0;      ///< the force is delivered late
   double overrun_delay = 0.0;            ///< s, by which it then is late; at most max_delay_samples periods
   std::uint64_t seed = 1;                ///< of all that is drawn at random
@@ -58,7 +59,11 @@ struct HybridLoopOptions {
 /// force, let it arrive t_d later (any real delay), move the device. The motion is the exact solution: matrix
 /// exponentials and, at stick-slip instants of Coulomb friction, located events; nothing is integrated step by step.
 ///
-/// Uses sampling_period, delay, actuator, sensor.resolution, body.coulomb and the user of the device; the wall is
+/// Where loop.damper runs the controller's damper apart, a step is still one period of the spring: the damper reads,
+/// rounded likewise, at every whole part or multiple of it, its force arrives after its own delay, and the force limit
+/// acts on the sum of the two forces that have arrived. A relay, too, then has the controller's damper beside it.
+///
+/// Uses sampling_period, delay, damper, actuator, sensor.resolution, body.coulomb and the user of the device; the wall is
 /// the controller's. Nothing allocates, locks or throws after construction.
 class HybridLoop {
  public:
@@ -80,7 +85,8 @@ class HybridLoop {
   /// Measures at t = k T, updates the controller, and moves the device to (k + 1) T.
   void step() noexcept;
 
-  // The device alone, for a controller that runs elsewhere; options.controller and options.faults then do not act.
+  // The device alone, for a controller that runs elsewhere; options.controller and options.faults then do not act, but
+  // for a damper of its own loop, which runs on.
   /// What the encoder gives at k T.
   [[nodiscard]] double measure() noexcept;
   /// Moves the device to (k + 1) T with this force commanded at k T, N or N m: limited, and underway for the delay, as
@@ -105,7 +111,9 @@ class HybridLoop {
   [[nodiscard]] double user_force() const noexcept;
   // Within the last step:
   [[nodiscard]] double measured() const noexcept;  ///< what the encoder gave
-  [[nodiscard]] double command() const noexcept;   ///< what the controller asked for, limited
+  [[nodiscard]] double command() const noexcept;   ///< what the controller asked for, limited; of a damper apart, last
+  /// Its part that the spring or the relay asked for, not limited, where the damper runs apart; else command().
+  [[nodiscard]] double spring_command() const noexcept;
   /// Work of the force that arrived at the actuator since the start, N m: sum of force times travel of the actuated
   /// body (before the actuator's lag; of a transfer function, travel of its output).
   [[nodiscard]] double work() const noexcept;

@@ -65,7 +65,8 @@ struct CycleBand {
 ///
 /// An approximation. Coulomb friction enters by its own first harmonic, a damping 4 F_c / (pi V) at velocity amplitude
 /// V of its body, followed from none to its full level; a cycle of which no balance is left on the way (friction too
-/// strong for the relay) has no prediction. With friction only the 50 softest crossovers are followed: a long delay has
+/// strong for the relay) has no prediction. A damper that loop.damper runs apart, no slower than the relay, is closed; a
+/// slower one, or one beside friction, leaves no prediction. With friction only the 50 softest crossovers are followed: a long delay has
 /// thousands. By rising frequency of the cycles without friction.
 /// Source: Åström & Hägglund 1995; theory, section 4.
 [[nodiscard]] std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, const Relay& relay,

@@ -79,10 +79,11 @@ struct RelayResult {
   /// limit of linear theory (unsafe, too_cautious) and where no device says what to expect; refused where there is no
   /// mean.
   Trust trust;
-  std::vector<Remark> remarks;  ///< of the recording, and that the device's [wall] is left out
+  std::vector<Remark> remarks;  ///< of the recording, and what of the device's [wall] is left out
 };
 
-/// Simulates the experiment on the device and sets it beside its predictions. The wall of the device is left out. A
+/// Simulates the experiment on the device and sets it beside its predictions. The wall of the device is left out, but for
+/// a damper that loop.damper runs apart: it runs on beside the relay. A
 /// device that is refused makes no trials and no predictions: `trust` says why.
 ///
 /// Throws Error (invalid_argument) with member and value where find_problem() finds one, (needs_bodies) for a start

@@ -21,7 +21,7 @@ struct RelayPrediction {
 
 /// All predictions, of cycles down to a fifth of the frequency of the device's lowest crossover, at most 20 000 samples
 /// long (shorter ones on devices of more than some 20 bodies). Encoder, force limit and wall of the device are left
-/// out. Throws Error (invalid_argument) for a relay outside its domain.
+/// out, but for a damper that loop.damper runs apart: it is closed, and exact cycles are then left out. Throws Error (invalid_argument) for a relay outside its domain.
 [[nodiscard]] RelayPrediction relay_prediction(const Device& device, const Relay& relay, const Progress& progress = {});
 
 }  // namespace zwidth

@@ -37,7 +37,7 @@ struct RelayOptions {
 struct RelayTrial {
   double start_offset = 0.0;                         ///< m or rad, as varied
   double friction_factor = 1.0;                      ///< what every body's Coulomb friction was multiplied by
-  std::vector<double> force;                         ///< commanded at every sample, N or N m
+  std::vector<double> force;                         ///< of the relay at every sample, N or N m
   std::vector<double> position;                      ///< as measured then, m or rad
   tl::expected<RelayReading, NoOscillation> result;  ///< what was read, or why nothing
 };
