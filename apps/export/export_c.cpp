@@ -60,11 +60,14 @@ class CodeWriter {
         name_(c_identifier(device_.name)) {}
 
   [[nodiscard]] std::string text() const {
+    if (is_apart()) return opening_comment() + apart_declarations() + apart_functions();
     return opening_comment() + declarations() + reset_function() + force_function();
   }
 
  private:
   [[nodiscard]] bool has_velocity() const { return wall_.damping > 0.0; }
+  /// The damper has a loop of its own.
+  [[nodiscard]] bool is_apart() const { return has_velocity() && has_damper_loop(device_.loop); }
   [[nodiscard]] bool is_one_sided() const { return coded_.contact == ControllerOptions::Contact::unilateral; }
 
   [[nodiscard]] std::string opening_comment() const {
@@ -91,15 +94,65 @@ class CodeWriter {
         "{}"
         " *   this wall is        {}\n"
         " *\n"
-        " * Valid for one call per sampling period of {} s, at a delay of {} s besides the hold.\n",
+        "{}",
         is_one_sided() ? "unilateral: it pushes only, out of position > 0" : "bilateral: a spring on both sides of 0",
         coded_limit_lines(analysis.limits, units_.stiffness), words_of(stability_of(*analysis.wall_stable_for)),
-        device_.loop.sampling_period, device_.loop.delay);
+        valid_for());
     if (const auto note = trust_note(analysis.trust)) text += " *\n * " + in_comment(*note) + "\n";
     if (const std::string holders = unstable_with(*analysis.wall_stable_for); !holders.empty()) {
       text += fmt::format(" *\n * WARNING: with this wall the loop is UNSTABLE by linear analysis, {}.\n", holders);
     }
     return text + " */\n\n";
+  }
+
+  [[nodiscard]] std::string valid_for() const {
+    const Loop& loop = device_.loop;
+    if (!is_apart()) {
+      return fmt::format(" * Valid for one call per sampling period of {} s, at a delay of {} s besides the hold.\n",
+                         loop.sampling_period, loop.delay);
+    }
+    const auto [period, delay] = damper_timing(loop);
+    return fmt::format(
+        " * Valid for one call of {0}_spring_step per {1} s, its force there {2} s later, and one of\n"
+        " * {0}_damper_step per {3} s, its force there {4} s later, besides the hold of either. Both read\n"
+        " * at once wherever the longer period begins. What acts is {0}_wall_sum of the two forces there.\n",
+        name_, loop.sampling_period, loop.delay, period, delay);
+  }
+
+  [[nodiscard]] std::string apart_declarations() const {
+    return fmt::format(
+        "typedef struct {{\n"
+        "  int started;      /* 0: the next sample is the first */\n"
+        "  double previous;  /* position of the last sample, {2} */\n"
+        "  double velocity;  /* {2}/s */\n"
+        "}} {0}_damper_t;\n\n"
+        "/* Forgets the past: before the first sample, and whenever the wall is entered anew. */\n"
+        "void {0}_damper_reset({0}_damper_t *damper);\n\n"
+        "/* The damper's force, {1}, for its sample's position, {2}; the wall fills position > 0. */\n"
+        "double {0}_damper_step({0}_damper_t *damper, double position);\n\n"
+        "/* The spring's force, {1}, for its sample's position, {2}. */\n"
+        "double {0}_spring_step(double position);\n\n"
+        "/* Force to command, {1}, of the forces of both that have arrived; each is 0 before its first. */\n"
+        "double {0}_wall_sum(double spring, double damper);\n\n",
+        name_, units_.force, units_.length);
+  }
+
+  [[nodiscard]] std::string apart_functions() const {
+    const double period = damper_timing(device_.loop).sampling_period;
+    std::string text = fmt::format(
+        "void {0}_damper_reset({0}_damper_t *damper) {{\n"
+        "  damper->started = 0;\n  damper->previous = 0.0;\n  damper->velocity = 0.0;\n}}\n\n"
+        "double {0}_damper_step({0}_damper_t *damper, double position) {{\n{1}",
+        name_, velocity_block("damper", period));
+    if (is_one_sided()) text += "  if (!(position > 0.0)) return 0.0; /* outside */\n";
+    text += fmt::format("  return -({} * damper->velocity);\n}}\n\n", literal(wall_.damping));
+    text += fmt::format("double {}_spring_step(double position) {{\n", name_);
+    if (is_one_sided()) text += "  if (!(position > 0.0)) return 0.0; /* outside */\n";
+    text += fmt::format("  return -({} * position);\n}}\n\n", literal(*wall_.stiffness));
+    text +=
+        fmt::format("double {}_wall_sum(double spring, double damper) {{\n  double force = spring + damper;\n", name_);
+    if (is_one_sided()) text += "  if (force > 0.0) force = 0.0; /* it would pull */\n";
+    return text + force_limit_block() + "  return force;\n}\n";
   }
 
   [[nodiscard]] std::string declarations() const {
@@ -136,17 +189,7 @@ class CodeWriter {
   [[nodiscard]] std::string force_function() const {
     std::string body;
     if (has_velocity()) {
-      const double period = device_.loop.sampling_period;
-      const double pole = velocity_filter_pole(wall_.velocity_filter_hz, period);
-      body += "  if (!wall->started) wall->previous = position;\n  wall->started = 1;\n";
-      const std::string step = literal((1.0 - pole) * (1.0 / period)) + " * (position - wall->previous)";
-      if (pole > 0.0) {
-        body += fmt::format("  /* low-pass: (1 - a)/T (1 - z^-1)/(1 - a z^-1), a = {} */\n", literal(pole));
-        body += fmt::format("  wall->velocity = {} * wall->velocity + {};\n", literal(pole), step);
-      } else {
-        body += fmt::format("  wall->velocity = {};\n", step);
-      }
-      body += "  wall->previous = position;\n";
+      body += velocity_block("wall", device_.loop.sampling_period);
       body += fmt::format("  force = -({} * position + {} * wall->velocity);\n", literal(*wall_.stiffness),
                           literal(wall_.damping));
     } else {
@@ -156,14 +199,32 @@ class CodeWriter {
       body += "  if (!(position > 0.0 && force < 0.0)) force = 0.0; /* outside, or it would pull */\n";
     for (std::size_t i = 0; i < wall_.filters.size(); ++i) body += filter_block(i);
     if (is_one_sided() && !wall_.filters.empty()) body += "  if (force > 0.0) force = 0.0;\n";
-    if (device_.actuator.force_limit) {
-      body += fmt::format("  if (force > {0}) force = {0};\n  if (force < -{0}) force = -{0};\n",
-                          literal(*device_.actuator.force_limit));
-    }
+    body += force_limit_block();
     const char* unused = !has_velocity() && wall_.filters.empty() ? "  (void)wall;\n" : "";
     return fmt::format(
         "double {0}_wall_force({0}_wall_t *wall, double position) {{\n  double force;\n{1}{2}  return force;\n}}\n",
         name_, unused, body);
+  }
+
+  /// VelocityFilter, in the state of that name.
+  [[nodiscard]] std::string velocity_block(std::string_view state, double period) const {
+    const double pole = velocity_filter_pole(wall_.velocity_filter_hz, period);
+    std::string text = fmt::format("  if (!{0}->started) {0}->previous = position;\n  {0}->started = 1;\n", state);
+    const std::string step =
+        fmt::format("{} * (position - {}->previous)", literal((1.0 - pole) * (1.0 / period)), state);
+    if (pole > 0.0) {
+      text += fmt::format("  /* low-pass: (1 - a)/T (1 - z^-1)/(1 - a z^-1), a = {} */\n", literal(pole));
+      text += fmt::format("  {0}->velocity = {1} * {0}->velocity + {2};\n", state, literal(pole), step);
+    } else {
+      text += fmt::format("  {}->velocity = {};\n", state, step);
+    }
+    return text + fmt::format("  {}->previous = position;\n", state);
+  }
+
+  [[nodiscard]] std::string force_limit_block() const {
+    if (!device_.actuator.force_limit) return {};
+    return fmt::format("  if (force > {0}) force = {0};\n  if (force < -{0}) force = -{0};\n",
+                       literal(*device_.actuator.force_limit));
   }
 
   /// delta^n w = force - d0 w - d1 delta w: RunningFilter.
@@ -209,7 +270,6 @@ std::string c_identifier(std::string_view name) {
 }
 
 std::string export_c(const CodedWall& wall) {
-  require_one_rate(wall.wall.device);
   if (!wall.wall.device.parameters().wall.stiffness) {
     throw Error(ErrorCode::invalid_argument, "there is no wall to write: wall.stiffness is missing");
   }

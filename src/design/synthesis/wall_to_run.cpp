@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "require_valid.hpp"
-#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth {
@@ -45,7 +44,6 @@ std::optional<OptionProblem> find_problem(const WallToRunOptions& options, const
 }
 
 WallToRun wall_to_run(const Device& device, const WallToRunOptions& options) {
-  require_one_rate(device);
   internal::require_valid(find_problem(options, device));
   WallToRun result{.device = device};
   if (options.safety_factor) {
