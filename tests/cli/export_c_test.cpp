@@ -11,7 +11,9 @@
 
 #include "cli/workspace.hpp"
 #include "zwidth/control/sampled_controller.hpp"
+#include "zwidth/control/sampled_damper.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -140,7 +142,109 @@ int main(void) {{
 INSTANTIATE_TEST_SUITE_P(Walls, ExportC, ::testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
 
+struct TwoRateCodeCase {
+  std::string name;
+  std::string damper;  // keys of [loop.damper]
+  std::string wall;    // keys of [wall], and tables behind it
+  bool one_sided = false;
+};
+
+void PrintTo(const TwoRateCodeCase& each, std::ostream* stream) { *stream << each.name; }
+
+class ExportCOfTwoRates : public Workspace, public ::testing::WithParamInterface<TwoRateCodeCase> {};
+
+// Both paths on the loop as it runs: the code is called at the loop's instants, on what its encoder gives.
+TEST_P(ExportCOfTwoRates, RunsAsTheLoop) {
+  const TwoRateCodeCase& each = GetParam();
+  const std::string text =
+      device_named("two", loop + "[loop.damper]\n" + each.damper + "[wall]\nstiffness = 1234.5\n" + each.wall);
+  write("device.toml", text);
+  const Device device = *parse_device(text, "test");
+  const double spring_period = device.loop().sampling_period;
+  const double damper_period = damper_timing(device.loop()).sampling_period;
+  const bool is_fast = damper_period < spring_period;
+  const int ratio =
+      static_cast<int>(std::lround(is_fast ? spring_period / damper_period : damper_period / spring_period));
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> anywhere(-2e-3, 2e-3);
+  std::vector<double> positions;
+  std::string lines;
+  for (int k = 0; k < samples; ++k) {
+    positions.push_back(anywhere(random));
+    lines += fmt::format("{:.17g}\n", positions.back());
+  }
+  write("positions.txt", lines);
+  write("main.c", fmt::format(R"(#include <stdio.h>
+#include "wall.c"
+int main(void) {{
+  two_damper_t damper;
+  double position, of_damper = 0.0, of_spring = 0.0;
+  int k = 0;
+  two_damper_reset(&damper);
+  for (; scanf("%lf", &position) == 1; ++k) {{
+    if (k == 5000) two_damper_reset(&damper);
+    if (k % {0} == 0) of_damper = two_damper_step(&damper, position);
+    if (k % {1} == 0) of_spring = two_spring_step(position);
+    printf("%.17g\n", two_wall_sum(of_spring, of_damper));
+  }}
+  return 0;
+}}
+)",
+                              is_fast ? 1 : ratio, is_fast ? ratio : 1));
+  const Outcome outcome =
+      run(fmt::format("zwidth export device.toml --format c --contact {} --output wall.c && "
+                      "cc -std=c99 -Wall -Wextra -Werror -pedantic -Wmissing-prototypes -c wall.c && "
+                      "cc -std=c99 -Wall -Wextra -Werror -pedantic -o wall main.c && ./wall < positions.txt",
+                      each.one_sided ? "unilateral" : "bilateral"));
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+
+  ControllerOptions options = wall_controller(device.parameters().wall);
+  if (each.one_sided) options.contact = ControllerOptions::Contact::unilateral;
+  SampledController spring(without_damper(options), spring_period);
+  SampledDamper damper(options, damper_period);
+  const double limit = device.parameters().actuator.force_limit.value_or(1e300);
+  std::istringstream forces(outcome.output);
+  double of_spring = 0.0;
+  double of_damper = 0.0;
+  bool saturates = false;
+  for (int k = 0; k < samples; ++k) {
+    const double position = positions[static_cast<std::size_t>(k)];
+    if (k == 5000) damper.reset();
+    if (is_fast || k % ratio == 0) of_damper = damper.update(position);
+    if (!is_fast || k % ratio == 0) of_spring = spring.update(position);
+    const double expected = std::clamp(sum_of_paths(of_spring, of_damper, each.one_sided), -limit, limit);
+    double force = 0.0;
+    ASSERT_TRUE(forces >> force) << k;
+    ASSERT_NEAR(force, expected, 1e-12 * (std::abs(of_spring) + std::abs(of_damper))) << k;
+    saturates = saturates || std::abs(expected) == limit;
+  }
+  EXPECT_EQ(saturates, device.parameters().actuator.force_limit.has_value());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Walls, ExportCOfTwoRates,
+    ::testing::Values(
+        TwoRateCodeCase{"damper_on_the_drive", "sampling_period = 1e-4\n", "damping = 7\n"},
+        TwoRateCodeCase{"filtered", "sampling_period = 2e-4\ndelay = 1e-4\n", "damping = 7\nvelocity_filter_hz = 40\n"},
+        TwoRateCodeCase{"slow", "sampling_period = 5e-3\n", "damping = 7\n"},
+        TwoRateCodeCase{"one_sided", "sampling_period = 1e-4\n", "damping = 7\n", true},
+        TwoRateCodeCase{"limited", "sampling_period = 1e-4\n", "damping = 7\n[actuator]\nforce_limit = 0.03\n"}),
+    [](const auto& each) { return each.param.name; });
+
 class ExportCCommand : public Workspace {};
+
+TEST_F(ExportCCommand, ADamperInALoopOfItsOwnHasAStepOfItsOwn) {
+  const std::string device = "zwidth export devices/lhifam.toml --format c --set wall.stiffness=1000 ";
+  const Outcome apart = run(device + "--set wall.damping=5 --set loop.damper.sampling_period=1e-4");
+  ASSERT_EQ(apart.status, 0) << apart.errors;
+  EXPECT_THAT(apart.output, HasSubstr("_spring_step per 0.001 s"));
+  EXPECT_THAT(apart.output, HasSubstr("_damper_step per 0.0001 s"));
+  EXPECT_THAT(apart.output, Not(HasSubstr("_wall_force")));
+  // One that runs with the spring, or does nothing, has none.
+  const Outcome together = run(device + "--set wall.damping=5");
+  EXPECT_EQ(run(device + "--set wall.damping=5 --set loop.damper.sampling_period=1e-3").output, together.output);
+  EXPECT_THAT(run(device + "--set loop.damper.sampling_period=1e-4").output, HasSubstr("_wall_force"));
+}
 
 TEST_F(ExportCCommand, SaysWhatItIsValidFor) {
   const Outcome outcome =

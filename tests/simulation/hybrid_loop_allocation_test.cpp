@@ -53,6 +53,22 @@ TEST(Allocation, NoneWithFrictionEncoderUserAndFaults) {
   EXPECT_GT(loop.friction_events(), 0U);
 }
 
+TEST(Allocation, NoneWithADamperInALoopOfItsOwn) {
+  for (const double damper_period : {1e-4, 4e-3}) {
+    DeviceParameters device = test::with_friction(test::with_delay(test::lhifam_parameters(), 2.2e-3), 0.3, 0.6);
+    device.loop.damper = LoopDamper{damper_period, 3.3e-3};
+    device.sensor.resolution = 3.14e-6;
+    device.actuator.force_limit = 5.0;
+    HybridLoopOptions options = test::starting_at(test::spring_wall(4000.0, 20.0), {2e-3, 2e-3});
+    HybridLoop loop(Device(device), options);
+    EXPECT_EQ(allocations_of_steps(loop), 0U);
+    EXPECT_GT(loop.friction_events(), 0U);
+    options.faults = {0.1, 0.5e-4, 0.1, 1e-3, 5};
+    HybridLoop faulty(Device(device), options);
+    EXPECT_EQ(allocations_of_steps(faulty), 0U);
+  }
+}
+
 TEST(Allocation, NoneWithMoreStatesThanAreUnrolled) {
   DeviceParameters chain;
   for (int i = 0; i < 9; ++i) chain.bodies.push_back({"body" + std::to_string(i), 1.0, 1.0, 0.0, i < 3 ? 0.1 : 0.0});
