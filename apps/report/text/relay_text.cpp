@@ -11,7 +11,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
-#include "zwidth/model/damper_timing.hpp"
+#include "report/text/wall_filter_text.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/words/finding_text.hpp"
 
@@ -26,12 +26,13 @@ std::string heading(const RelayResult& result) {
     text = fmt::format("Recorded relay experiment: {}\n  {}, {} Hz sampling\n",
                        shortened(result.recording, line_width - 28), relay, number(1.0 / result.sampling_period));
   } else {
-    text = fmt::format("Simulated relay experiment: {}\n  {}{}, delay {}\n",
-                       shortened(display_name(*result.device), line_width - 28), relay,
-                       result.relay.hysteresis > 0.0
-                           ? fmt::format(", hysteresis {}", quantity(result.relay.hysteresis, units.length))
-                           : "",
-                       quantity(result.device->loop().delay, "s"));
+    const auto damper = damper_apart_text(*result.device, result.device->parameters().wall.damping);
+    text = fmt::format(
+        "Simulated relay experiment: {}\n  {}{}, delay {}{}\n",
+        shortened(display_name(*result.device), line_width - 28), relay,
+        result.relay.hysteresis > 0.0 ? fmt::format(", hysteresis {}", quantity(result.relay.hysteresis, units.length))
+                                      : "",
+        quantity(result.device->loop().delay, "s"), damper ? ", beside a damper of " + *damper : std::string());
   }
   const auto note = trust_note(result.trust);
   return text + (note ? wrap("as a limit for walls: " + *note, line_width, 2) : "") + "\n";
@@ -125,7 +126,7 @@ std::string prediction_table(const RelayResult& result) {
   TextTable table{{Align::left, Align::right, Align::right, Align::right}, {{"", "Hz", "K (dB)", "amplitude"}}};
   add_crossovers(table, prediction.linear);
   const bool has_exact =
-      !(result.device && result.device->parameters().wall.damping > 0.0 && has_damper_loop(result.device->loop()));
+      !(result.device && damper_apart_text(*result.device, result.device->parameters().wall.damping));
   const std::string none =
       has_exact ? fmt::format("none above {}", number(hertz(prediction.lowest_frequency))) : std::string("left out");
   add_cycles(table, result.friction_level.value_or(0.0) > 0.0 ? "first harmonics, with friction" : "first harmonics",

@@ -117,7 +117,9 @@ std::string simulated_wall_text(const Device& device, const Simulation& result) 
   const ControllerOptions& wall = result.loop.controller;
   const Units units = units_of(device.parameters().motion);
   std::string text = quantity(wall.stiffness, units.stiffness);
-  if (wall.damping > 0.0) text += fmt::format(" and {}", quantity(wall.damping, units.damping));
+  if (wall.damping > 0.0) {
+    text += " and " + damper_apart_text(device, wall.damping).value_or(quantity(wall.damping, units.damping));
+  }
   if (wall.damping > 0.0 && wall.velocity_filter_hz > 0.0) {
     text += fmt::format(" (velocity low-pass at {})", quantity(wall.velocity_filter_hz, "Hz"));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/text/quantity.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth::report {
 
@@ -32,6 +33,13 @@ std::optional<std::string> wall_filters_text(const Wall& wall) {
   std::string text;
   for (const WallFilter& filter : wall.filters) text += (text.empty() ? "" : "; ") + filter_text(filter);
   return text;
+}
+
+std::optional<std::string> damper_apart_text(const Device& device, double damping) {
+  if (damping == 0.0 || !has_damper_loop(device.loop())) return std::nullopt;
+  const auto [period, delay] = damper_timing(device.loop());
+  return fmt::format("{} at {}, delay {}", quantity(damping, units_of(device.parameters().motion).damping),
+                     quantity(1.0 / period, "Hz"), quantity(delay, "s"));
 }
 
 }  // namespace zwidth::report
