@@ -153,8 +153,8 @@ void PrintTo(const TwoRateCodeCase& each, std::ostream* stream) { *stream << eac
 
 class ExportCOfTwoRates : public Workspace, public ::testing::WithParamInterface<TwoRateCodeCase> {};
 
-// Both paths on the loop as it runs: the code is called at the loop's instants, on what its encoder gives.
-TEST_P(ExportCOfTwoRates, RunsAsTheLoop) {
+// Both steps at their instants, on any positions.
+TEST_P(ExportCOfTwoRates, RunsAsSpringAndDamper) {
   const TwoRateCodeCase& each = GetParam();
   const std::string text =
       device_named("two", loop + "[loop.damper]\n" + each.damper + "[wall]\nstiffness = 1234.5\n" + each.wall);
