@@ -1,7 +1,5 @@
 #include "zwidth/control/sampled_damper.hpp"
 
-#include <algorithm>
-
 #include "require_argument.hpp"
 
 namespace zwidth {
@@ -18,11 +16,6 @@ ControllerOptions without_damper(ControllerOptions options) {
   options.damping = 0.0;
   options.velocity_filter_hz = 0.0;
   return options;
-}
-
-double sum_of_paths(double spring, double damper, bool is_unilateral_wall) noexcept {
-  const double sum = spring + damper;
-  return is_unilateral_wall ? std::min(sum, 0.0) : sum;
 }
 
 bool is_unilateral_wall(const ControllerOptions& options) noexcept {

@@ -18,9 +18,10 @@ struct Arrival {
   LoopSchedule::Path path = LoopSchedule::spring;
 };
 
-std::size_t index_of_length(std::vector<double>& lengths, double length) {
-  const auto index = static_cast<std::size_t>(std::find(lengths.begin(), lengths.end(), length) - lengths.begin());
-  if (index == lengths.size()) lengths.push_back(length);
+std::uint32_t index_of_length(std::vector<double>& lengths, double length) {
+  const auto found = std::find(lengths.begin(), lengths.end(), length);
+  const auto index = static_cast<std::uint32_t>(found - lengths.begin());
+  if (found == lengths.end()) lengths.push_back(length);
   return index;
 }
 

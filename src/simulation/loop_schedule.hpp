@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "zwidth/control/sampled_controller.hpp"
@@ -18,13 +19,13 @@ namespace zwidth::internal {
 
 // The instants at which a loop reads and its forces arrive, over one tick: the shorter of spring's and damper's period.
 struct LoopSchedule {
-  enum Path : std::size_t { spring, damper };
+  enum Path : unsigned char { spring, damper };
   // Something at an instant, or the motion up to the next one.
   struct Event {
-    enum class Kind { reads, arrives, moves };
+    enum class Kind : unsigned char { reads, arrives, moves };
     Kind kind = Kind::moves;
     Path path = spring;
-    std::size_t length = 0;  // of the motion: which of `lengths`
+    std::uint32_t length = 0;  // of the motion: which of `lengths`
   };
   // A path's force, held from one sample to the next.
   struct HeldPath {

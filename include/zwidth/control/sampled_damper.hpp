@@ -40,7 +40,10 @@ class SampledDamper {
 
 /// What the actuator is to give of the two forces that have arrived, N or N m: their sum, that of a unilateral wall only
 /// as far as it pushes.
-[[nodiscard]] double sum_of_paths(double spring, double damper, bool is_unilateral_wall) noexcept;
+[[nodiscard]] inline double sum_of_paths(double spring, double damper, bool is_unilateral_wall) noexcept {
+  const double sum = spring + damper;
+  return is_unilateral_wall && sum > 0.0 ? 0.0 : sum;
+}
 
 /// Whether the options are those of a unilateral wall.
 [[nodiscard]] bool is_unilateral_wall(const ControllerOptions& options) noexcept;
