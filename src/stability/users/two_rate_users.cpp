@@ -13,6 +13,7 @@
 #include "stability/users/disc_pieces.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/termination_discs.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 
@@ -154,12 +155,33 @@ std::vector<double> frequencies_to_look_at(const TwoRateDiscs& discs, const Devi
 
 }  // namespace
 
+bool knows_all_users(const Loop& loop) {
+  const auto [period, delay] = damper_timing(loop);
+  if (rate_ratio(loop.sampling_period, period) < 1.0) return false;
+  const double apart = (loop.delay - delay) / period;
+  return std::abs(apart - std::round(apart)) <= whole_within;
+}
+
+std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress) {
+  if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, virtual_damper(device), progress);
+  if (device.parameters().wall.damping == 0.0) return any_user_limit(with_one_rate(device), progress);
+  if (!knows_all_users(device.loop())) return std::nullopt;
+  tell(progress, 0.0);
+  const CriticalStiffness nobody = critical_stiffness(device_without_user(device));
+  if (nobody.trust.refused()) {
+    AbsoluteStabilityLimit refused;
+    refused.stiffness = std::numeric_limits<double>::quiet_NaN();
+    refused.trust = nobody.trust;
+    return refused;
+  }
+  return two_rate_absolute_stability(device, nobody);
+}
+
 std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                   const CriticalStiffness& nobody) {
+  if (!knows_all_users(device.loop())) return std::nullopt;
   const auto [period, delay] = damper_timing(device.loop());
   const double apart = (device.loop().delay - delay) / period;
-  if (rate_ratio(device.loop().sampling_period, period) < 1.0) return std::nullopt;
-  if (!(std::abs(apart - std::round(apart)) <= whole_within)) return std::nullopt;
   AbsoluteStabilityLimit limit;
   limit.trust = nobody.trust;
   const Device free = device_without_user(device);

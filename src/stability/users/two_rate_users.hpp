@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
@@ -19,5 +20,12 @@ namespace zwidth::internal {
 // to be the least in between. Throws as absolute_stability_limit().
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                                 const CriticalStiffness& nobody);
+
+// Whether the limit over all passive users of such a device is known: where two_rate_absolute_stability() gives one.
+[[nodiscard]] bool knows_all_users(const Loop& loop);
+
+// absolute_stability_limit() of the device with the damper of its wall, of one rate or two. Nothing where it is not known; refused
+// where the limit that nobody holds is.
+[[nodiscard]] std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress = {});
 
 }  // namespace zwidth::internal
