@@ -17,7 +17,6 @@
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
@@ -108,11 +107,10 @@ class Devices {
 
  private:
   [[nodiscard]] static Trust ask_absolute_stability(const Device& device, std::size_t i, BatchStiffness& columns) {
-    std::optional<AbsoluteStabilityLimit> limit = internal::any_user_limit(device);
-    if (!limit) require_one_rate(device);
-    columns.any_user[i] = limit->stiffness;
-    columns.absolute_stability_frequency[i] = limit->frequency;
-    return std::move(limit->trust);
+    AbsoluteStabilityLimit limit = internal::known_any_user_limit(device);
+    columns.any_user[i] = limit.stiffness;
+    columns.absolute_stability_frequency[i] = limit.frequency;
+    return std::move(limit.trust);
   }
 
   std::span<const ParameterValues> changes_;

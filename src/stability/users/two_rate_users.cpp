@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "model/one_rate.hpp"
@@ -175,6 +176,12 @@ std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const
     return refused;
   }
   return two_rate_absolute_stability(device, nobody);
+}
+
+AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress) {
+  std::optional<AbsoluteStabilityLimit> limit = any_user_limit(device, progress);
+  if (!limit) require_one_rate(device);
+  return *std::move(limit);
 }
 
 std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,

@@ -28,4 +28,7 @@ namespace zwidth::internal {
 // where the limit that nobody holds is.
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress = {});
 
+// The same; throws Error (invalid_argument) as require_one_rate() where it is not known.
+[[nodiscard]] AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress = {});
+
 }  // namespace zwidth::internal
