@@ -148,7 +148,12 @@ std::span<const Phrase> design_phrases() {
              "the position is the encoder's; axis.0.axisfriction, axisinertia, maxspeed and maxtorquerate 0, as by "
              "default"},
       Phrase{drive_velocity_limit, "drive_velocity_limit", note,
-             "the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"}};
+             "the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"},
+      Phrase{damper_on_drive, "damper_on_drive", note,
+             "a damper of {damping} that the drive closes at {rate_hz}, its force {delay:time} later, allows {gain} "
+             "times the stiffness: {stiffness}{?any_user_stiffness|, and {any_user_stiffness:limit} with any passive "
+             "user}",
+             "", "set [loop.damper] to the rate and delay of the drive, and ask again"}};
   return phrases;
 }
 

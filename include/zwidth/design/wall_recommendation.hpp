@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/design/drive_damper.hpp"
 #include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
@@ -115,13 +116,17 @@ struct WallRecommendation {
   /// At how many modal shifts, evenly over the range asked, each wall was held against its margins; 1: at none
   /// but their own frequencies.
   std::size_t modal_shifts_checked = 1;
+  /// The wall with the damper on the drive, which keeps the same margins: K, B and gain by `wall`. Where alternatives are searched
+  /// for the goals stiffness and width; absent as with_damper_on_drive(), and where no wall with such a damper is found.
+  std::optional<DriveDamper> drive_damper = {};
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };
 
 /// The damping ratio of a device on its wall: the least of the closed-loop poles z = e^{sT} up to twice the natural
 /// frequency of the rigid device on it, |s| <= 2 sqrt((K + k)/m); 1 where none of them swings. Vibration modes that
-/// low count too. Absent for a transfer function, without wall.stiffness > 0, and where no pole is that low.
+/// low count too. Absent for a transfer function, without wall.stiffness > 0, with a damper in a loop of its own, and where no
+/// pole is that low.
 [[nodiscard]] std::optional<double> contact_damping_ratio(const Device& device);
 
 /// The wall to render: K, B, velocity filter, and a notch where it is worth 5 % of the goal.
@@ -145,6 +150,10 @@ struct WallRecommendation {
 /// notch lowers no absolute stability limit at any of them; the contact's damping is that at their nominal values.
 /// The wall of an uncertain device keeps all of this in 97.5 % of `draws` devices drawn from the uncertainty. Where
 /// absolute_stability_limit() is not available the device as it is decides, and a remark says so.
+/// With a faster damper in a loop of its own ([loop.damper]) the same limits and the same check hold, the phase margin is of the
+/// spring's force with the damper closed, and neither a notch nor (but for a bound on the force per count) a velocity filter is
+/// searched. With a slower one, or delays that differ by no whole number of the damper's periods, no limit over all passive users
+/// is known: Error (invalid_argument), as for WallGoal::critical_damping with two rates.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options = {});
 

@@ -12,6 +12,8 @@
 
 #include "design/sensitivities/number_limit.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/design/drive_damper.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 
 namespace zwidth::internal {
@@ -94,6 +96,7 @@ class Changes {
           [](DeviceParameters& then) { then.wall.velocity_filter_hz = 0.0; });
     }
     damp();
+    damp_on_drive();
     if (cause_.limited_by && cause_.limited_by->kind == Mechanism::Kind::vibration_mode) stop_mode();
     for (std::size_t i = 0; i < std::min(now.links.size(), most_links); ++i) {
       add({.kind = Kind::stiffer_link,
@@ -192,17 +195,21 @@ class Changes {
     }
   }
 
+  /// What the ladder of dampers is of: B, or the device's damping; 0 where there is neither nor a wall.
+  [[nodiscard]] double unit_of_dampers() const {
+    double unit = loop_.device.parameters().wall.damping;
+    if (unit > 0.0) return unit;
+    for (const Body& body : loop_.device.bodies()) unit += body.damping;
+    // A device that nothing damps: of a sample of its wall.
+    return unit > 0.0 ? unit : 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
+  }
+
   /// The damper of the ladder with the highest limit (least amplitude) of those that lower no user's.
   void damp() {
     if (loop_.number == WallNumber::damping) return;  // the damper is what oscillates
     const Wall& wall = loop_.device.parameters().wall;
-    double unit = wall.damping;
-    if (unit == 0.0) {
-      for (const Body& body : loop_.device.bodies()) unit += body.damping;
-      // A device that nothing damps: of a sample of its wall.
-      if (unit == 0.0) unit = 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
-      if (!(unit > 0.0)) return;
-    }
+    const double unit = unit_of_dampers();
+    if (!(unit > 0.0)) return;
     std::optional<AbsoluteStabilitySearch> search;  // what users do does not depend on the damper
     if (users_.now()) search.emplace(loop_.device, loop_.progress);
     AbsoluteStabilitySearch* const users = search ? &*search : nullptr;
@@ -225,6 +232,42 @@ class Changes {
       return;
     }
     if (!users_.now()) changes_.push_back(std::move(ladder.front().change));
+  }
+
+  /// The same with the damper in a loop of its own; of a damper alone that damper.
+  void damp_on_drive() {
+    if (is_quantisation()) return;  // its cycle is known of one rate alone
+    const std::optional<Device> on_drive = with_damper_on_drive(loop_.device);
+    if (!on_drive) return;
+    const auto [period, delay] = damper_timing(on_drive->loop());
+    const double now = loop_.device.parameters().wall.damping;
+    std::vector<double> tried;
+    if (now > 0.0) tried.push_back(now);
+    if (loop_.number == WallNumber::stiffness) {
+      for (const double factor : dampers) tried.push_back(factor * unit_of_dampers());
+    }
+    std::vector<DiagnosisChange> ladder;
+    for (const double damping : tried) {
+      if (!(damping > 0.0)) continue;
+      auto made = recomputed(
+          {.kind = Kind::damper_on_drive,
+           .key = "loop.damper.sampling_period",
+           .value_now = loop_.device.loop().sampling_period,
+           .value_then = period,
+           .damping_then = damping,
+           .delay_then = delay},
+          [&](DeviceParameters& then) {
+            then.loop = on_drive->loop();
+            then.wall.damping = damping;
+          },
+          nullptr);
+      if (!made) continue;
+      judge(*made, nullptr);
+      if (is_safe(made->change)) ladder.push_back(std::move(made->change));
+    }
+    const auto best =
+        std::ranges::max_element(ladder, {}, [](const DiagnosisChange& each) { return *each.limit_then; });
+    if (best != ladder.end()) changes_.push_back(*best);
   }
 
   void stop_mode() {
