@@ -51,7 +51,8 @@ struct DesignTargets {
   std::optional<double> absolute_stability_limit_now;  ///< of the device as it is; absent as the limit then
   std::vector<DesignTarget> targets;                   ///< cheapest relative change first
   /// What the damper on the drive allows, at the B with the greatest limit over all passive users: no number of the file moved
-  /// but an addition to it. Absent as with_damper_on_drive(), for WallNumber::damping, and where limit_now is not finite.
+  /// but an addition to it. Absent as with_damper_on_drive(), for WallNumber::damping, and where no finite limit is
+  /// found.
   std::optional<DriveDamper> drive_damper = {};
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it

@@ -12,14 +12,18 @@ inline constexpr double usual_drive_rate = 8000.0;
 
 /// What a device gains where its drive closes the damper in a loop of its own, [loop.damper].
 struct DriveDamper {
-  double sampling_period = 0.0;  ///< of the damper, s
-  double delay = 0.0;            ///< of the damper's force, s, in addition to the zero-order hold
-  double damping = 0.0;          ///< B that it is given with
+  double sampling_period = 0.0;     ///< of the damper, s
+  double delay = 0.0;               ///< of the damper's force, s, in addition to the zero-order hold
+  double damping = 0.0;             ///< B that it is given with
+  double velocity_filter_hz = 0.0;  ///< behind this filter; 0: none
   /// K with it: of a recommendation the wall, which keeps the same margins; of a target the limit asked for
   double stiffness = 0.0;
   /// The limit over all passive users at this B; infinite where nobody can destabilise a wall, absent where the device cannot be held
   std::optional<double> absolute_stability_limit = {};
-  double gain = 1.0;  ///< stiffness by that of the device as it is
+  /// The same with the damper in the spring's loop, each with the B that is best there: of a recommendation its own wall
+  double one_rate_damping = 0.0;
+  double one_rate_stiffness = 0.0;
+  double gain = 1.0;  ///< stiffness by one_rate_stiffness
   Finding why;        ///< the same as a finding of key "loop.damper.sampling_period"
 };
 

@@ -373,7 +373,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   std::ranges::stable_sort(result.targets, {}, cost);
   if (options.limit_of == WallNumber::stiffness) {
     const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
-    result.drive_damper = drive_damper(device, any_user, limit, while_judging);
+    result.drive_damper = drive_damper(device, any_user, while_judging);
   }
   return result;
 }

@@ -10,6 +10,7 @@
 
 #include "design/synthesis/wall_limits.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
+#include "stability/users/absolute_stability_search.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -74,27 +75,53 @@ BestDamping best_damping(const Device& device, const std::function<double(double
   return most.value > best.value ? most : best;
 }
 
-std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, double limit_now,
-                                        const Progress& progress) {
+std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, const Progress& progress) {
   const std::optional<Device> on_drive = with_damper_on_drive(device);
-  if (!on_drive || !(limit_now > 0.0) || !std::isfinite(limit_now)) return std::nullopt;
-  const bool is_held = can_be_held(*on_drive);
+  if (!on_drive) return std::nullopt;
+  const bool is_held = can_be_held(device);
   const double filter = device.parameters().wall.velocity_filter_hz;
-  const auto with = [&](double damping) { return with_wall(*on_drive, 0.0, {damping, filter}); };
+  const auto with = [filter](const Device& each, double damping) { return with_wall(each, 0.0, {damping, filter}); };
+  // The limit asked for at the best B; 0 where there is none.
+  const auto limit_with = [&](const Device& each, const BestDamping& best) {
+    const Device damped = with(each, best.damping);
+    const CriticalStiffness critical = critical_stiffness(damped);
+    if (critical.trust.refused() || !(critical.stiffness > 0.0)) return 0.0;
+    return any_user && is_held ? known_any_user_limit(damped, progress).stiffness : critical.stiffness;
+  };
   try {
-    const BestDamping best = best_damping(
+    std::optional<TwoRateUsers> two_rates;
+    std::optional<AbsoluteStabilitySearch> one_rate;
+    if (is_held) {
+      two_rates.emplace(*on_drive);
+      one_rate.emplace(device, progress);
+    }
+    const BestDamping apart = best_damping(
         *on_drive,
         [&](double damping) {
-          return is_held ? any_user_limit(with(damping), progress)->stiffness
-                         : unguarded_stiffness(with(damping)).stiffness;
+          const double nobody = unguarded_stiffness(with(*on_drive, damping)).stiffness;
+          return is_held && damping > 0.0 ? std::min(nobody, two_rates->limit_seen({damping, filter})) : nobody;
         },
         progress);
-    const CriticalStiffness critical = critical_stiffness(with(best.damping));
-    if (!(best.value > 0.0) || critical.trust.refused()) return std::nullopt;
+    const BestDamping together = best_damping(
+        device,
+        [&](double damping) {
+          return is_held ? one_rate->limit({damping, filter}, progress).stiffness
+                         : unguarded_stiffness(with(device, damping)).stiffness;
+        },
+        progress);
     const auto [period, delay] = damper_timing(on_drive->loop());
-    DriveDamper found{period, delay, best.damping, any_user ? best.value : critical.stiffness, {}, 1.0, {}};
-    if (is_held) found.absolute_stability_limit = best.value;
-    found.gain = found.stiffness / limit_now;
+    DriveDamper found;
+    found.sampling_period = period;
+    found.delay = delay;
+    found.damping = apart.damping;
+    found.velocity_filter_hz = apart.damping > 0.0 ? filter : 0.0;
+    found.stiffness = limit_with(*on_drive, apart);
+    if (is_held)
+      found.absolute_stability_limit = known_any_user_limit(with(*on_drive, apart.damping), progress).stiffness;
+    found.one_rate_damping = together.damping;
+    found.one_rate_stiffness = limit_with(device, together);
+    found.gain = found.stiffness / found.one_rate_stiffness;
+    if (!(found.stiffness > 0.0) || !(found.gain > 0.0) || !std::isfinite(found.gain)) return std::nullopt;
     found.why = finding_of(found, device.parameters().motion);
     return found;
   } catch (const Error& error) {
@@ -111,8 +138,13 @@ Finding finding_of(const DriveDamper& on_drive, Motion motion) {
                            {"delay", on_drive.delay, "s"},
                            {"damping", on_drive.damping, units.damping},
                            {"stiffness", on_drive.stiffness, units.stiffness},
+                           {"one_rate_damping", on_drive.one_rate_damping, units.damping},
+                           {"one_rate_stiffness", on_drive.one_rate_stiffness, units.stiffness},
                            {"gain", on_drive.gain}},
               .key = "loop.damper.sampling_period"};
+  if (on_drive.velocity_filter_hz > 0.0) {
+    why.evidence.push_back({"velocity_filter_hz", on_drive.velocity_filter_hz, "Hz"});
+  }
   if (on_drive.absolute_stability_limit) {
     why.evidence.push_back({"any_user_stiffness", *on_drive.absolute_stability_limit, units.stiffness});
   }

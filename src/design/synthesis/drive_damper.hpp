@@ -17,11 +17,10 @@ struct BestDamping {
 [[nodiscard]] BestDamping best_damping(const Device& device, const std::function<double(double)>& value,
                                        const Progress& progress);
 
-// The limit that is asked for with the damper on the drive, at the B with the greatest limit over all passive users (of a device
-// that cannot be held, of itself). `limit_now`: of the device as it is. Nothing as with_damper_on_drive(), and where no
-// limit is found.
-[[nodiscard]] std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, double limit_now,
-                                                      const Progress& progress);
+// The limit that is asked for with the damper on the drive and with it in the spring's loop, each at the B with the greatest limit
+// over all passive users (of a device that cannot be held, of itself). Nothing as with_damper_on_drive(), and where a limit is not
+// found or not finite.
+[[nodiscard]] std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, const Progress& progress);
 
 // The finding of what is filled in, for a device of that motion.
 [[nodiscard]] Finding finding_of(const DriveDamper& on_drive, Motion motion);

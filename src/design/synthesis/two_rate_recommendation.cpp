@@ -1,9 +1,12 @@
 #include "design/synthesis/two_rate_recommendation.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,8 +35,11 @@ constexpr double off_every_limit = 1e-6;
 constexpr double rounding_of_margins = 1e-9;
 constexpr double same_margin = 1e-4;  // relative, of a margin that is the one that bounds
 constexpr double worth_a_filter_of_drive = 0.02;
-constexpr std::array cutoffs_of_drive{0.2, 0.05, 0.0125};  // of the damper's rate
-constexpr double tail_of_two_rate_draws = 0.025;           // of the devices drawn, which may fail
+constexpr double fastest_filter = 0.2;    // of the damper's rate
+constexpr double slowest_filter = 0.005;  // of the spring's rate
+constexpr double filter_step = 2.5;
+constexpr double finest_filter_step = 1.1;
+constexpr double tail_of_two_rate_draws = 0.025;  // of the devices drawn, which may fail
 
 /// What bounds a wall of two rates.
 class TwoRateLimits {
@@ -43,12 +49,19 @@ class TwoRateLimits {
 
   [[nodiscard]] bool has_users() const { return has_users_; }
 
+  /// Whether a search looks: each limit with any user is then as TwoRateUsers::limit_seen().
+  void search(bool quickly) {
+    is_quick_ = quickly && has_users_;
+    if (is_quick_ && !users_) users_.emplace(device_);
+  }
+
   /// The end of the stable stiffnesses from 0 on, with every user (where there is such a limit).
   [[nodiscard]] double limit(VirtualDamper damper) const {
     tell(options_.progress, 0.0);
     const Device walled = with_wall(device_, 0.0, damper);
     if (damper.damping == 0.0 && has_users_) return any_user_limit(walled, options_.progress)->stiffness;
     const CriticalStiffness nobody = unguarded_stiffness(device_without_user(walled));
+    if (is_quick_) return std::min(nobody.stiffness, users_->limit_seen(damper));
     if (has_users_) return two_rate_absolute_stability(walled, nobody)->stiffness;
     return nobody.stiffness;
   }
@@ -137,6 +150,8 @@ class TwoRateLimits {
   const Device& device_;
   const RecommendationOptions& options_;
   bool has_users_;
+  bool is_quick_ = false;
+  std::optional<TwoRateUsers> users_;
 };
 
 struct TwoRateWall {
@@ -187,39 +202,56 @@ class TwoRateRecommendation {
     return WallSearch::value_of(options_.goal, wall.stiffest.stiffness, wall.damper.damping);
   }
 
-  /// The best B behind no filter, and where the encoder's steps are bounded behind a few.
-  [[nodiscard]] std::optional<TwoRateWall> searched() const {
-    std::vector<double> cutoffs{0.0};
-    if (options_.quantisation_force && device_.parameters().sensor.resolution > 0.0) {
-      for (const double share : cutoffs_of_drive) {
-        cutoffs.push_back(share / damper_timing(device_.loop()).sampling_period);
+  /// The best B behind this velocity filter, as far as the search looks.
+  [[nodiscard]] TwoRateWall best_behind(double cutoff) const {
+    const BestDamping found = best_damping(
+        with_wall(device_, 0.0, {0.0, cutoff}),
+        [&](double damping) {
+          const VirtualDamper damper{damping, cutoff};
+          return WallSearch::value_of(options_.goal, limits_.stiffest(damper).stiffness, damping);
+        },
+        options_.progress);
+    const VirtualDamper damper{found.damping, found.damping > 0.0 ? cutoff : 0.0};
+    return {damper, limits_.stiffest(damper)};
+  }
+
+  /// The best of no velocity filter and filters from the damper's rate down to far below the spring's; computed exactly.
+  [[nodiscard]] std::optional<TwoRateWall> searched() {
+    limits_.search(true);
+    TwoRateWall best = best_behind(0.0);
+    const auto take = [&](double cutoff) {
+      const TwoRateWall candidate = best_behind(cutoff);
+      if (value_of(candidate) > value_of(best) * (1.0 + worth_a_filter_of_drive)) best = candidate;
+    };
+    if (std::isfinite(value_of(best))) {
+      const double fastest = fastest_filter / damper_timing(device_.loop()).sampling_period;
+      const double slowest = slowest_filter / device_.loop().sampling_period;
+      for (double cutoff = fastest; cutoff >= slowest; cutoff /= filter_step) take(cutoff);
+      if (best.damper.velocity_filter_hz > 0.0) {
+        for (double step = std::sqrt(filter_step); step > finest_filter_step; step = std::sqrt(step)) {
+          const double middle = best.damper.velocity_filter_hz;
+          take(middle * step);
+          take(middle / step);
+        }
       }
     }
-    std::optional<TwoRateWall> best;
-    for (const double cutoff : cutoffs) {
-      const BestDamping found = best_damping(
-          with_wall(device_, 0.0, {0.0, cutoff}),
-          [&](double damping) {
-            const VirtualDamper damper{damping, cutoff};
-            return WallSearch::value_of(options_.goal, limits_.stiffest(damper).stiffness, damping);
-          },
-          options_.progress);
-      const VirtualDamper damper{found.damping, found.damping > 0.0 ? cutoff : 0.0};
-      const TwoRateWall candidate{damper, limits_.stiffest(damper)};
-      if (!(value_of(candidate) > 0.0)) continue;
-      if (!best || value_of(candidate) > value_of(*best) * (1.0 + worth_a_filter_of_drive)) best = candidate;
-    }
-    return best;
+    limits_.search(false);
+    best.stiffest = limits_.stiffest(best.damper);
+    return value_of(best) > 0.0 ? std::optional(best) : std::nullopt;
   }
 
   /// What uncertainty and modal shifts leave of it.
   void lower(TwoRateWall& wall, WallRecommendation& result) const {
     const auto take = [&](const std::vector<Device>& devices, double may_fail, WallBound by, FindingCode why_none) {
-      std::vector<double> stiffest;
-      for (const Device& each : devices) {
-        const bool known = knows_all_users(each.loop());
-        stiffest.push_back(known ? TwoRateLimits(each, options_).stiffest(wall.damper).stiffness : 0.0);
-      }
+      std::vector<double> stiffest(devices.size(), 0.0);
+      RecommendationOptions asked = options_;
+      asked.progress = {};  // told by one thread at a time
+      tbb::parallel_for(std::size_t{0}, devices.size(), [&](std::size_t i) {
+        if (!knows_all_users(devices[i].loop())) return;
+        TwoRateLimits limits(devices[i], asked);
+        limits.search(true);
+        stiffest[i] = limits.stiffest(wall.damper).stiffness;
+      });
       std::ranges::sort(stiffest);
       const double borne = stiffest[static_cast<std::size_t>(may_fail * static_cast<double>(stiffest.size()))];
       if (!(borne < wall.stiffest.stiffness)) return;
@@ -334,13 +366,16 @@ std::optional<DriveDamper> recommend_drive_damper(const Device& device, const Re
     const WallRecommendation with = recommend_two_rate_wall(*on_drive, asked);
     if (!with.wall || !(with.wall->wall.damping > 0.0)) return std::nullopt;
     const auto [period, delay] = damper_timing(on_drive->loop());
-    DriveDamper result{period,
-                       delay,
-                       with.wall->wall.damping,
-                       *with.wall->wall.stiffness,
-                       with.wall->absolute_stability_limit,
-                       *with.wall->wall.stiffness / *found.wall.stiffness,
-                       {}};
+    DriveDamper result;
+    result.sampling_period = period;
+    result.delay = delay;
+    result.damping = with.wall->wall.damping;
+    result.velocity_filter_hz = with.wall->wall.velocity_filter_hz;
+    result.stiffness = *with.wall->wall.stiffness;
+    result.absolute_stability_limit = with.wall->absolute_stability_limit;
+    result.one_rate_damping = found.wall.damping;
+    result.one_rate_stiffness = *found.wall.stiffness;
+    result.gain = result.stiffness / result.one_rate_stiffness;
     result.why = finding_of(result, device.parameters().motion);
     return result;
   } catch (const Error& error) {

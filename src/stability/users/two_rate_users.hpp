@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "zwidth/model/device.hpp"
@@ -30,5 +31,22 @@ namespace zwidth::internal {
 
 // The same; throws Error (invalid_argument) as require_one_rate() where it is not known.
 [[nodiscard]] AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress = {});
+
+// The limit over all passive users of one device with many dampers, for searches.
+class TwoRateUsers {
+ public:
+  // `device`: of a loop that knows_all_users().
+  explicit TwoRateUsers(const Device& device);
+  TwoRateUsers(TwoRateUsers&&) noexcept;
+  ~TwoRateUsers();
+
+  // The least K at the frequencies looked at, never below two_rate_absolute_stability(): refined between none of them, and
+  // without the limit of nobody.
+  [[nodiscard]] double limit_seen(VirtualDamper damper) const;
+
+ private:
+  struct Looks;
+  std::unique_ptr<Looks> looks_;
+};
 
 }  // namespace zwidth::internal
