@@ -38,10 +38,11 @@ struct RecommendationOptions {
   /// The vibration modes may lie anywhere from (1 - uncertainty) to (1 + uncertainty) times their frequency, see with_modal_shift(); from 0
   /// to 0.9; above 0 the device needs a link.
   double modal_frequency_uncertainty = 0.0;
-  bool notch = true;         ///< a notch near a mode may be added to the wall's filters
-  bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
-  std::size_t draws = 100;   ///< of the device's uncertainty, where it has one
-  Progress progress = {};    ///< told how far the work is; ends it by throwing
+  bool notch = true;          ///< a notch near a mode may be added to the wall's filters
+  bool alternatives = true;   ///< WallRecommendation::alternatives are searched, and what bounds the wall
+  bool drive_damper = false;  ///< WallRecommendation::drive_damper is searched
+  std::size_t draws = 100;    ///< of the device's uncertainty, where it has one
+  Progress progress = {};     ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range, and the device: critical damping needs bodies, uncertain modal frequencies need links.
@@ -116,8 +117,8 @@ struct WallRecommendation {
   /// At how many modal shifts, evenly over the range asked, each wall was held against its margins; 1: at none
   /// but their own frequencies.
   std::size_t modal_shifts_checked = 1;
-  /// The wall with the damper on the drive, which keeps the same margins: K, B and gain by `wall`. Where alternatives are searched
-  /// for the goals stiffness and width; absent as with_damper_on_drive(), and where no wall with such a damper is found.
+  /// The wall with the damper on the drive, which keeps the same margins: K, B and gain by `wall`. Where it is asked for with
+  /// the goals stiffness and width; absent as with_damper_on_drive(), and where no wall with such a damper is found.
   std::optional<DriveDamper> drive_damper = {};
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "design/sensitivities/number_limit.hpp"
+#include "design/synthesis/wall_limits.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/design/drive_damper.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -246,9 +249,8 @@ class Changes {
     if (loop_.number == WallNumber::stiffness) {
       for (const double factor : dampers) tried.push_back(factor * unit_of_dampers());
     }
-    std::vector<DiagnosisChange> ladder;
-    for (const double damping : tried) {
-      if (!(damping > 0.0)) continue;
+    std::erase_if(tried, [](double damping) { return !(damping > 0.0); });
+    for (const double damping : most_promising_first(*on_drive, std::move(tried))) {
       auto made = recomputed(
           {.kind = Kind::damper_on_drive,
            .key = "loop.damper.sampling_period",
@@ -263,11 +265,30 @@ class Changes {
           nullptr);
       if (!made) continue;
       judge(*made, nullptr);
-      if (is_safe(made->change)) ladder.push_back(std::move(made->change));
+      if (!is_safe(made->change)) continue;
+      changes_.push_back(std::move(made->change));
+      return;
     }
-    const auto best =
-        std::ranges::max_element(ladder, {}, [](const DiagnosisChange& each) { return *each.limit_then; });
-    if (best != ladder.end()) changes_.push_back(*best);
+  }
+
+  /// By the limit that they leave, of any user where that is known, as far as a quick look tells.
+  [[nodiscard]] std::vector<double> most_promising_first(const Device& on_drive, std::vector<double> tried) const {
+    if (tried.size() < 2) return tried;
+    std::optional<TwoRateUsers> users;
+    if (users_.now()) users.emplace(on_drive);
+    std::vector<std::pair<double, double>> limits;
+    for (const double damping : tried) {
+      const VirtualDamper damper{damping, on_drive.parameters().wall.velocity_filter_hz};
+      const double nobody = limit_of_nobody(on_drive, damper);
+      limits.emplace_back(users ? std::min(nobody, users->limit_seen(damper)) : nobody, damping);
+    }
+    std::ranges::stable_sort(limits, std::greater<>(), &std::pair<double, double>::first);
+    std::ranges::transform(limits, tried.begin(), &std::pair<double, double>::second);
+    return tried;
+  }
+
+  [[nodiscard]] static double limit_of_nobody(const Device& device, VirtualDamper damper) {
+    return unchecked_number_limit(device_without_user(with_wall(device, 0.0, damper)), WallNumber::stiffness).value;
   }
 
   void stop_mode() {

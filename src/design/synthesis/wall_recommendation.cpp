@@ -357,7 +357,7 @@ WallRecommendation recommended(const Device& device, const RecommendationOptions
   if (is_damper) return recommend_damper(unwalled, options);
   WallRecommendation result = Recommendation(device, options).answer();
   const bool is_like = options.goal == WallGoal::stiffness || options.goal == WallGoal::width;
-  if (options.alternatives && is_like && result.wall) {
+  if (options.drive_damper && is_like && result.wall) {
     result.drive_damper = recommend_drive_damper(unwalled, options, *result.wall);
   }
   return result;
