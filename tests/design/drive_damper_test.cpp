@@ -169,6 +169,7 @@ TEST(DriveDamper, UncertainNumbersSoftenItsWall) {
   const WallRecommendation answer = recommend_wall(Device(parameters), {.alternatives = false, .draws = 40});
   ASSERT_TRUE(answer.wall);
   EXPECT_LT(*answer.wall->wall.stiffness, certain);
+  EXPECT_EQ(answer.wall->bounded_by.stiffness, WallBound::uncertainty);
 }
 
 // With a slower damper, and with delays a part of a period apart, no limit over all passive users is known.

@@ -3,8 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -39,6 +41,9 @@ constexpr double fastest_filter = 0.2;    // of the damper's rate
 constexpr double slowest_filter = 0.005;  // of the spring's rate
 constexpr double filter_step = 2.5;
 constexpr double finest_filter_step = 1.1;
+constexpr std::array shares_of_damper{1.0, 0.7, 0.5};
+constexpr double softer_step = 0.8;
+constexpr int most_softer_steps = 12;
 constexpr double tail_of_two_rate_draws = 0.025;  // of the devices drawn, which may fail
 
 /// What bounds a wall of two rates.
@@ -66,8 +71,9 @@ class TwoRateLimits {
     return nobody.stiffness;
   }
 
-  [[nodiscard]] WallLimits::Stiffest stiffest(VirtualDamper damper) const {
-    WallLimits::Stiffest least{infinity, WallBound::none};
+  [[nodiscard]] WallLimits::Stiffest stiffest(VirtualDamper damper,
+                                              const WallLimits::Stiffest& at_most = {infinity, WallBound::none}) const {
+    WallLimits::Stiffest least = at_most;
     const auto take = [&least](double stiffness, WallBound bound) {
       if (stiffness < least.stiffness) least = {stiffness, bound};
     };
@@ -243,25 +249,9 @@ class TwoRateRecommendation {
   /// What uncertainty and modal shifts leave of it.
   void lower(TwoRateWall& wall, WallRecommendation& result) const {
     const auto take = [&](const std::vector<Device>& devices, double may_fail, WallBound by, FindingCode why_none) {
-      std::vector<double> stiffest(devices.size(), 0.0);
-      RecommendationOptions asked = options_;
-      asked.progress = {};  // told by one thread at a time
-      tbb::parallel_for(std::size_t{0}, devices.size(), [&](std::size_t i) {
-        if (!knows_all_users(devices[i].loop())) return;
-        TwoRateLimits limits(devices[i], asked);
-        limits.search(true);
-        stiffest[i] = limits.stiffest(wall.damper).stiffness;
-      });
-      std::ranges::sort(stiffest);
-      const double borne = stiffest[static_cast<std::size_t>(may_fail * static_cast<double>(stiffest.size()))];
-      if (!(borne < wall.stiffest.stiffness)) return;
-      wall.stiffest = {borne, by};
-      if (!(borne > 0.0)) result.reason = Finding{.code = why_none, .evidence = {{"threshold", may_fail}}};
-      // Softer at the same margins or less: the device as it is must still keep them.
-      if (borne > 0.0 && !limits_.keeps(borne, wall.damper)) {
-        wall.stiffest.stiffness = 0.0;
-        result.reason = Finding{.code = FindingCode::lower_end_leaves_no_margins};
-      }
+      wall = borne(wall, devices, may_fail, by);
+      if (wall.stiffest.stiffness > 0.0) return;
+      result.reason = Finding{.code = why_none, .evidence = {{"threshold", may_fail}}};
     };
     const auto& uncertainty = device_.parameters().uncertainty;
     if (uncertainty && !uncertainty->parameters.empty()) {
@@ -272,6 +262,48 @@ class TwoRateRecommendation {
       take(with_modal_shifts(device_, options_.modal_frequency_uncertainty), 0.0,
            WallBound::modal_frequency_uncertainty, FindingCode::drift_leaves_no_wall);
     }
+  }
+
+  /// The best wall, no stiffer and no more damped, that the device as it is and all but a share of these devices bear; without
+  /// stiffness where there is none. Users are those of TwoRateUsers::limit_seen().
+  [[nodiscard]] TwoRateWall borne(const TwoRateWall& wall, const std::vector<Device>& devices, double may_fail,
+                                  WallBound by) const {
+    RecommendationOptions asked = options_;
+    asked.progress = {};  // told by one thread at a time
+    std::vector<std::unique_ptr<TwoRateLimits>> limits(devices.size());
+    const auto each_of_them = [&](const auto& work) {
+      tell(options_.progress, 0.0);
+      tbb::parallel_for(std::size_t{0}, devices.size(), work);
+    };
+    each_of_them([&](std::size_t i) {
+      if (!knows_all_users(devices[i].loop())) return;
+      limits[i] = std::make_unique<TwoRateLimits>(devices[i], asked);
+      limits[i]->search(true);
+    });
+    const auto failing = static_cast<std::size_t>(may_fail * static_cast<double>(devices.size()));
+    TwoRateWall best{wall.damper, {0.0, by}};
+    for (const double share : shares_of_damper) {
+      const VirtualDamper damper{share * wall.damper.damping, wall.damper.velocity_filter_hz};
+      std::vector<double> stiffest(devices.size(), 0.0);
+      each_of_them([&](std::size_t i) {
+        if (limits[i]) stiffest[i] = limits[i]->stiffest(damper, wall.stiffest).stiffness;
+      });
+      std::ranges::sort(stiffest);
+      WallLimits::Stiffest found{stiffest[failing],
+                                 stiffest[failing] < wall.stiffest.stiffness ? by : wall.stiffest.bound};
+      for (int step = 0; step < most_softer_steps && found.stiffness > 0.0; ++step) {
+        // Softer at the same margins or less: they must still be kept.
+        found = limits_.stiffest(damper, found);
+        std::vector<char> keeps(devices.size(), 0);
+        each_of_them([&](std::size_t i) { keeps[i] = limits[i] && limits[i]->keeps(found.stiffness, damper) ? 1 : 0; });
+        if (std::ranges::count(keeps, 0) <= static_cast<std::ptrdiff_t>(failing)) break;
+        found = {step + 1 < most_softer_steps ? softer_step * found.stiffness : 0.0, by};
+      }
+      const TwoRateWall candidate{damper, found};
+      if (found.stiffness > 0.0 && value_of(candidate) > value_of(best)) best = candidate;
+      if (wall.damper.damping == 0.0) break;
+    }
+    return best;
   }
 
   /// With everything that stands behind it; `trust` says what the check found.
