@@ -27,7 +27,7 @@ RecommendationOptions recommendation_options(const RecommendArguments& arguments
                                                      {"width", WallGoal::width},
                                                      {"critical-damping", WallGoal::critical_damping},
                                                      {"damper", WallGoal::damper}};
-  RecommendationOptions options;
+  RecommendationOptions options{.drive_damper = true};
   if (shared.goal) {
     const auto goal = goals.find(*shared.goal);
     if (goal == goals.end()) {

@@ -1,5 +1,6 @@
 #include "results/design_target_json.hpp"
 
+#include "results/drive_damper_json.hpp"
 #include "results/units.hpp"
 #include "zwidth/words/finding_text.hpp"
 
@@ -27,6 +28,7 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
                                    {"any_user_then", each.absolute_stability_limit_then},
                                    {"safe", each.safe}});
   }
+  json["drive_damper"] = targets.drive_damper;
   return json;
 }
 

@@ -31,6 +31,8 @@ static void to_json(Json& json, const DiagnosisChange& change) {
           {"parameter", change.key},
           {"value_now", change.value_now},
           {"value_then", change.value_then},
+          {"damping_then", change.damping_then},
+          {"delay_then_s", change.delay_then},
           {"limit_now", change.limit_now},
           {"limit_then", change.limit_then},
           {"amplitude_now", change.amplitude_now},

@@ -1,5 +1,6 @@
 #include "results/wall_recommendation_json.hpp"
 
+#include "results/drive_damper_json.hpp"
 #include "results/force_per_count_json.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
@@ -63,6 +64,7 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
     add_wall(alternative, each, period);
     json["alternatives"].push_back(std::move(alternative));
   }
+  json["drive_damper"] = recommendation.drive_damper;
   add_findings(json, recommendation);
   return json;
 }

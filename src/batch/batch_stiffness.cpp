@@ -13,6 +13,7 @@
 
 #include "batch/kernel/kernel_columns.hpp"
 #include "counted.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
 #include "zwidth/error.hpp"
@@ -106,7 +107,7 @@ class Devices {
 
  private:
   [[nodiscard]] static Trust ask_absolute_stability(const Device& device, std::size_t i, BatchStiffness& columns) {
-    AbsoluteStabilityLimit limit = absolute_stability_limit(device, virtual_damper(device));
+    AbsoluteStabilityLimit limit = internal::known_any_user_limit(device);
     columns.any_user[i] = limit.stiffness;
     columns.absolute_stability_frequency[i] = limit.frequency;
     return std::move(limit.trust);

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "study/philox.hpp"
 #include "study/study_parts.hpp"
@@ -195,7 +196,7 @@ class Search {
     try {
       const Device device(std::move(parameters));
       if (searched_ == SearchedLimit::any_user) {
-        place.any_user = absolute_stability_limit(device, virtual_damper(device), progress_);
+        place.any_user = known_any_user_limit(device, progress_);
         place.limit = place.any_user.stiffness;
       } else {
         place.critical = critical_stiffness(device);
@@ -372,7 +373,7 @@ std::optional<WorstDevice> find_worst(const StudyRun& run, const std::vector<Low
   found.critical = critical_stiffness(device);
   found.trust.inherit(found.critical.trust);
   if (run.options().any_user) {
-    const AbsoluteStabilityLimit limit = absolute_stability_limit(device, virtual_damper(device), progress);
+    const AbsoluteStabilityLimit limit = known_any_user_limit(device, progress);
     found.any_user = limit.stiffness;
     found.trust.inherit(limit.trust);
   }

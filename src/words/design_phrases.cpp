@@ -148,7 +148,15 @@ std::span<const Phrase> design_phrases() {
              "the position is the encoder's; axis.0.axisfriction, axisinertia, maxspeed and maxtorquerate 0, as by "
              "default"},
       Phrase{drive_velocity_limit, "drive_velocity_limit", note,
-             "the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"}};
+             "the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"},
+      Phrase{damper_on_drive, "damper_on_drive", note,
+             "a damper of {damping}{?velocity_filter_hz| behind a low-pass of {velocity_filter_hz}} that the drive "
+             "closes at "
+             "{rate_hz}, its force {delay:time} later, allows {gain} times the stiffness of the best damper in the "
+             "spring's loop: "
+             "{stiffness} rather than {one_rate_stiffness}{?any_user_stiffness|; any passive user then leaves "
+             "{any_user_stiffness:limit}}",
+             "", "set [loop.damper] to the rate and delay of the drive, and ask again"}};
   return phrases;
 }
 

@@ -66,6 +66,43 @@ TEST(BatchStiffness, TakesTheTrustOfTheDevice) {
   EXPECT_TRUE(std::isnan(refused.stiffness[0]));
 }
 
+// The kernel knows one rate alone: it must never answer for a damper in a loop of its own.
+TEST(BatchStiffness, TakesTwoRatesOneByOne) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.damping = 100.0;
+  parameters.loop.damper = LoopDamper{.sampling_period = 1e-4, .delay = 0.0};
+  const std::vector<ParameterValues> periods{{"loop.damper.sampling_period", {1e-4, 5e-4, 3e-4, 1e-3, 2e-3}}};
+  const BatchStiffness columns = batch_stiffness(Device(parameters), periods);
+  EXPECT_EQ(columns.scalar_count, 5U);
+  EXPECT_NEAR(columns.stiffness[0], 252107.311, 1e-3);
+  for (const std::size_t i : {0U, 1U, 3U, 4U}) {
+    DeviceParameters each = parameters;
+    each.loop.damper->sampling_period = periods[0].values[i];
+    EXPECT_EQ(columns.stiffness[i], critical_stiffness(Device(each)).stiffness) << i;
+  }
+  EXPECT_TRUE(columns.failure_of(2).starts_with("loop.damper.sampling_period")) << columns.failure_of(2);
+  EXPECT_EQ(columns.status[2], StiffnessStatus::refused);
+  // The damper's loop alone in the base, other numbers in the rows; and the damper's alone in the rows.
+  const BatchStiffness delays =
+      batch_stiffness(Device(parameters), std::vector<ParameterValues>{{"loop.delay", {0.0, 1e-3}}});
+  EXPECT_EQ(delays.scalar_count, 2U);
+  EXPECT_EQ(delays.stiffness[0], columns.stiffness[0]);
+}
+
+TEST(BatchStiffness, SaysWhichOfTwoRatesHaveNoAnyUserLimit) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.damping = 50.0;
+  parameters.loop.damper = LoopDamper{.sampling_period = 1e-4, .delay = 0.0};
+  const std::vector<ParameterValues> periods{{"loop.damper.sampling_period", {1e-4, 2e-3}}};
+  BatchOptions options;
+  options.any_user = true;
+  const BatchStiffness columns = batch_stiffness(Device(parameters), periods, options);
+  EXPECT_NEAR(columns.any_user[0] / 109169.96, 1.0, 1e-5);
+  EXPECT_TRUE(std::isnan(columns.any_user[1]));
+  EXPECT_EQ(columns.verdict[1], Trust::Verdict::refused);
+  EXPECT_FALSE(columns.failure_of(1).empty());
+}
+
 TEST(BatchStiffness, SaysWhatCannotBeAsked) {
   const std::vector<ParameterValues> changes{{"loop.delay", {0.0}}};
   EXPECT_THROW((void)batch_stiffness(device, {}), Error);

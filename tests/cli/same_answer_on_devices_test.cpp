@@ -123,7 +123,7 @@ Answer diagnosed(const Device& device) {
 }
 
 Answer recommended(const Device& device) {
-  const RecommendationOptions options{.phase_margin = 0.0, .quantisation_force = 0.2};
+  const RecommendationOptions options{.phase_margin = 0.0, .quantisation_force = 0.2, .drive_damper = true};
   const WallRecommendation wall = recommend_wall(device, options);
   return {results::line(results::wall_recommendation_json(device, options, wall))};
 }

@@ -10,6 +10,7 @@
 
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
@@ -189,7 +190,8 @@ TEST(Diagnosis, ADamperAloneIsDiagnosedByItsOwnLimit) {
     } else {
       set_parameter(then, each.key, each.value_then);
     }
-    EXPECT_EQ(each.ends_it.value(), excess_of(Device(then)) < 0.0);
+    if (each.delay_then) then.loop.damper->delay = each.delay_then;
+    EXPECT_EQ(each.ends_it.value(), excess_of(with_loop_of_damper(Device(then))) < 0.0);
     EXPECT_NEAR(*each.limit_then / critical_damping(Device(then)).damping, 1.0, 1e-12);
     EXPECT_NEAR(*each.absolute_stability_limit_then / absolute_stability_damping(Device(then)).damping, 1.0, 1e-9);
     EXPECT_EQ(each.safe.value(),

@@ -111,6 +111,7 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
   text += lowering.under(fmt::format("What reaches it, but lowers the limit with any passive user, now {}",
                                      words.limit(targets.absolute_stability_limit_now)));
   if (!without.empty()) text += "\nWhat does not\n" + without;
+  if (targets.drive_damper) text += "\nThe damper on the drive\n" + bulleted(zwidth::text(targets.drive_damper->why));
   return text;
 }
 

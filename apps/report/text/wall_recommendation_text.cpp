@@ -8,6 +8,7 @@
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/words/finding_text.hpp"
 
@@ -82,6 +83,9 @@ class RecommendationWriter {
     for (const Remark& remark : answer_.remarks) text += bulleted(remark_line(remark));
     if (!answer_.wall) return text;
     if (!answer_.alternatives.empty()) text += "\n" + trade_off();
+    if (answer_.drive_damper) {
+      text += "\nThe damper on the drive, with the same margins\n" + bulleted(zwidth::text(answer_.drive_damper->why));
+    }
     text += "\nFor the device file\n" + for_the_file(answer_.wall->wall);
     return text +
            wrap(
@@ -151,12 +155,16 @@ class RecommendationWriter {
     return text;
   }
 
-  [[nodiscard]] static std::string margins(const RecommendedWall& each) {
+  [[nodiscard]] std::string margins(const RecommendedWall& each) const {
     const auto gain = [](const std::optional<double>& margin) {
       return margin ? fmt::format("{:.3g} dB", decibels(*margin)) : std::string("no limit");
     };
     if (*each.wall.stiffness == 0.0) {
       return fmt::format("B {}, phase {}", gain(each.margins.gain_margin),
+                         each.margins.phase_margin ? degrees(*each.margins.phase_margin) : std::string("no limit"));
+    }
+    if (has_damper_loop(device_.loop()) && each.wall.damping > 0.0) {
+      return fmt::format("K alone {}, phase of its force {}", gain(each.margins.stiffness_margin),
                          each.margins.phase_margin ? degrees(*each.margins.phase_margin) : std::string("no limit"));
     }
     return fmt::format("whole force {}, K alone {}, phase {}", gain(each.margins.gain_margin),

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/design/drive_damper.hpp"
 #include "zwidth/design/notch_design.hpp"
 #include "zwidth/design/wall_number.hpp"
 #include "zwidth/finding.hpp"
@@ -49,8 +50,12 @@ struct DesignTargets {
   std::optional<double> limit_now;  ///< of the device as it is; infinite where unbounded, absent where refused
   std::optional<double> absolute_stability_limit_now;  ///< of the device as it is; absent as the limit then
   std::vector<DesignTarget> targets;                   ///< cheapest relative change first
-  Trust trust;                                         ///< of the whole answer
-  std::vector<Remark> remarks;                         ///< what is worth knowing beside it
+  /// What the damper on the drive allows, at the B with the greatest limit over all passive users: no number of the file moved
+  /// but an addition to it. Absent as with_damper_on_drive(), for WallNumber::damping, and where no finite limit is
+  /// found.
+  std::optional<DriveDamper> drive_damper = {};
+  Trust trust;                  ///< of the whole answer
+  std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };
 
 /// For each number p of the device that the limit depends on: the value nearest to today's at which the limit reaches

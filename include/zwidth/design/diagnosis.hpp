@@ -79,12 +79,16 @@ struct DiagnosisChange {
     softer_wall,          ///< a stiffness 6 dB below the limit
     other_damper,         ///< the best of some virtual dampers
     notch,                ///< a notch at the frequency observed
+    damper_on_drive,      ///< with_damper_on_drive(), with the best of some virtual dampers
   };
   Kind kind = Kind::more_body_damping;   ///< which change
   std::optional<std::size_t> link = {};  ///< of stiffer_link: from 0
   std::string key = {};     ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
   double value_now = 0.0;   ///< SI units
   double value_then = 0.0;  ///< of wall.filter: the centre of a notch, Hz
+  /// Of damper_on_drive, what changes besides: the B that is run, and the delay of its force in s
+  std::optional<double> damping_then = {};
+  std::optional<double> delay_then = {};
   /// The stiffness (of a damper alone its B) up to which the cause is absent: K_CR, that with friction holding, or the
   /// absolute stability limit; absent of quantisation, whose amplitude the change alters.
   std::optional<double> limit_now = {};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/design/drive_damper.hpp"
 #include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
@@ -37,10 +38,11 @@ struct RecommendationOptions {
   /// The vibration modes may lie anywhere from (1 - uncertainty) to (1 + uncertainty) times their frequency, see with_modal_shift(); from 0
   /// to 0.9; above 0 the device needs a link.
   double modal_frequency_uncertainty = 0.0;
-  bool notch = true;         ///< a notch near a mode may be added to the wall's filters
-  bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
-  std::size_t draws = 100;   ///< of the device's uncertainty, where it has one
-  Progress progress = {};    ///< told how far the work is; ends it by throwing
+  bool notch = true;          ///< a notch near a mode may be added to the wall's filters
+  bool alternatives = true;   ///< WallRecommendation::alternatives are searched, and what bounds the wall
+  bool drive_damper = false;  ///< WallRecommendation::drive_damper is searched
+  std::size_t draws = 100;    ///< of the device's uncertainty, where it has one
+  Progress progress = {};     ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range, and the device: critical damping needs bodies, uncertain modal frequencies need links.
@@ -115,13 +117,17 @@ struct WallRecommendation {
   /// At how many modal shifts, evenly over the range asked, each wall was held against its margins; 1: at none
   /// but their own frequencies.
   std::size_t modal_shifts_checked = 1;
+  /// The wall with the damper on the drive, which keeps the same margins: K, B and gain by `wall`. Where it is asked for with
+  /// the goals stiffness and width; absent as with_damper_on_drive(), and where no wall with such a damper is found.
+  std::optional<DriveDamper> drive_damper = {};
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };
 
 /// The damping ratio of a device on its wall: the least of the closed-loop poles z = e^{sT} up to twice the natural
 /// frequency of the rigid device on it, |s| <= 2 sqrt((K + k)/m); 1 where none of them swings. Vibration modes that
-/// low count too. Absent for a transfer function, without wall.stiffness > 0, and where no pole is that low.
+/// low count too. Absent for a transfer function, without wall.stiffness > 0, with a damper in a loop of its own, and where no
+/// pole is that low.
 [[nodiscard]] std::optional<double> contact_damping_ratio(const Device& device);
 
 /// The wall to render: K, B, velocity filter, and a notch where it is worth 5 % of the goal.
@@ -145,6 +151,10 @@ struct WallRecommendation {
 /// notch lowers no absolute stability limit at any of them; the contact's damping is that at their nominal values.
 /// The wall of an uncertain device keeps all of this in 97.5 % of `draws` devices drawn from the uncertainty. Where
 /// absolute_stability_limit() is not available the device as it is decides, and a remark says so.
+/// With a faster damper in a loop of its own ([loop.damper]) the same limits and the same check hold, the phase margin is of the
+/// spring's force with the damper closed, and neither a notch nor (but for a bound on the force per count) a velocity filter is
+/// searched. With a slower one, or delays that differ by no whole number of the damper's periods, no limit over all passive users
+/// is known: Error (invalid_argument), as for WallGoal::critical_damping with two rates.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options = {});
 

@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "design/sensitivities/number_limit.hpp"
+#include "design/synthesis/wall_limits.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/design/drive_damper.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 
 namespace zwidth::internal {
@@ -94,6 +99,7 @@ class Changes {
           [](DeviceParameters& then) { then.wall.velocity_filter_hz = 0.0; });
     }
     damp();
+    damp_on_drive();
     if (cause_.limited_by && cause_.limited_by->kind == Mechanism::Kind::vibration_mode) stop_mode();
     for (std::size_t i = 0; i < std::min(now.links.size(), most_links); ++i) {
       add({.kind = Kind::stiffer_link,
@@ -192,17 +198,21 @@ class Changes {
     }
   }
 
+  /// What the ladder of dampers is of: B, or the device's damping; 0 where there is neither nor a wall.
+  [[nodiscard]] double unit_of_dampers() const {
+    double unit = loop_.device.parameters().wall.damping;
+    if (unit > 0.0) return unit;
+    for (const Body& body : loop_.device.bodies()) unit += body.damping;
+    // A device that nothing damps: of a sample of its wall.
+    return unit > 0.0 ? unit : 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
+  }
+
   /// The damper of the ladder with the highest limit (least amplitude) of those that lower no user's.
   void damp() {
     if (loop_.number == WallNumber::damping) return;  // the damper is what oscillates
     const Wall& wall = loop_.device.parameters().wall;
-    double unit = wall.damping;
-    if (unit == 0.0) {
-      for (const Body& body : loop_.device.bodies()) unit += body.damping;
-      // A device that nothing damps: of a sample of its wall.
-      if (unit == 0.0) unit = 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
-      if (!(unit > 0.0)) return;
-    }
+    const double unit = unit_of_dampers();
+    if (!(unit > 0.0)) return;
     std::optional<AbsoluteStabilitySearch> search;  // what users do does not depend on the damper
     if (users_.now()) search.emplace(loop_.device, loop_.progress);
     AbsoluteStabilitySearch* const users = search ? &*search : nullptr;
@@ -225,6 +235,60 @@ class Changes {
       return;
     }
     if (!users_.now()) changes_.push_back(std::move(ladder.front().change));
+  }
+
+  /// The same with the damper in a loop of its own; of a damper alone that damper.
+  void damp_on_drive() {
+    if (is_quantisation()) return;  // its cycle is known of one rate alone
+    const std::optional<Device> on_drive = with_damper_on_drive(loop_.device);
+    if (!on_drive) return;
+    const auto [period, delay] = damper_timing(on_drive->loop());
+    const double now = loop_.device.parameters().wall.damping;
+    std::vector<double> tried;
+    if (now > 0.0) tried.push_back(now);
+    if (loop_.number == WallNumber::stiffness) {
+      for (const double factor : dampers) tried.push_back(factor * unit_of_dampers());
+    }
+    std::erase_if(tried, [](double damping) { return !(damping > 0.0); });
+    for (const double damping : most_promising_first(*on_drive, std::move(tried))) {
+      auto made = recomputed(
+          {.kind = Kind::damper_on_drive,
+           .key = "loop.damper.sampling_period",
+           .value_now = loop_.device.loop().sampling_period,
+           .value_then = period,
+           .damping_then = damping,
+           .delay_then = delay},
+          [&](DeviceParameters& then) {
+            then.loop = on_drive->loop();
+            then.wall.damping = damping;
+          },
+          nullptr);
+      if (!made) continue;
+      judge(*made, nullptr);
+      if (!is_safe(made->change)) continue;
+      changes_.push_back(std::move(made->change));
+      return;
+    }
+  }
+
+  /// By the limit that they leave, of any user where that is known, as far as a quick look tells.
+  [[nodiscard]] std::vector<double> most_promising_first(const Device& on_drive, std::vector<double> tried) const {
+    if (tried.size() < 2) return tried;
+    std::optional<TwoRateUsers> users;
+    if (users_.now()) users.emplace(on_drive);
+    std::vector<std::pair<double, double>> limits;
+    for (const double damping : tried) {
+      const VirtualDamper damper{damping, on_drive.parameters().wall.velocity_filter_hz};
+      const double nobody = limit_of_nobody(on_drive, damper);
+      limits.emplace_back(users ? std::min(nobody, users->limit_seen(damper)) : nobody, damping);
+    }
+    std::ranges::stable_sort(limits, std::greater<>(), &std::pair<double, double>::first);
+    std::ranges::transform(limits, tried.begin(), &std::pair<double, double>::second);
+    return tried;
+  }
+
+  [[nodiscard]] static double limit_of_nobody(const Device& device, VirtualDamper damper) {
+    return unchecked_number_limit(device_without_user(with_wall(device, 0.0, damper)), WallNumber::stiffness).value;
   }
 
   void stop_mode() {

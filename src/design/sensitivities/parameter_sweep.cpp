@@ -11,6 +11,7 @@
 
 #include "counted.hpp"
 #include "model/key_members.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/error.hpp"
@@ -107,7 +108,7 @@ SweepPoint point_of(const Device& device, const SweepOptions& options, const Tru
   SweepPoint point{critical.status, critical.stiffness, critical.limit, std::nullopt, {}, std::move(critical.trust)};
   if (point.trust.refused()) return point;
   if (options.any_user) {
-    point.any_user = absolute_stability_limit(device, virtual_damper(device));
+    point.any_user = known_any_user_limit(device);
     point.trust.inherit(point.any_user->trust);
   }
   if (options.crossovers) point.crossovers = std::move(critical.crossovers);

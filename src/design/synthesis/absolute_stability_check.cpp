@@ -1,6 +1,7 @@
 #include "design/synthesis/absolute_stability_check.hpp"
 
 #include "design/synthesis/wall_limits.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
@@ -30,8 +31,7 @@ std::optional<AbsoluteStabilityCheck::Limit> found(const Limit& limit) {
 
 AbsoluteStabilityCheck::Limit absolute_stability_limit_of(const Device& device, WallNumber number,
                                                           const Progress& progress) {
-  if (number == WallNumber::stiffness)
-    return of_stiffness(absolute_stability_limit(device, virtual_damper(device), progress));
+  if (number == WallNumber::stiffness) return of_stiffness(known_any_user_limit(device, progress));
   const AbsoluteStabilityDamping limit = absolute_stability_damping(device, progress);
   return {limit.damping, limit.frequency, limit.truncation, limit.trust};
 }

@@ -14,6 +14,7 @@
 #include "design/sensitivities/design_parameter.hpp"
 #include "design/sensitivities/number_limit.hpp"
 #include "design/synthesis/absolute_stability_check.hpp"
+#include "design/synthesis/drive_damper.hpp"
 #include "design/synthesis/followed_numbers.hpp"
 #include "design/synthesis/limit_along_parameter.hpp"
 #include "infinity.hpp"
@@ -370,6 +371,10 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     result.targets.push_back(std::move(target));
   }
   std::ranges::stable_sort(result.targets, {}, cost);
+  if (options.limit_of == WallNumber::stiffness) {
+    const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
+    result.drive_damper = drive_damper(device, any_user, while_judging);
+  }
   return result;
 }
 

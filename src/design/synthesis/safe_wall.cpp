@@ -13,8 +13,10 @@
 #include "require_valid.hpp"
 #include "stability/device_draws.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/second_route/pole_count.hpp"
 #include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_region.hpp"
 #include "zwidth/error.hpp"
@@ -109,7 +111,12 @@ SafeWall refused(SafeWall wall) {
 /// Asks the second route.
 void check(const Device& device, double stiffness, double damping, Trust& trust) {
   const Device walled = with_wall(device, stiffness, {damping, device.parameters().wall.velocity_filter_hz});
-  distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
+  if (!has_damper_loop(walled.loop()) || damping == 0.0) {
+    distrust(agreement(PoleCount(with_one_rate(walled)), stiffness, true), stiffness, trust);
+  } else {
+    const TwoRateDevice loop(walled, damping);
+    distrust(agreement(loop, loop.as_it_runs(walled), stiffness, true), stiffness, trust);
+  }
 }
 
 void check_wall(const std::vector<Device>& holders, const SafeWallOptions& options, SafeWall& wall) {
@@ -234,7 +241,8 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
       *std::ranges::min_element(held, {}, [](const KnownHolderLimit& each) { return each.critical.stiffness; });
   wall.limit = least.critical.stiffness;
   if (can_be_held(device)) {
-    const double any_user = absolute_stability_limit(device, {wall.damping, filter}).stiffness;
+    const double any_user = own ? known_any_user_limit(device).stiffness
+                                : absolute_stability_limit(device, {wall.damping, filter}).stiffness;
     if (any_user > 0.0 && std::isfinite(any_user)) {
       wall.basis = SafeWall::Basis::any_user;
       wall.limit = any_user;
@@ -273,7 +281,10 @@ std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
 }
 
 SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
-  require_one_rate(device);
+  // Two rates are known with the damper as it is, of a device whose numbers are certain.
+  const bool knows_two_rates =
+      options.damping == SafeWallOptions::Damping::own && !is_uncertain(device) && knows_all_users(device.loop());
+  if (!knows_two_rates) require_one_rate(device);
   require_valid(find_problem(options));
   SafeWall wall;
   wall.trust = trust_of(device);

@@ -12,9 +12,11 @@
 
 #include "design/synthesis/wall_limits.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "stability/second_route/pole_count.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
@@ -40,8 +42,24 @@ Device grown(const Device& walled, double spring, double damper) {
 void check_stable(const Device& walled, const Progress& progress, Trust& trust) {
   tell(progress, 0.0);
   if (trust.refused()) return;
-  const double stiffness = *walled.parameters().wall.stiffness;
-  distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
+  const Wall& wall = walled.parameters().wall;
+  const double stiffness = *wall.stiffness;
+  if (!has_damper_loop(walled.loop())) {
+    distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
+  } else if (wall.damping == 0.0) {
+    check_stable(with_one_rate(walled), progress, trust);
+  } else {
+    const TwoRateDevice loop(walled, wall.damping);
+    distrust(agreement(loop, loop.as_it_runs(walled), stiffness, true), stiffness, trust);
+  }
+}
+
+/// Of a damper in a loop of its own, poles of the loop as it runs.
+bool is_unstable_as_it_runs(const Device& device, double stiffness) {
+  const Device runs = device.parameters().wall.damping == 0.0 ? with_one_rate(device) : device;
+  if (!has_damper_loop(runs.loop())) return PoleCount(runs).in_double(stiffness).value_or(0) > 0;
+  const TwoRateDevice loop(runs, runs.parameters().wall.damping);
+  return loop.as_it_runs(runs).unstable_poles(stiffness).value_or(0) > 0;
 }
 
 /// With users on a grid of masses and springs: poles outside the circle contradict; those too near it to tell do not.
@@ -57,6 +75,10 @@ void check_users(const Device& walled, const Progress& progress, Trust& trust) {
       held.user = {heavy * mass, 0.0, stiff * stiffness};
       if (find_problem(held)) continue;
       const Device device(std::move(held));
+      if (has_damper_loop(device.loop())) {
+        if (is_unstable_as_it_runs(device, stiffness)) distrust(Agreement::contradicts, stiffness, trust);
+        continue;
+      }
       const PoleCount poles(device);
       if (poles.confirms(stiffness, true)) continue;
       const std::optional<int> outside = poles.in_double(stiffness);
@@ -66,27 +88,59 @@ void check_users(const Device& walled, const Progress& progress, Trust& trust) {
   }
 }
 
-/// The loop by the state space alone, without modal form.
+/// The loop by the state space alone, without modal form. Of a damper in a loop of its own, the loop of the spring's force: with
+/// the device's response G at the damper's period, once with either delay, and z = e^{j(angle + 2 pi k)/N}
+///
+///     L = K/N sum_k (1 - z^-N)/(1 - z^-1) G_spring(z)/(1 + B v(z) G_damper(z))
 class StateSpaceLoop {
  public:
   explicit StateSpaceLoop(const Device& walled)
       : wall_(walled.parameters().wall),
-        damper_(virtual_damper(walled)),
+        damper_{wall_.damping, wall_.velocity_filter_hz},
         system_(sample(state_space(walled), {walled.loop().sampling_period, walled.loop().delay})) {
     for (const WallFilter& filter : wall_.filters) sections_.push_back(filter_section(filter, system_.period));
+    if (!has_damper_loop(walled.loop()) || wall_.damping == 0.0) return;
+    const auto [period, delay] = damper_timing(walled.loop());
+    steps_ = static_cast<int>(std::lround(walled.loop().sampling_period / period));
+    const double fast = walled.loop().sampling_period / steps_;
+    of_spring_ = sample(state_space(walled), {fast, walled.loop().delay});
+    of_damper_ = sample(state_space(walled), {fast, delay});
   }
 
   [[nodiscard]] std::complex<double> at(double angle) const {
+    return steps_ > 0 ? of_spring_at(angle) : of_one_rate_at(angle);
+  }
+
+ private:
+  [[nodiscard]] std::complex<double> of_spring_at(double angle) const {
+    std::complex<double> sum;
+    for (int alias = 0; alias < steps_; ++alias) {
+      const double of_fast = std::remainder((angle + 2.0 * pi * alias) / steps_, 2.0 * pi);
+      const double positive = std::abs(of_fast);
+      const double frequency = positive / of_spring_.period;
+      const std::complex<double> back = std::polar(1.0, -positive);
+      const std::complex<double> held = (1.0 - std::polar(1.0, -positive * steps_)) / (1.0 - back);
+      const std::complex<double> closed =
+          response(of_spring_, frequency) /
+          (1.0 + damper_response(damper_, of_spring_.period, frequency) * response(of_damper_, frequency));
+      sum += of_fast < 0.0 ? std::conj(held * closed) : held * closed;
+    }
+    return *wall_.stiffness * sum / static_cast<double>(steps_);
+  }
+
+  [[nodiscard]] std::complex<double> of_one_rate_at(double angle) const {
     std::complex<double> value = response(system_, angle / system_.period) *
                                  (*wall_.stiffness + damper_response(damper_, system_.period, angle / system_.period));
     for (const FilterSection& section : sections_) value *= response(section, angle);
     return value;
   }
 
- private:
   Wall wall_;
   VirtualDamper damper_;
   DiscreteStateSpace system_;
+  int steps_ = 0;  // of the damper while the spring runs once; 0: they run together
+  DiscreteStateSpace of_spring_;
+  DiscreteStateSpace of_damper_;
   std::vector<FilterSection> sections_;
 };
 

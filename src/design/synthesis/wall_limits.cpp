@@ -8,6 +8,7 @@
 #include "design/synthesis/margin_wall.hpp"
 #include "infinity.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -180,6 +181,7 @@ namespace zwidth {
 std::optional<double> contact_damping_ratio(const Device& device) {
   const Wall& wall = device.parameters().wall;
   if (!device.has_bodies() || !(wall.stiffness.value_or(0.0) > 0.0)) return std::nullopt;
+  if (has_damper_loop(device.loop())) return std::nullopt;
   return internal::least_ratio(device,
                                sample(state_space(device), {device.loop().sampling_period, device.loop().delay}), wall);
 }

@@ -7,11 +7,13 @@
 
 #include "design/synthesis/damper_limits.hpp"
 #include "design/synthesis/notch_search.hpp"
+#include "design/synthesis/two_rate_recommendation.hpp"
 #include "design/synthesis/wall_check.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "design/synthesis/wall_lowering.hpp"
 #include "design/synthesis/wall_search.hpp"
 #include "require_valid.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -346,6 +348,21 @@ class Recommendation {
   std::optional<Candidate> unfiltered_;
 };
 
+WallRecommendation recommended(const Device& device, const RecommendationOptions& options) {
+  const bool is_damper = options.goal == WallGoal::damper;
+  const Device unwalled = without_wall(device);
+  if (has_damper_loop(device.loop())) {
+    return is_damper ? recommend_two_rate_damper(unwalled, options) : recommend_two_rate_wall(unwalled, options);
+  }
+  if (is_damper) return recommend_damper(unwalled, options);
+  WallRecommendation result = Recommendation(device, options).answer();
+  const bool is_like = options.goal == WallGoal::stiffness || options.goal == WallGoal::width;
+  if (options.drive_damper && is_like && result.wall) {
+    result.drive_damper = recommend_drive_damper(unwalled, options, *result.wall);
+  }
+  return result;
+}
+
 WallRecommendation refused(Trust trust) {
   WallRecommendation result;
   result.status = WallRecommendation::Status::refused;
@@ -369,19 +386,21 @@ std::optional<OptionProblem> find_problem(const RecommendationOptions& options, 
   if (options.goal == WallGoal::critical_damping && !device.has_bodies()) {
     return option_problem("goal", {.code = ProblemCode::critical_damping_without_mass});
   }
+  if (options.goal == WallGoal::critical_damping && has_damper_loop(device.loop())) {
+    return option_problem("goal", {.code = ProblemCode::damper_loop_not_known});
+  }
   return std::nullopt;
 }
 
 WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
-  require_one_rate(device);
+  if (!knows_all_users(device.loop())) require_one_rate(device);
   require_valid(find_problem(options, device));
   Trust trust = trust_of(device);
   if (trust.refused()) return refused(std::move(trust));
   try {
     trust.inherit(critical_stiffness(without_wall(device)).trust);
     if (trust.refused()) return refused(std::move(trust));
-    WallRecommendation result = options.goal == WallGoal::damper ? recommend_damper(without_wall(device), options)
-                                                                 : Recommendation(device, options).answer();
+    WallRecommendation result = recommended(device, options);
     trust.inherit(result.trust);
     result.trust = trust;
     return result;

@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "model/one_rate.hpp"
 #include "stability/users/disc_pieces.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/termination_discs.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 
@@ -32,7 +34,6 @@ class TwoRateDiscs {
  public:
   TwoRateDiscs(const Device& free, double whole)
       : discs_(with_loop_of_damper(free)),
-        damper_{free.parameters().wall.damping, free.parameters().wall.velocity_filter_hz},
         period_(free.loop().sampling_period),
         fast_period_(damper_timing(free.loop()).sampling_period),
         steps_(static_cast<int>(std::lround(rate_ratio(period_, fast_period_)))),
@@ -47,16 +48,33 @@ class TwoRateDiscs {
 
   // The least K that the disc of the plant that the spring sees does not allow; 0 where the damper alone is not stable with
   // every user. 0 < frequency <= nyquist().
-  [[nodiscard]] double limit_at(double frequency) const {
+  [[nodiscard]] double limit_at(double frequency, VirtualDamper damper) const {
     return limit_of([&](int alias) {
-      return part(frequency, alias, [&](double at) { return discs_.scaled_at({0.0, at}); });
+      return closed(alias_of(frequency, alias, [&](double at) { return discs_.scaled_at({0.0, at}); }), damper);
     });
   }
   // The same by interpolated sums over aliases beyond the damper's rate.
-  [[nodiscard]] double quick_limit_at(double frequency) const {
-    return limit_of([&](int alias) {
-      return part(frequency, alias, [&](double at) { return pieces_.at({0.0, at}); });
-    });
+  [[nodiscard]] double quick_limit_at(double frequency, VirtualDamper damper) const {
+    return limit_of([&](int alias) { return closed(quick_alias_of(frequency, alias), damper); });
+  }
+
+  // What the spring's samples show of one frequency of the damper's band, before the damper is closed.
+  struct Alias {
+    TerminationDiscs::Disc disc;  // scaled
+    double positive = 0.0;        // rad/s, its frequency
+    bool is_negative = false;
+    double share = 0.0;         // |(1 - z^-N)/(1 - z^-1)|/N
+    std::complex<double> turn;  // its angle, and that of z^-m
+  };
+  using Aliases = std::vector<Alias>;
+  [[nodiscard]] Aliases aliases_at(double frequency) const {
+    Aliases all;
+    for (int alias = least_alias(); alias <= steps_ / 2; ++alias) all.push_back(quick_alias_of(frequency, alias));
+    return all;
+  }
+  [[nodiscard]] double limit_of_aliases(const Aliases& aliases, VirtualDamper damper) const {
+    return limit_of(
+        [&](int alias) { return closed(aliases[static_cast<std::size_t>(alias - least_alias())], damper); });
   }
 
   // Of the held device, as they appear in the spring's band.
@@ -80,13 +98,15 @@ class TwoRateDiscs {
     double power = 0.0;  // |centre|² - radius²
   };
 
+  [[nodiscard]] int least_alias() const { return -(steps_ - 1) / 2; }
+
   template <typename PartOf>
   [[nodiscard]] double limit_of(const PartOf& part_of) const {
     const Part own = part_of(0);
     if (!(own.radius >= 0.0)) return 0.0;
     std::complex<double> centre;
     double radius = 0.0;
-    for (int alias = -(steps_ - 1) / 2; alias <= steps_ / 2; ++alias) {
+    for (int alias = least_alias(); alias <= steps_ / 2; ++alias) {
       if (alias == 0) continue;
       const Part other = part_of(alias);
       if (!(other.radius >= 0.0)) return 0.0;
@@ -98,31 +118,40 @@ class TwoRateDiscs {
     return least_root(1.0, own.centre.real() + centre.real(), power);
   }
 
+  [[nodiscard]] Alias quick_alias_of(double frequency, int alias) const {
+    return alias_of(frequency, alias, [&](double at) { return pieces_.at({0.0, at}); });
+  }
+
   // `disc_at`: scaled, at a frequency of the damper's band.
   template <typename DiscAt>
-  [[nodiscard]] Part part(double frequency, int alias, const DiscAt& disc_at) const {
+  [[nodiscard]] Alias alias_of(double frequency, int alias, const DiscAt& disc_at) const {
     double at = frequency + 2.0 * pi * alias / period_;
     const double fast_nyquist = pi / fast_period_;
     if (at > fast_nyquist) at -= 2.0 * fast_nyquist;
-    const double positive = std::min(std::abs(at), fast_nyquist);
-    const TerminationDiscs::Disc disc = disc_at(positive);
+    Alias seen;
+    seen.positive = std::min(std::abs(at), fast_nyquist);
+    seen.is_negative = at < 0.0;
+    seen.disc = disc_at(seen.positive);
+    const double angle = seen.positive * fast_period_;
+    const double sum = std::sin(0.5 * angle * steps_) / std::sin(0.5 * angle);
+    seen.share = std::abs(sum) / steps_;
+    seen.turn = (sum < 0.0 ? -1.0 : 1.0) * std::polar(1.0, -angle * (0.5 * (steps_ - 1) + whole_));
+    return seen;
+  }
+
+  [[nodiscard]] Part closed(const Alias& seen, VirtualDamper gains) const {
+    const TerminationDiscs::Disc& disc = seen.disc;
     if (!std::isfinite(disc.radius)) return {};
-    const std::complex<double> damper = damper_response(damper_, fast_period_, positive);
+    const std::complex<double> damper = damper_response(gains, fast_period_, seen.positive);
     const double divisor = disc.one + 2.0 * (damper * disc.centre).real() + std::norm(damper) * disc.power;
     if (!(divisor > 0.0)) return {};
-    // (1 - z^-N)/(1 - z^-1) z^-m / N
-    const double angle = positive * fast_period_;
-    const double share = std::abs(std::sin(0.5 * angle * steps_) / std::sin(0.5 * angle)) / steps_;
-    const double sign = std::sin(0.5 * angle * steps_) / std::sin(0.5 * angle) < 0.0 ? -1.0 : 1.0;
-    const std::complex<double> turn = sign * std::polar(1.0, -angle * (0.5 * (steps_ - 1) + whole_));
-    std::complex<double> centre = share * turn * (disc.centre + std::conj(damper) * disc.power) / divisor;
-    if (at < 0.0) centre = std::conj(centre);
-    return {centre, share * disc.radius / divisor, share * share * disc.power / divisor};
+    std::complex<double> centre = seen.share * seen.turn * (disc.centre + std::conj(damper) * disc.power) / divisor;
+    if (seen.is_negative) centre = std::conj(centre);
+    return {centre, seen.share * disc.radius / divisor, seen.share * seen.share * disc.power / divisor};
   }
 
   TerminationDiscs discs_;
   DiscPieces pieces_;
-  VirtualDamper damper_;
   double period_;
   double fast_period_;
   int steps_;
@@ -154,20 +183,48 @@ std::vector<double> frequencies_to_look_at(const TwoRateDiscs& discs, const Devi
 
 }  // namespace
 
+bool knows_all_users(const Loop& loop) {
+  const auto [period, delay] = damper_timing(loop);
+  if (rate_ratio(loop.sampling_period, period) < 1.0) return false;
+  const double apart = (loop.delay - delay) / period;
+  return std::abs(apart - std::round(apart)) <= whole_within;
+}
+
+std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress) {
+  if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, virtual_damper(device), progress);
+  if (device.parameters().wall.damping == 0.0) return any_user_limit(with_one_rate(device), progress);
+  if (!knows_all_users(device.loop())) return std::nullopt;
+  tell(progress, 0.0);
+  const CriticalStiffness nobody = critical_stiffness(device_without_user(device));
+  if (nobody.trust.refused()) {
+    AbsoluteStabilityLimit refused;
+    refused.stiffness = std::numeric_limits<double>::quiet_NaN();
+    refused.trust = nobody.trust;
+    return refused;
+  }
+  return two_rate_absolute_stability(device, nobody);
+}
+
+AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress) {
+  std::optional<AbsoluteStabilityLimit> limit = any_user_limit(device, progress);
+  if (!limit) require_one_rate(device);
+  return *std::move(limit);
+}
+
 std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                   const CriticalStiffness& nobody) {
+  if (!knows_all_users(device.loop())) return std::nullopt;
   const auto [period, delay] = damper_timing(device.loop());
   const double apart = (device.loop().delay - delay) / period;
-  if (rate_ratio(device.loop().sampling_period, period) < 1.0) return std::nullopt;
-  if (!(std::abs(apart - std::round(apart)) <= whole_within)) return std::nullopt;
   AbsoluteStabilityLimit limit;
   limit.trust = nobody.trust;
   const Device free = device_without_user(device);
   const TwoRateDiscs discs(free, std::round(apart));
   if (discs.is_undamped() || nobody.stiffness == 0.0) return limit;
+  const VirtualDamper damper{free.parameters().wall.damping, free.parameters().wall.velocity_filter_hz};
   const std::vector<double> frequencies = frequencies_to_look_at(discs, free, nobody);
   std::vector<double> limits;
-  for (const double each : frequencies) limits.push_back(discs.quick_limit_at(each));
+  for (const double each : frequencies) limits.push_back(discs.quick_limit_at(each, damper));
   double least = std::numeric_limits<double>::infinity();
   const auto take = [&](double frequency, double stiffness) {
     if (!(stiffness < least)) return;
@@ -181,17 +238,45 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
     if (!(limits[i] > 0.0) || limits[i] > before || limits[i] > after) continue;
     std::uintmax_t most_steps = 100;
     const auto [at, compliance] = boost::math::tools::brent_find_minima(
-        [&](double frequency) { return -1.0 / discs.quick_limit_at(frequency); }, frequencies[i > 0 ? i - 1 : 0],
-        frequencies[std::min(i + 1, frequencies.size() - 1)], bits_of_minimum, most_steps);
+        [&](double frequency) { return -1.0 / discs.quick_limit_at(frequency, damper); },
+        frequencies[i > 0 ? i - 1 : 0], frequencies[std::min(i + 1, frequencies.size() - 1)], bits_of_minimum,
+        most_steps);
     take(at, -1.0 / compliance);
   }
-  if (std::isfinite(least) && least > 0.0) least = discs.limit_at(limit.frequency);
+  if (std::isfinite(least) && least > 0.0) least = discs.limit_at(limit.frequency, damper);
   if (limits.front() <= least * (1.0 + same_as_at_zero)) limit.frequency = 0.0;
   limit.needs_no_user = nobody.stiffness <= least;
   limit.stiffness = std::min(least, nobody.stiffness);
   if (limit.needs_no_user && nobody.limit) limit.frequency = nobody.limit->frequency;
   if (limit.stiffness == 0.0 || std::isinf(limit.stiffness)) limit.frequency = 0.0;
   return limit;
+}
+
+struct TwoRateUsers::Looks {
+  TwoRateDiscs discs;
+  std::vector<TwoRateDiscs::Aliases> aliases;  // by frequency
+
+  Looks(const Device& free, double apart) : discs(free, apart) {
+    if (discs.is_undamped()) return;
+    for (const double each : frequencies_to_look_at(discs, free, {})) aliases.push_back(discs.aliases_at(each));
+  }
+};
+
+TwoRateUsers::TwoRateUsers(const Device& device) {
+  const auto [period, delay] = damper_timing(device.loop());
+  looks_ = std::make_unique<Looks>(device_without_user(device), std::round((device.loop().delay - delay) / period));
+}
+TwoRateUsers::TwoRateUsers(TwoRateUsers&&) noexcept = default;
+TwoRateUsers::~TwoRateUsers() = default;
+
+double TwoRateUsers::limit_seen(VirtualDamper damper) const {
+  if (looks_->discs.is_undamped()) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const TwoRateDiscs::Aliases& each : looks_->aliases) {
+    least = std::min(least, looks_->discs.limit_of_aliases(each, damper));
+    if (!(least > 0.0)) return 0.0;
+  }
+  return least;
 }
 
 }  // namespace zwidth::internal

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
@@ -19,5 +21,32 @@ namespace zwidth::internal {
 // to be the least in between. Throws as absolute_stability_limit().
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                                 const CriticalStiffness& nobody);
+
+// Whether the limit over all passive users of such a device is known: where two_rate_absolute_stability() gives one.
+[[nodiscard]] bool knows_all_users(const Loop& loop);
+
+// absolute_stability_limit() of the device with the damper of its wall, of one rate or two. Nothing where it is not known; refused
+// where the limit that nobody holds is.
+[[nodiscard]] std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress = {});
+
+// The same; throws Error (invalid_argument) as require_one_rate() where it is not known.
+[[nodiscard]] AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress = {});
+
+// The limit over all passive users of one device with many dampers, for searches.
+class TwoRateUsers {
+ public:
+  // `device`: of a loop that knows_all_users().
+  explicit TwoRateUsers(const Device& device);
+  TwoRateUsers(TwoRateUsers&&) noexcept;
+  ~TwoRateUsers();
+
+  // The least K at the frequencies looked at, never below two_rate_absolute_stability(): refined between none of them, and
+  // without the limit of nobody.
+  [[nodiscard]] double limit_seen(VirtualDamper damper) const;
+
+ private:
+  struct Looks;
+  std::unique_ptr<Looks> looks_;
+};
 
 }  // namespace zwidth::internal

@@ -1,0 +1,419 @@
+#include "design/synthesis/two_rate_recommendation.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "design/synthesis/damper_limits.hpp"
+#include "design/synthesis/drive_damper.hpp"
+#include "design/synthesis/known_holders.hpp"
+#include "design/synthesis/margin_wall.hpp"
+#include "design/synthesis/wall_check.hpp"
+#include "design/synthesis/wall_limits.hpp"
+#include "design/synthesis/wall_search.hpp"
+#include "design/synthesis/worst_case_screening.hpp"
+#include "infinity.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
+#include "stability/users/two_rate_users.hpp"
+#include "staged_progress.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/device_user.hpp"
+#include "zwidth/stability/wall_margins.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr double off_every_limit = 1e-6;
+constexpr double rounding_of_margins = 1e-9;
+constexpr double same_margin = 1e-4;  // relative, of a margin that is the one that bounds
+constexpr double worth_a_filter_of_drive = 0.02;
+constexpr double fastest_filter = 0.2;    // of the damper's rate
+constexpr double slowest_filter = 0.005;  // of the spring's rate
+constexpr double filter_step = 2.5;
+constexpr double finest_filter_step = 1.1;
+constexpr std::array shares_of_damper{1.0, 0.7, 0.5};
+constexpr double softer_step = 0.8;
+constexpr int most_softer_steps = 12;
+constexpr double tail_of_two_rate_draws = 0.025;  // of the devices drawn, which may fail
+
+/// What bounds a wall of two rates.
+class TwoRateLimits {
+ public:
+  TwoRateLimits(const Device& device, const RecommendationOptions& options)
+      : device_(device), options_(options), has_users_(can_be_held(device)) {}
+
+  [[nodiscard]] bool has_users() const { return has_users_; }
+
+  /// Whether a search looks: each limit with any user is then as TwoRateUsers::limit_seen().
+  void search(bool quickly) {
+    is_quick_ = quickly && has_users_;
+    if (is_quick_ && !users_) users_.emplace(device_);
+  }
+
+  /// The end of the stable stiffnesses from 0 on, with every user (where there is such a limit).
+  [[nodiscard]] double limit(VirtualDamper damper) const {
+    tell(options_.progress, 0.0);
+    const Device walled = with_wall(device_, 0.0, damper);
+    if (damper.damping == 0.0 && has_users_) return any_user_limit(walled, options_.progress)->stiffness;
+    const CriticalStiffness nobody = unguarded_stiffness(device_without_user(walled));
+    if (is_quick_) return std::min(nobody.stiffness, users_->limit_seen(damper));
+    if (has_users_) return two_rate_absolute_stability(walled, nobody)->stiffness;
+    return nobody.stiffness;
+  }
+
+  [[nodiscard]] WallLimits::Stiffest stiffest(VirtualDamper damper,
+                                              const WallLimits::Stiffest& at_most = {infinity, WallBound::none}) const {
+    WallLimits::Stiffest least = at_most;
+    const auto take = [&least](double stiffness, WallBound bound) {
+      if (stiffness < least.stiffness) least = {stiffness, bound};
+    };
+    const double gain = options_.gain_margin;
+    const WallBound by_gain = has_users_ ? WallBound::any_user : WallBound::gain_margin;
+    take(limit(damper) / gain, by_gain);
+    for (const double factor : {std::sqrt(gain), gain}) {
+      if (damper.damping == 0.0 || least.stiffness == 0.0) break;
+      take(limit({factor * damper.damping, damper.velocity_filter_hz}) / factor, by_gain);
+    }
+    const double resolution = device_.parameters().sensor.resolution;
+    if (options_.quantisation_force && resolution > 0.0) {
+      const double period = damper_timing(device_.loop()).sampling_period;
+      const ForcePerCountRates rates =
+          force_per_count_rates(with_wall(device_, 0.0, damper).parameters().wall, period, resolution);
+      take(std::max(0.0, *options_.quantisation_force - damper.damping * rates.per_damping) / rates.per_stiffness,
+           WallBound::quantisation_force);
+    }
+    if (!(least.stiffness > 0.0) || !std::isfinite(least.stiffness)) return least;
+    least.stiffness *= 1.0 - off_every_limit;
+    keep_margins(damper, least);
+    return least;
+  }
+
+  [[nodiscard]] bool keeps(double stiffness, VirtualDamper damper) const {
+    const double gain = options_.gain_margin;
+    for (const double factor : {1.0, std::sqrt(gain), gain}) {
+      const double grown = factor == 1.0 ? gain : factor;
+      if (grown * stiffness >=
+          limit({factor * damper.damping, damper.velocity_filter_hz}) * (1.0 + rounding_of_margins))
+        return false;
+    }
+    return std::ranges::all_of(plants(damper),
+                               [&](const FilteredPlant& plant) { return loop_keeps(plant, stiffness); });
+  }
+
+ private:
+  /// As the spring sees them: with nobody, and with the file's user.
+  [[nodiscard]] std::vector<FilteredPlant> plants(VirtualDamper damper) const {
+    std::vector<FilteredPlant> seen;
+    for (const Device& each : known_holders(with_wall(device_, 0.0, damper))) {
+      seen.push_back(TwoRateDevice(each, damper.damping).seen_by_spring());
+    }
+    return seen;
+  }
+
+  [[nodiscard]] static LoopMargins margins_of(const FilteredPlant& plant, double stiffness) {
+    Wall spring;
+    spring.stiffness = stiffness;
+    return loop_margins(plant, spring);
+  }
+
+  [[nodiscard]] bool loop_keeps(const FilteredPlant& plant, double stiffness) const {
+    const LoopMargins has = margins_of(plant, stiffness);
+    return has.stable && has.gain_margin.value_or(infinity) >= options_.gain_margin * (1.0 - rounding_of_margins) &&
+           has.lower_gain_margin.value_or(0.0) * options_.gain_margin <= 1.0 + rounding_of_margins &&
+           has.phase_margin.value_or(std::numbers::pi) >= options_.phase_margin * (1.0 - rounding_of_margins);
+  }
+
+  void keep_margins(VirtualDamper damper, WallLimits::Stiffest& least) const {
+    const std::vector<FilteredPlant> seen = plants(damper);
+    const auto all_keep = [&] {
+      return std::ranges::all_of(seen, [&](const FilteredPlant& plant) { return loop_keeps(plant, least.stiffness); });
+    };
+    if (all_keep()) return;
+    const RequiredMargins margins{options_.gain_margin, options_.phase_margin, false};
+    for (const FilteredPlant& plant : seen) {
+      const double kept = stiffest_wall(plant, {}, margins, {.at_most = least.stiffness}, options_.progress);
+      least.stiffness = std::min(least.stiffness, kept * (1.0 - off_every_limit));
+    }
+    const bool phase =
+        least.stiffness == 0.0 || std::ranges::any_of(seen, [&](const FilteredPlant& plant) {
+          const LoopMargins has = margins_of(plant, least.stiffness);
+          return has.phase_margin && *has.phase_margin <= options_.phase_margin * (1.0 + same_margin) + off_every_limit;
+        });
+    least.bound = phase ? WallBound::phase_margin : WallBound::gain_margin;
+    if (least.stiffness > 0.0 && !all_keep()) least.stiffness = 0.0;
+  }
+
+  const Device& device_;
+  const RecommendationOptions& options_;
+  bool has_users_;
+  bool is_quick_ = false;
+  std::optional<TwoRateUsers> users_;
+};
+
+struct TwoRateWall {
+  VirtualDamper damper;
+  WallLimits::Stiffest stiffest;
+};
+
+class TwoRateRecommendation {
+ public:
+  TwoRateRecommendation(const Device& device, const RecommendationOptions& options)
+      : device_(device), options_(options), limits_(device, options) {}
+
+  [[nodiscard]] WallRecommendation answer() {
+    WallRecommendation result;
+    remark_on(result);
+    std::optional<TwoRateWall> best = searched();
+    if (best && !std::isfinite(best->stiffest.stiffness)) {
+      result.status = WallRecommendation::Status::unbounded;
+      result.reason = Finding{.code = FindingCode::no_stiffness_too_much};
+      return result;
+    }
+    if (options_.modal_frequency_uncertainty > 0.0) result.modal_shifts_checked = modal_shifts_held;
+    if (best) lower(*best, result);
+    if (best && !(best->stiffest.stiffness > 0.0)) best.reset();
+    if (best && limits_.has_users()) {
+      result.reason = why_negligible(with_wall(device_, best->stiffest.stiffness, best->damper));
+      if (result.reason) best.reset();
+    }
+    if (!best) {
+      if (!result.reason) result.reason = Finding{.code = FindingCode::no_wall_keeps_margins_with_any_filter};
+      return result;
+    }
+    RecommendedWall wall = described(RecommendedWall::Kind::recommended, *best, result.trust);
+    if (result.trust.refused()) {
+      result.status = WallRecommendation::Status::refused;
+      return result;
+    }
+    result.status = WallRecommendation::Status::found;
+    result.wall = std::move(wall);
+    if (options_.alternatives) add_alternatives(*best, result);
+    return result;
+  }
+
+ private:
+  using Kind = RecommendedWall::Kind;
+
+  [[nodiscard]] double value_of(const TwoRateWall& wall) const {
+    return WallSearch::value_of(options_.goal, wall.stiffest.stiffness, wall.damper.damping);
+  }
+
+  /// The best B behind this velocity filter, as far as the search looks.
+  [[nodiscard]] TwoRateWall best_behind(double cutoff) const {
+    const BestDamping found = best_damping(
+        with_wall(device_, 0.0, {0.0, cutoff}),
+        [&](double damping) {
+          const VirtualDamper damper{damping, cutoff};
+          return WallSearch::value_of(options_.goal, limits_.stiffest(damper).stiffness, damping);
+        },
+        options_.progress);
+    const VirtualDamper damper{found.damping, found.damping > 0.0 ? cutoff : 0.0};
+    return {damper, limits_.stiffest(damper)};
+  }
+
+  /// The best of no velocity filter and filters from the damper's rate down to far below the spring's; computed exactly.
+  [[nodiscard]] std::optional<TwoRateWall> searched() {
+    limits_.search(true);
+    TwoRateWall best = best_behind(0.0);
+    const auto take = [&](double cutoff) {
+      const TwoRateWall candidate = best_behind(cutoff);
+      if (value_of(candidate) > value_of(best) * (1.0 + worth_a_filter_of_drive)) best = candidate;
+    };
+    if (std::isfinite(value_of(best))) {
+      const double fastest = fastest_filter / damper_timing(device_.loop()).sampling_period;
+      const double slowest = slowest_filter / device_.loop().sampling_period;
+      for (double cutoff = fastest; cutoff >= slowest; cutoff /= filter_step) take(cutoff);
+      if (best.damper.velocity_filter_hz > 0.0) {
+        for (double step = std::sqrt(filter_step); step > finest_filter_step; step = std::sqrt(step)) {
+          const double middle = best.damper.velocity_filter_hz;
+          take(middle * step);
+          take(middle / step);
+        }
+      }
+    }
+    limits_.search(false);
+    best.stiffest = limits_.stiffest(best.damper);
+    return value_of(best) > 0.0 ? std::optional(best) : std::nullopt;
+  }
+
+  /// What uncertainty and modal shifts leave of it.
+  void lower(TwoRateWall& wall, WallRecommendation& result) const {
+    const auto take = [&](const std::vector<Device>& devices, double may_fail, WallBound by, FindingCode why_none) {
+      wall = borne(wall, devices, may_fail, by);
+      if (wall.stiffest.stiffness > 0.0) return;
+      result.reason = Finding{.code = why_none, .evidence = {{"threshold", may_fail}}};
+    };
+    const auto& uncertainty = device_.parameters().uncertainty;
+    if (uncertainty && !uncertainty->parameters.empty()) {
+      take(drawn(device_, options_), tail_of_two_rate_draws, WallBound::uncertainty,
+           FindingCode::uncertainty_leaves_no_margins);
+    }
+    if (options_.modal_frequency_uncertainty > 0.0 && wall.stiffest.stiffness > 0.0) {
+      take(with_modal_shifts(device_, options_.modal_frequency_uncertainty), 0.0,
+           WallBound::modal_frequency_uncertainty, FindingCode::drift_leaves_no_wall);
+    }
+  }
+
+  /// The best wall, no stiffer and no more damped, that the device as it is and all but a share of these devices bear; without
+  /// stiffness where there is none. Users are those of TwoRateUsers::limit_seen().
+  [[nodiscard]] TwoRateWall borne(const TwoRateWall& wall, const std::vector<Device>& devices, double may_fail,
+                                  WallBound by) const {
+    RecommendationOptions asked = options_;
+    asked.progress = {};  // told by one thread at a time
+    std::vector<std::unique_ptr<TwoRateLimits>> limits(devices.size());
+    const auto each_of_them = [&](const auto& work) {
+      tell(options_.progress, 0.0);
+      tbb::parallel_for(std::size_t{0}, devices.size(), work);
+    };
+    each_of_them([&](std::size_t i) {
+      if (!knows_all_users(devices[i].loop())) return;
+      limits[i] = std::make_unique<TwoRateLimits>(devices[i], asked);
+      limits[i]->search(true);
+    });
+    const auto failing = static_cast<std::size_t>(may_fail * static_cast<double>(devices.size()));
+    TwoRateWall best{wall.damper, {0.0, by}};
+    for (const double share : shares_of_damper) {
+      const VirtualDamper damper{share * wall.damper.damping, wall.damper.velocity_filter_hz};
+      std::vector<double> stiffest(devices.size(), 0.0);
+      each_of_them([&](std::size_t i) {
+        if (limits[i]) stiffest[i] = limits[i]->stiffest(damper, wall.stiffest).stiffness;
+      });
+      std::ranges::sort(stiffest);
+      WallLimits::Stiffest found{stiffest[failing],
+                                 stiffest[failing] < wall.stiffest.stiffness ? by : wall.stiffest.bound};
+      for (int step = 0; step < most_softer_steps && found.stiffness > 0.0; ++step) {
+        // Softer at the same margins or less: they must still be kept.
+        found = limits_.stiffest(damper, found);
+        std::vector<char> keeps(devices.size(), 0);
+        each_of_them([&](std::size_t i) { keeps[i] = limits[i] && limits[i]->keeps(found.stiffness, damper) ? 1 : 0; });
+        if (std::ranges::count(keeps, 0) <= static_cast<std::ptrdiff_t>(failing)) break;
+        found = {step + 1 < most_softer_steps ? softer_step * found.stiffness : 0.0, by};
+      }
+      const TwoRateWall candidate{damper, found};
+      if (found.stiffness > 0.0 && value_of(candidate) > value_of(best)) best = candidate;
+      if (wall.damper.damping == 0.0) break;
+    }
+    return best;
+  }
+
+  /// With everything that stands behind it; `trust` says what the check found.
+  [[nodiscard]] RecommendedWall described(Kind kind, const TwoRateWall& found, Trust& trust) const {
+    const Device walled = with_wall(device_, found.stiffest.stiffness, found.damper);
+    RecommendedWall wall;
+    wall.kind = kind;
+    wall.wall = walled.parameters().wall;
+    trust.inherit(critical_stiffness(walled).trust);
+    check_wall(walled, options_, limits_.has_users(), trust);
+    if (trust.refused()) return wall;
+    if (!limits_.keeps(found.stiffest.stiffness, found.damper)) {
+      trust.refuse({.code = FindingCode::wall_margins_contradict, .subjects = {{"what", "wall"}}});
+      return wall;
+    }
+    wall.bounded_by.stiffness = found.stiffest.bound;
+    wall.margins = wall_margins(walled);
+    if (limits_.has_users()) {
+      wall.absolute_stability_limit = limits_.limit(found.damper);
+      wall.absolute_stability_margin = *wall.absolute_stability_limit / *wall.wall.stiffness;
+    }
+    wall.force_per_count = force_per_count(walled);
+    return wall;
+  }
+
+  void add(Kind kind, VirtualDamper damper, WallRecommendation& result) const {
+    TwoRateWall found{damper, limits_.stiffest(damper)};
+    if (!(found.stiffest.stiffness > 0.0) || !std::isfinite(found.stiffest.stiffness)) return;
+    WallRecommendation ignored;
+    lower(found, ignored);
+    if (!(found.stiffest.stiffness > 0.0)) return;
+    Trust trust;
+    RecommendedWall wall = described(kind, found, trust);
+    if (trust.refused()) {
+      result.trust.doubt({.code = FindingCode::alternative_left_out,
+                          .subjects = {{"what", std::string(words_of(kind))}, {"reason", trust.reasons.front()}}});
+      return;
+    }
+    result.trust.inherit(trust);
+    result.alternatives.push_back(std::move(wall));
+  }
+
+  void add_alternatives(const TwoRateWall& best, WallRecommendation& result) const {
+    if (best.damper.damping == 0.0) return;
+    add(Kind::no_virtual_damper, {}, result);
+    for (const auto& [share, kind] : {std::pair{0.5, Kind::half_damping}, {1.5, Kind::more_damping}}) {
+      add(kind, {share * best.damper.damping, best.damper.velocity_filter_hz}, result);
+    }
+  }
+
+  void remark_on(WallRecommendation& result) const {
+    if (!(device_.parameters().sensor.resolution > 0.0)) {
+      Finding finding{
+          .code = FindingCode::force_per_count_unknown, .subjects = {{"what", "wall"}}, .key = "sensor.resolution"};
+      result.remarks.push_back(options_.quantisation_force ? warning(std::move(finding)) : note(std::move(finding)));
+    }
+    result.remarks.push_back(limits_.has_users()
+                                 ? note({.code = FindingCode::any_user_limit_scanned})
+                                 : warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
+  }
+
+  const Device& device_;
+  const RecommendationOptions& options_;
+  TwoRateLimits limits_;
+};
+
+}  // namespace
+
+WallRecommendation recommend_two_rate_wall(const Device& device, const RecommendationOptions& options) {
+  return TwoRateRecommendation(device, options).answer();
+}
+
+WallRecommendation recommend_two_rate_damper(const Device& device, const RecommendationOptions& options) {
+  WallRecommendation result = recommend_damper(with_loop_of_damper(device), options);
+  const auto in_both_loops = [&](RecommendedWall& wall) {
+    if (!wall.absolute_stability_limit) return;
+    const Device walled = with_wall(device, 0.0, {wall.wall.damping, wall.wall.velocity_filter_hz});
+    wall.absolute_stability_limit = any_user_limit(walled, options.progress)->stiffness;
+  };
+  if (result.wall) in_both_loops(*result.wall);
+  std::ranges::for_each(result.alternatives, in_both_loops);
+  return result;
+}
+
+std::optional<DriveDamper> recommend_drive_damper(const Device& device, const RecommendationOptions& options,
+                                                  const RecommendedWall& found) {
+  const std::optional<Device> on_drive = with_damper_on_drive(device);
+  if (!on_drive) return std::nullopt;
+  RecommendationOptions asked = options;
+  asked.alternatives = false;
+  try {
+    const WallRecommendation with = recommend_two_rate_wall(*on_drive, asked);
+    if (!with.wall || !(with.wall->wall.damping > 0.0)) return std::nullopt;
+    const auto [period, delay] = damper_timing(on_drive->loop());
+    DriveDamper result;
+    result.sampling_period = period;
+    result.delay = delay;
+    result.damping = with.wall->wall.damping;
+    result.velocity_filter_hz = with.wall->wall.velocity_filter_hz;
+    result.stiffness = *with.wall->wall.stiffness;
+    result.absolute_stability_limit = with.wall->absolute_stability_limit;
+    result.one_rate_damping = found.wall.damping;
+    result.one_rate_stiffness = *found.wall.stiffness;
+    result.gain = result.stiffness / result.one_rate_stiffness;
+    result.why = finding_of(result, device.parameters().motion);
+    return result;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    return std::nullopt;
+  }
+}
+
+}  // namespace zwidth::internal
