@@ -148,7 +148,15 @@ std::span<const Phrase> design_phrases() {
              "the position is the encoder's; axis.0.axisfriction, axisinertia, maxspeed and maxtorquerate 0, as by "
              "default"},
       Phrase{drive_velocity_limit, "drive_velocity_limit", note,
-             "the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"}};
+             "the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"},
+      Phrase{
+          damper_alone_on_drive, "damper_alone_on_drive", note,
+          "the drive closes the damper alone, at {rate_hz:g} Hz and with a delay of {delay}, as [loop.damper] states; "
+          "it takes the spring as {spring}"},
+      Phrase{damper_estimator_not_modelled, "damper_estimator_not_modelled", doubt,
+             "the damper's velocity is the drive's estimator's, which is not modelled beside [loop.damper]: the limit "
+             "on the drive may be lower",
+             "", "begin with a tenth of it, and raise K by half until it vibrates"}};
   return phrases;
 }
 
