@@ -5,6 +5,7 @@
 
 #include "rig/action_steps.hpp"
 #include "rig/rig_actions.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 
 namespace zwidth::rig {
@@ -71,11 +72,19 @@ double bring_to_rest(RigRun& run, const Segment& holding, double least) {
   return rest;
 }
 
+/// Neither host nor drive runs the wall of the file beside a relay.
+Device without_wall(const Device& device) {
+  DeviceParameters parameters =
+      has_damper_loop(device.loop()) ? with_one_rate(device).parameters() : device.parameters();
+  parameters.wall = {};
+  return Device(std::move(parameters));
+}
+
 }  // namespace
 
 RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options, const RelayTrialsOptions& trials,
                       const Progress& progress) {
-  const CriticalStiffness predicted = critical_stiffness(device);
+  const CriticalStiffness predicted = critical_stiffness(without_wall(device));
   RigRelay result;
   result.trust = trust_of(device);
   RigRun run(driver, options.limits, device.loop().sampling_period);
