@@ -220,6 +220,7 @@ void run_relay_on_rig(const Rig& rig) {
   options.relay = {amplitude_of(rig), rig.arguments.hysteresis};
   options.trials = rig.arguments.trials;
   options.seek_limit = rig.arguments.seek_limit;
+  options.damper_on_drive = rig.arguments.damper_on_drive;
   if (rig.arguments.duration) options.duration = *rig.arguments.duration;
   RelayOptions simulated;
   simulated.relay = options.relay;
@@ -342,7 +343,8 @@ void run_rig(const RigArguments& arguments) {
   const Device device = rig_device(arguments);
   check_duration(arguments.duration, device);
   rig::RigOptions options = rig_options(arguments, device);
-  if (arguments.action == "wall" || arguments.action == "limit") check_place_of_damper(arguments, device);
+  const bool runs_damper = arguments.action == "wall" || arguments.action == "limit" || arguments.action == "relay";
+  if (runs_damper) check_place_of_damper(arguments, device);
   const bool has_wall = arguments.action == "wall";  // whose certainty counts
   const Analysis analysis = analyze(device, has_wall ? AnalysisOptions{.any_user = false} : limit_and_wall_only());
   check_permission(arguments, analysis.trust);

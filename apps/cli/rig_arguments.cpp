@@ -29,7 +29,7 @@ constexpr std::array<OptionOfActions, 16> options_of_actions{
      {"--stiffness", "wall "},
      {"--accept-unstable", "wall "},
      {"--contact", "wall "},
-     {"--damper-on-drive", "wall limit "},
+     {"--damper-on-drive", "relay wall limit "},
      {"--from", "limit "},
      {"--ceiling", "limit "},
      {"--trials", "relay "},
@@ -56,7 +56,7 @@ void add_work_options(CLI::App& command, RigArguments& arguments) {
       ->check(CLI::IsMember({"bilateral", "unilateral"}));
   command.add_flag(
       "--damper-on-drive", arguments.damper_on_drive,
-      "wall, limit: the drive closes the damper, as [loop.damper]\nstates, and gets the spring's force alone");
+      "relay, wall, limit: the drive closes the damper, as [loop.damper]\nstates, and gets the spring's force alone");
   add("--from", arguments.from, "limit: first stiffness; else half of what is predicted", "K");
   add("--ceiling", arguments.ceiling, "limit: the most that is tried; else half above what is predicted", "K");
   add("--trials", arguments.trials, "relay: number of trials", "N")->capture_default_str()->check(CLI::Range(1, 1000));

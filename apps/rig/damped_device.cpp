@@ -65,10 +65,12 @@ DampedDevice::Grid DampedDevice::grid_of(const Device& device) {
     grid.later_of_damper = later + (steps < 0.0 ? difference : 0);
     return grid;
   }
-  throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::delays_apart,
-                                            .evidence = {{"value", std::abs(loop.delay - damper.delay)},
-                                                         {"period", damper.sampling_period},
-                                                         {"most", static_cast<double>(finest)}}});
+  internal::require_valid(
+      option_problem("loop.damper.delay", {.code = ProblemCode::delays_apart,
+                                           .evidence = {{"value", std::abs(loop.delay - damper.delay)},
+                                                        {"period", damper.sampling_period},
+                                                        {"most", static_cast<double>(finest)}}}));
+  return {};
 }
 
 DampedDevice::DampedDevice(const Device& device, double start) : DampedDevice(device, start, grid_of(device)) {}

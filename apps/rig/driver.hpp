@@ -24,6 +24,7 @@ struct DriverFacts {
   std::optional<double> watchdog = {};   ///< s, of the firmware; absent: it has none
   double bytes_per_cycle = 0.0;          ///< on a serial line: question, answer and force
   std::optional<double> byte_rate = {};  ///< bytes/s that the line carries; absent: no serial line
+  bool estimates_velocity = false;       ///< its damper's velocity is that of an estimator which no analysis knows
 };
 
 /// Why no damper can run on the drive of the driver of that name: it closes none beside the forces that it is sent.

@@ -33,7 +33,10 @@ const std::string& checked_port(const SerialLink& link) {
 }  // namespace
 
 MoteusDriver::MoteusDriver(const SerialLink& link)
-    : SerialDriver({.name = "moteus:" + checked_port(link), .watchdog = watchdog, .bytes_per_cycle = bytes_per_cycle},
+    : SerialDriver({.name = "moteus:" + checked_port(link),
+                    .watchdog = watchdog,
+                    .bytes_per_cycle = bytes_per_cycle,
+                    .estimates_velocity = true},
                    link, default_baud),
       id_(link.drive.id.value_or(1)) {
   // An fdcanusb takes the checksum for a flag that it does not know, and says so.

@@ -47,9 +47,11 @@ const std::string& checked_port(const SerialLink& link) {
 }  // namespace
 
 OdriveDriver::OdriveDriver(const SerialLink& link)
-    : SerialDriver(
-          {.name = "odrive:" + checked_port(link), .watchdog = watchdog_of(link), .bytes_per_cycle = bytes_per_cycle},
-          link, default_baud),
+    : SerialDriver({.name = "odrive:" + checked_port(link),
+                    .watchdog = watchdog_of(link),
+                    .bytes_per_cycle = bytes_per_cycle,
+                    .estimates_velocity = true},
+                   link, default_baud),
       axis_(link.drive.id.value_or(0)),
       watchdog_(watchdog_of(link)) {
   if (const long found = error(); (found & ~watchdog_expired) != 0) {

@@ -54,6 +54,11 @@ ControllerOptions on_host(ControllerOptions controller, bool damper_on_drive) {
   return controller;
 }
 
+/// What predicts a wall of two loops knows no drive's estimator.
+void doubt_estimator(const Driver& driver, Trust& trust) {
+  if (driver.facts().estimates_velocity) trust.doubt({.code = FindingCode::damper_estimator_not_modelled});
+}
+
 /// The device as theory of one rate or two knows it with any passive user; nothing where nobody can hold it or two rates
 /// leave it to analyze().
 std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device) {
@@ -152,6 +157,11 @@ std::optional<OptionProblem> find_problem(const WallOptions& options, const Devi
 }
 
 std::optional<OptionProblem> find_problem(const LimitOptions& options, const Device& device) {
+  return find_place_problem(options.damper_on_drive, device.parameters().wall.damping,
+                            ControllerOptions::Contact::bilateral, device);
+}
+
+std::optional<OptionProblem> find_problem(const RelayTrialsOptions& options, const Device& device) {
   return find_place_problem(options.damper_on_drive, device.parameters().wall.damping,
                             ControllerOptions::Contact::bilateral, device);
 }
@@ -289,7 +299,10 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     segment.force.insert(segment.force.end(), impulse.begin(), impulse.end());
     after = segment.cut_from = segment.watch_from = std::min(segment.cycles, segment.force.size());
   }
-  if (wall.damper_on_drive) driver.close_damper(rendering(device, wall.controller), options.limits.force);
+  if (wall.damper_on_drive) {
+    driver.close_damper(rendering(device, wall.controller), options.limits.force);
+    doubt_estimator(driver, result.trust);
+  }
   RigRun run(driver, options.limits, period, options.watcher);
   Played played = run.play(segment);
   result.session = ended(run, options, played.stop);
@@ -317,7 +330,10 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   const double period = device.loop().sampling_period;
   LimitSearch search(limit.search);
   const std::vector<double> impulse = impulse_at(frequency_of(result.predicted), limit.impulse, period);
-  if (limit.damper_on_drive) driver.close_damper(device, options.limits.force);
+  if (limit.damper_on_drive) {
+    driver.close_damper(device, options.limits.force);
+    doubt_estimator(driver, result.predicted.trust);
+  }
   RigRun run(driver, options.limits, period, options.watcher);
   const auto hosted = [&](double stiffness) { return on_host(wall_of(device, stiffness), limit.damper_on_drive); };
   Segment holding;

@@ -31,6 +31,7 @@ struct RelayTrialsOptions {
   double duration = 20.0;  ///< s, of each
   /// Trials begin so that they find the limit's oscillation, and none at a faster crossover; else as those of relay().
   bool seek_limit = false;
+  bool damper_on_drive = false;  ///< the drive closes the damper of the device's own loop beside the relay
   RelayAnalysisOptions analysis;
 };
 
@@ -53,6 +54,8 @@ struct LimitOptions {
 /// wall on both sides: neither the host nor the drive would run another damper than the file's unasked.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const WallOptions& options, const Device& device);
 [[nodiscard]] std::optional<OptionProblem> find_problem(const LimitOptions& options, const Device& device);
+/// The same of a relay, which takes the place of the spring.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RelayTrialsOptions& options, const Device& device);
 
 /// Zero force for a while: link, rate, latency; before that, the firmware's watchdog by silence.
 [[nodiscard]] RigCheck check(const Device& device, Driver& driver, const RigOptions& options, double duration);
@@ -63,7 +66,8 @@ struct LimitOptions {
 /// that identify() refuses.
 [[nodiscard]] RigIdentification identify_on_rig(const Device& device, Driver& driver, const RigOptions& options,
                                                 const MeasureOptions& measurement, const Progress& progress);
-/// The relay experiment, without a damper on host or drive. Between trials a soft wall brings the device back.
+/// The relay experiment, without a damper of the host's. Between trials a soft wall brings the device back. Throws as
+/// render_wall().
 [[nodiscard]] RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options,
                                     const RelayTrialsOptions& trials, const Progress& progress);
 /// Renders a wall, until its end or until an oscillation grows. Throws Error (invalid_argument) where find_problem() finds
