@@ -22,6 +22,8 @@
 #include "results/export_json.hpp"
 #include "results/json.hpp"
 #include "zwidth/design/wall_to_run.hpp"
+#include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::cli {
@@ -140,9 +142,24 @@ std::string exported_c(const ExportArguments& arguments, const Outputs& outputs)
   return report::export_c(wall);
 }
 
+/// The device with --stiffness, of which the drive closes the damper alone.
+std::optional<Device> device_with_damper_on_drive(const ExportArguments& arguments) {
+  DeviceParameters parameters = read_devices(arguments.devices).front().parameters();
+  if (!has_damper_loop(parameters.loop)) return std::nullopt;
+  if (arguments.stiffness) parameters.wall.stiffness = arguments.stiffness;
+  if (const auto problem = find_problem(parameters)) throw BadInput("--stiffness", problem->what, problem->allowed);
+  Device device(std::move(parameters));
+  const Trust trust = trust_of(device);
+  if (trust.sound() || (!trust.refused() && arguments.accept_doubt)) return device;
+  throw WorkFailed(arguments.devices.files.front(),
+                   CommandText(report::verdict_text(trust)) +
+                       CommandText(trust.refused() ? "" : "; --accept-doubt writes the damper all the same"));
+}
+
 std::string exported_for_drive(const ExportArguments& arguments, const Outputs& outputs) {
   const std::string& file = arguments.devices.files.front();
-  const WallToRun wall = released_wall(arguments);
+  const auto damped = device_with_damper_on_drive(arguments);
+  const WallToRun wall = damped ? WallToRun{.device = *damped} : released_wall(arguments);
   if (const auto problem = find_problem(*arguments.units, wall.device)) {
     refuse_key(file, problem->member, problem->what, problem->allowed);
   }
@@ -158,7 +175,8 @@ std::string exported_for_drive(const ExportArguments& arguments, const Outputs& 
   const DriveGains gains = worked(file, [&] { return drive_gains(wall.device, *arguments.units, loop); });
   const Trust& trust = gains.on_drive.trust;
   if (trust.refused()) throw WorkFailed(file, "closed on the drive: " + report::verdict_text(trust));
-  if (const std::string holders = unstable_with(*gains.on_drive.wall_stable_for); !holders.empty()) {
+  const auto& stable_for = gains.on_drive.wall_stable_for;
+  if (const std::string holders = stable_for ? unstable_with(*stable_for) : ""; !holders.empty()) {
     outputs.tell(
         fmt::format("zwidth: {}: closed on the drive, the wall is UNSTABLE by linear analysis, {}\n", file, holders));
   }

@@ -23,6 +23,7 @@
 #include "cli/usage_error.hpp"
 #include "report/text/text_medium.hpp"
 #include "report/text/text_table.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -151,6 +152,11 @@ int run_program(int argument_count, char** arguments) {
   } catch (const BadInput& problem) {
     report_problem(problem.what());
     return bad_input;
+  } catch (const Error& error) {  // of a key of the device's file: what was asked for does not know it
+    report_problem(error.what());
+    const bool lies_in_input =
+        std::ranges::any_of(error.problems(), [](const auto& each) { return !each.place.key.empty(); });
+    return lies_in_input ? bad_input : work_failed;
   } catch (const std::bad_alloc&) {
     report_problem("out of memory");
     return work_failed;

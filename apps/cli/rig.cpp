@@ -51,7 +51,9 @@ constexpr std::pair<std::string_view, std::string_view> options_of_rig[] = {{"fo
                                                                             {"start", "--from"},
                                                                             {"ceiling", "--ceiling"},
                                                                             {"stiffness", "--stiffness"},
-                                                                            {"trials", "--trials"}};
+                                                                            {"trials", "--trials"},
+                                                                            {"damper_on_drive", "--damper-on-drive"},
+                                                                            {"controller.contact", "--contact"}};
 
 /// What all actions work with.
 struct Rig {
@@ -218,6 +220,7 @@ void run_relay_on_rig(const Rig& rig) {
   options.relay = {amplitude_of(rig), rig.arguments.hysteresis};
   options.trials = rig.arguments.trials;
   options.seek_limit = rig.arguments.seek_limit;
+  options.damper_on_drive = rig.arguments.damper_on_drive;
   if (rig.arguments.duration) options.duration = *rig.arguments.duration;
   RelayOptions simulated;
   simulated.relay = options.relay;
@@ -244,6 +247,7 @@ void run_wall(const Rig& rig) {
   options.controller = wall_controller(rig.device.parameters().wall);
   if (arguments.contact == "unilateral") options.controller.contact = ControllerOptions::Contact::unilateral;
   if (arguments.duration) options.duration = *arguments.duration;
+  options.damper_on_drive = arguments.damper_on_drive;
   if (arguments.amplitude || arguments.driver == "simulated") options.impulse = amplitude_of(rig);
   const RigWall result =
       watched(rig, [&](const rig::RigOptions& own) { return rig::render_wall(rig.device, *rig.driver, own, options); });
@@ -257,6 +261,7 @@ void run_wall(const Rig& rig) {
 void run_limit(const Rig& rig) {
   const RigArguments& arguments = rig.arguments;
   rig::LimitOptions options = rig::default_limit(rig.device);
+  options.damper_on_drive = arguments.damper_on_drive;
   if (arguments.from) options.search.start = *arguments.from;
   if (arguments.ceiling) options.search.ceiling = *arguments.ceiling;
   if (arguments.duration) options.dwell = *arguments.duration;
@@ -294,6 +299,17 @@ void check_wall(const RigArguments& arguments, const Device& device, const Analy
   }
 }
 
+/// Where the damper of a wall is to run, before a drive is opened.
+void check_place_of_damper(const RigArguments& arguments, const Device& device) {
+  rig::WallOptions wall;
+  wall.controller = wall_controller(device.parameters().wall);
+  if (arguments.contact == "unilateral") wall.controller.contact = ControllerOptions::Contact::unilateral;
+  wall.damper_on_drive = arguments.damper_on_drive;
+  if (const auto problem = find_problem(wall, device)) {
+    refuse(*problem, options_of_rig, arguments.devices.files.front());
+  }
+}
+
 /// Falls silent before any force goes out: whoever dies later must not leave one behind.
 std::optional<bool> proved_watchdog(const RigArguments& arguments, rig::Driver& driver) {
   if (arguments.driver == "simulated") return std::nullopt;
@@ -327,6 +343,8 @@ void run_rig(const RigArguments& arguments) {
   const Device device = rig_device(arguments);
   check_duration(arguments.duration, device);
   rig::RigOptions options = rig_options(arguments, device);
+  const bool runs_damper = arguments.action == "wall" || arguments.action == "limit" || arguments.action == "relay";
+  if (runs_damper) check_place_of_damper(arguments, device);
   const bool has_wall = arguments.action == "wall";  // whose certainty counts
   const Analysis analysis = analyze(device, has_wall ? AnalysisOptions{.any_user = false} : limit_and_wall_only());
   check_permission(arguments, analysis.trust);
@@ -386,7 +404,7 @@ void add_rig(CLI::App& app) {
       throw WorkFailed(arguments->driver + ": " + problem.what());
     } catch (const Error& error) {
       if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(error.what());
-      throw refused_by(error, arguments->devices.files.front());
+      throw refused_by(error, arguments->devices.files.front(), options_of_rig);
     }
   });
 }

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
+#include "cli/option_refusal.hpp"
 #include "cli/subcommand.hpp"
 #include "rig/open_driver.hpp"
 
@@ -19,7 +21,7 @@ struct OptionOfActions {
   std::string_view actions;
 };
 
-constexpr std::array<OptionOfActions, 15> options_of_actions{
+constexpr std::array<OptionOfActions, 16> options_of_actions{
     {{"--amplitude", "measure identify relay wall limit "},
      {"--duration", "check measure identify relay wall limit "},
      {"--lowest-hz", "measure identify "},
@@ -27,6 +29,7 @@ constexpr std::array<OptionOfActions, 15> options_of_actions{
      {"--stiffness", "wall "},
      {"--accept-unstable", "wall "},
      {"--contact", "wall "},
+     {"--damper-on-drive", "relay wall limit "},
      {"--from", "limit "},
      {"--ceiling", "limit "},
      {"--trials", "relay "},
@@ -51,6 +54,9 @@ void add_work_options(CLI::App& command, RigArguments& arguments) {
   add("--contact", arguments.contact, "wall: bilateral, a spring on both sides; unilateral: it only pushes", "KIND")
       ->capture_default_str()
       ->check(CLI::IsMember({"bilateral", "unilateral"}));
+  command.add_flag(
+      "--damper-on-drive", arguments.damper_on_drive,
+      "relay, wall, limit: the drive closes the damper, as [loop.damper]\nstates, and gets the spring's force alone");
   add("--from", arguments.from, "limit: first stiffness; else half of what is predicted", "K");
   add("--ceiling", arguments.ceiling, "limit: the most that is tried; else half above what is predicted", "K");
   add("--trials", arguments.trials, "relay: number of trials", "N")->capture_default_str()->check(CLI::Range(1, 1000));
@@ -132,6 +138,10 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
   }
   if (const auto problem = rig::find_driver_name_problem(arguments.driver)) {
     throw BadInput("--driver", fmt::format("{}: {}", arguments.driver, *problem));
+  }
+  if (arguments.damper_on_drive) {
+    constexpr std::pair<std::string_view, std::string_view> options[] = {{"damper_on_drive", "--damper-on-drive"}};
+    if (const auto problem = rig::find_damper_problem(arguments.driver)) refuse(*problem, options);
   }
   for (const char* option : {"--real-time", "--start"}) {
     if (command.count(option) > 0) throw BadInput(option, "is for a simulated device");

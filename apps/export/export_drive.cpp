@@ -9,6 +9,7 @@
 #include "report/text/holder_limit_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::report {
@@ -46,12 +47,19 @@ std::string comment(std::string text) {
 std::string export_drive(const Device& device, const DriveGains& gains, const std::string& source) {
   const Units units = units_of(device.parameters().motion);
   std::string text = comment(fmt::format("{}: by zwidth {}", display_name(device), ZWIDTH_VERSION));
-  text += comment(fmt::format("Wall: K {} ({}), B {}", quantity(gains.stiffness, units.stiffness), source,
-                              quantity(device.parameters().wall.damping, units.damping)));
-  text += comment(fmt::format("Closed on the drive at {}, at the most: {}; this wall is {}",
-                              quantity(1.0 / gains.sampling_period, "Hz"),
-                              limits_text(gains.on_drive.limits, units.stiffness),
-                              verdict_text_on_drive(gains.on_drive.wall_stable_for.value())));
+  const bool damper_alone = has_damper_loop(device.loop());
+  const bool has_stiffness = device.parameters().wall.stiffness.has_value();
+  const std::string stiffness =
+      has_stiffness ? fmt::format("K {} ({})", quantity(gains.stiffness, units.stiffness), source) : "K of the host's";
+  text += comment(fmt::format("Wall: {}, B {}", stiffness, quantity(device.parameters().wall.damping, units.damping)));
+  const auto& stable_for = gains.on_drive.wall_stable_for;
+  text += comment(fmt::format(
+      "{} on the drive at {}{}, at the most: {}; this wall is {}", damper_alone ? "The damper alone closed" : "Closed",
+      quantity(1.0 / gains.sampling_period, "Hz"),
+      damper_alone ? fmt::format(", the spring by the host at {}", quantity(1.0 / device.loop().sampling_period, "Hz"))
+                   : "",
+      limits_text(gains.on_drive.limits, units.stiffness),
+      has_stiffness && stable_for ? verdict_text_on_drive(*stable_for) : "not judged"));
   for (const Remark& each : gains.remarks) text += comment(each.what);
   if (const auto note = trust_note(gains.on_drive.trust)) text += comment(*note);
   for (const DriveNumber& each : gains.numbers) {

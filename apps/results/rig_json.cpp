@@ -150,7 +150,8 @@ Json rig_json(const Device& device, const RigWall& wall) {
   json["wall"] = {{"stiffness", wall.controller.stiffness},
                   {"damping", wall.controller.damping},
                   {"velocity_filter_hz", wall.controller.velocity_filter_hz},
-                  {"filters", wall.controller.filters.size()}};
+                  {"filters", wall.controller.filters.size()},
+                  {"damper_on_drive", wall.damper_on_drive}};
   json["predicted"] = predicted_json(wall.predicted);
   json["limits"] = wall.limits;
   json["stable_for"] = wall.stable_for;

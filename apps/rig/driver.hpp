@@ -4,6 +4,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth::rig {
 
@@ -20,7 +24,11 @@ struct DriverFacts {
   std::optional<double> watchdog = {};   ///< s, of the firmware; absent: it has none
   double bytes_per_cycle = 0.0;          ///< on a serial line: question, answer and force
   std::optional<double> byte_rate = {};  ///< bytes/s that the line carries; absent: no serial line
+  bool estimates_velocity = false;       ///< its damper's velocity is that of an estimator which no analysis knows
 };
+
+/// Why no damper can run on the drive of the driver of that name: it closes none beside the forces that it is sent.
+[[nodiscard]] OptionProblem no_damper_problem(std::string_view name);
 
 /// A device with its drive, in SI units: where the real-time loop ends. A cycle is measure(), then command().
 ///
@@ -34,6 +42,10 @@ class Driver {
   virtual ~Driver() = default;
 
   [[nodiscard]] virtual const DriverFacts& facts() const noexcept = 0;
+  /// Has the drive close the wall's damper of this device by itself from arm() on, beside the forces that it gets and
+  /// within `force_limit` of both together, N or N m. Before arm(). Throws Error (invalid_argument) where the drive
+  /// cannot, DriverFailed where it does not.
+  virtual void close_damper(const Device& device, std::optional<double> force_limit);
   /// Makes the drive take forces; it starts with none. Throws DriverFailed.
   virtual void arm() = 0;
   /// The position now, m or rad; nothing where none came in time.

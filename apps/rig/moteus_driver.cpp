@@ -18,6 +18,8 @@ constexpr int idle_frames = 2;
 // "can send 8001 11001d01 *XX", "OK *XX", "rcv 00000100 21000a2d01xxxxxxxx *XX", a torque and its "OK *XX", with ends.
 constexpr double bytes_per_cycle = 27 + 8 + 37 + 57 + 8;
 
+constexpr double bytes_of_damper = 32;  // of a torque beside it: no position, velocity 0, and a limit
+
 constexpr int fault_mode = 1;
 constexpr int position_mode = 10;
 constexpr int timeout_mode = 11;
@@ -31,7 +33,10 @@ const std::string& checked_port(const SerialLink& link) {
 }  // namespace
 
 MoteusDriver::MoteusDriver(const SerialLink& link)
-    : SerialDriver({.name = "moteus:" + checked_port(link), .watchdog = watchdog, .bytes_per_cycle = bytes_per_cycle},
+    : SerialDriver({.name = "moteus:" + checked_port(link),
+                    .watchdog = watchdog,
+                    .bytes_per_cycle = bytes_per_cycle,
+                    .estimates_velocity = true},
                    link, default_baud),
       id_(link.drive.id.value_or(1)) {
   // An fdcanusb takes the checksum for a flag that it does not know, and says so.
@@ -55,7 +60,31 @@ int MoteusDriver::mode() {
   return std::stoi(text);
 }
 
+void MoteusDriver::close_damper(const Device& device, std::optional<double> force_limit) {
+  set_damper(device, DriveFirmware::moteus, force_limit);
+  set_bytes_per_cycle(bytes_per_cycle + bytes_of_damper);
+}
+
+std::string MoteusDriver::said_to(const std::string& text) {
+  tell(line(moteus_tunnel(id_, text)).view());
+  return ask_until_answered(line(moteus_tunnel_question(id_)).view(), [&](std::string_view frame) {
+    const auto answer = moteus_answer(frame, has_checksums_);
+    return answer ? moteus_tunnel_reply(*answer, id_) : std::nullopt;
+  });
+}
+
+void MoteusDriver::tell_damper() {
+  for (const DriveNumber& each : damper()->numbers) {
+    const std::string answer = said_to(fmt::format("conf set {} {:.6g}\n", each.name, each.value));
+    if (answer != "OK") {
+      throw DriverFailed(fmt::format("moteus {} does not take {}: it says \"{}\"", id_, each.name, answer));
+    }
+    require_taken(each.name, each.value, said_to(fmt::format("conf get {}\n", each.name)));
+  }
+}
+
 void MoteusDriver::arm() {
+  if (damper()) tell_damper();
   const std::int64_t until = clock_now() + arming_patience;
   std::int64_t pause = between_looks;
   do {
@@ -108,7 +137,8 @@ std::string MoteusDriver::trouble_text(Trouble trouble, long code) const {
 SerialFrame MoteusDriver::question() noexcept { return line(moteus_question(id_)); }
 
 SerialFrame MoteusDriver::torque_frame(double torque) const noexcept {
-  return line(moteus_torque(id_, torque, watchdog));
+  if (!damper()) return line(moteus_torque(id_, torque, watchdog));
+  return line(moteus_damped_torque(id_, torque, damper()->torque_limit, watchdog));
 }
 
 void MoteusDriver::send_idle() noexcept {

@@ -8,13 +8,14 @@ namespace zwidth::rig {
 /// A moteus controller over the lines of fdcanusb: on its own UART, with checksums, or behind an fdcanusb, which has none
 /// of its own (USB and CAN-FD do).
 ///
-/// Torque in position mode without gains. The watchdog of each command, 100 ms, ends in a mode of which only a stop leads
+/// Torque in position mode without gains, or with that of velocity alone, which is its damper. The watchdog of each command, 100 ms, ends in a mode of which only a stop leads
 /// out: mode and position are read together, and a position in any other mode than that of torque is none, until it is disarmed.
 class MoteusDriver : public SerialDriver {
  public:
   /// Throws DriverFailed where the drive does not answer, or stands on a fault.
   explicit MoteusDriver(const SerialLink& link);
 
+  void close_damper(const Device& device, std::optional<double> force_limit) override;
   void arm() override;
   [[nodiscard]] std::optional<bool> proves_watchdog() override;
 
@@ -30,6 +31,8 @@ class MoteusDriver : public SerialDriver {
     return moteus_line(text.view(), has_checksums_);
   }
   [[nodiscard]] int mode();
+  [[nodiscard]] std::string said_to(const std::string& text);
+  void tell_damper();
 
   int id_;
   bool has_checksums_ = true;

@@ -117,6 +117,29 @@ std::string_view word(std::string_view& text) noexcept {
   return first;
 }
 
+struct Data {
+  std::array<unsigned char, most_bytes> bytes{};
+  std::size_t count = 0;
+  [[nodiscard]] std::span<const unsigned char> view() const noexcept { return std::span(bytes).first(count); }
+};
+
+/// Of a frame that the drive of that id sent.
+std::optional<Data> data_from(std::string_view answer, int id) noexcept {
+  if (word(answer) != "rcv") return std::nullopt;
+  const auto from = as_hex(word(answer));
+  if (!from || ((*from >> 8U) & 0x7fU) != static_cast<unsigned>(id)) return std::nullopt;
+  const std::string_view digits = word(answer);
+  if (digits.empty() || digits.size() % 2 != 0 || digits.size() > 2 * most_bytes) return std::nullopt;
+  Data data;
+  data.count = digits.size() / 2;
+  for (std::size_t i = 0; i < data.count; ++i) {
+    const auto byte = as_hex(digits.substr(2 * i, 2));
+    if (!byte) return std::nullopt;
+    data.bytes.at(i) = static_cast<unsigned char>(*byte);
+  }
+  return data;
+}
+
 }  // namespace
 
 SerialFrame moteus_line(std::string_view text, bool has_checksum) noexcept {
@@ -159,6 +182,36 @@ SerialFrame moteus_torque(int id, double torque, double watchdog) noexcept {
   return frame;
 }
 
+SerialFrame moteus_damped_torque(int id, double torque, std::optional<double> limit, double watchdog) noexcept {
+  SerialFrame frame;
+  frame.print("can send 00{:02x} 01000a0e20", id);
+  add_hex(frame, not_there);
+  add_hex(frame, 0.0);
+  frame.add("0d22");
+  add_hex(frame, torque);
+  frame.add("02237f7f");  // the whole of kp and kd
+  if (limit) {
+    frame.add("0d25");
+    add_hex(frame, *limit);
+  }
+  frame.add("0d27");
+  add_hex(frame, watchdog);
+  return frame;
+}
+
+SerialFrame moteus_tunnel(int id, std::string_view text) noexcept {
+  SerialFrame frame;
+  frame.print("can send 00{:02x} 4001{:02x}", id, text.size());
+  for (const char c : text) frame.print("{:02x}", static_cast<unsigned char>(c));
+  return frame;
+}
+
+SerialFrame moteus_tunnel_question(int id) noexcept {
+  SerialFrame frame;
+  frame.print("can send 80{:02x} 420130", id);
+  return frame;
+}
+
 SerialFrame moteus_stop(int id) noexcept {
   SerialFrame frame;
   frame.print("can send 00{:02x} 010000", id);
@@ -166,18 +219,20 @@ SerialFrame moteus_stop(int id) noexcept {
 }
 
 std::optional<MoteusReply> moteus_reply(std::string_view answer, int id) noexcept {
-  if (word(answer) != "rcv") return std::nullopt;
-  const auto from = as_hex(word(answer));
-  if (!from || ((*from >> 8U) & 0x7fU) != static_cast<unsigned>(id)) return std::nullopt;
-  const std::string_view digits = word(answer);
-  if (digits.empty() || digits.size() % 2 != 0 || digits.size() > 2 * most_bytes) return std::nullopt;
-  std::array<unsigned char, most_bytes> bytes{};
-  for (std::size_t i = 0; i < digits.size() / 2; ++i) {
-    const auto byte = as_hex(digits.substr(2 * i, 2));
-    if (!byte) return std::nullopt;
-    bytes.at(i) = static_cast<unsigned char>(*byte);
-  }
-  return decoded(Reader(std::span(bytes).first(digits.size() / 2)));
+  const auto data = data_from(answer, id);
+  return data ? decoded(Reader(data->view())) : std::nullopt;
+}
+
+std::optional<std::string> moteus_tunnel_reply(std::string_view answer, int id) {
+  constexpr unsigned char server_to_client = 0x41;
+  constexpr std::size_t head = 3;  // kind, channel, size
+  const auto data = data_from(answer, id);
+  if (!data || data->count < head || data->bytes[0] != server_to_client) return std::nullopt;
+  const std::size_t size = data->bytes[2];
+  if (size == 0 || size > data->count - head) return std::nullopt;
+  std::string text(data->bytes.begin() + head, data->bytes.begin() + static_cast<std::ptrdiff_t>(head + size));
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  return text.empty() ? std::nullopt : std::optional(std::move(text));
 }
 
 }  // namespace zwidth::rig

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "rig/serial_frame.hpp"
@@ -23,11 +24,21 @@ struct MoteusReply {
 [[nodiscard]] SerialFrame moteus_question(int id) noexcept;
 /// The same of position mode without gains: the torque alone, N m at the output, for as long as the watchdog, s.
 [[nodiscard]] SerialFrame moteus_torque(int id, double torque, double watchdog) noexcept;
+/// The same beside the drive's own damper: at no position and velocity 0, both gains whole, of which that of position is 0;
+/// torque and damper together within `limit`, N m, where one is given.
+[[nodiscard]] SerialFrame moteus_damped_torque(int id, double torque, std::optional<double> limit,
+                                               double watchdog) noexcept;
+/// The same of a text for the drive's diagnostic stream, "conf get id.id\n", of at most 48 characters; and of the question
+/// for what that says.
+[[nodiscard]] SerialFrame moteus_tunnel(int id, std::string_view text) noexcept;
+[[nodiscard]] SerialFrame moteus_tunnel_question(int id) noexcept;
 /// The same of the stopped mode, which clears faults and the watchdog's mode too.
 [[nodiscard]] SerialFrame moteus_stop(int id) noexcept;
 
 /// `rcv`: what the drive of that id replies; nothing for any other text, a reply of another drive, or a frame that is not
 /// whole. Flags after the data, as of fdcanusb, are passed over.
 [[nodiscard]] std::optional<MoteusReply> moteus_reply(std::string_view answer, int id) noexcept;
+/// What its diagnostic stream says, without the end of the line; nothing for any other text, and where it says nothing.
+[[nodiscard]] std::optional<std::string> moteus_tunnel_reply(std::string_view answer, int id);
 
 }  // namespace zwidth::rig

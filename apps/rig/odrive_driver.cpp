@@ -22,11 +22,13 @@ constexpr int idle_frames = 2;
 
 // Lines with their ends: "f 0*118", "-12.345678 -12.345678*123", "c 0 -1.23456e-05*123", "r axis0.error*96", "0*48".
 constexpr double bytes_per_cycle = 8 + 27 + 21 + 17 + 6;
+constexpr double bytes_of_velocity = 2;  // of "v 0 0 ..."
 
 // Of odrive-interface.yaml:
 constexpr std::string_view idle = "1";
 constexpr std::string_view closed_loop = "8";
 constexpr std::string_view torque_control = "1";
+constexpr std::string_view velocity_control = "2";
 constexpr std::string_view passthrough = "1";
 constexpr long watchdog_expired = 1L << 11;
 constexpr double largest_error = 0xffffffff;
@@ -45,9 +47,11 @@ const std::string& checked_port(const SerialLink& link) {
 }  // namespace
 
 OdriveDriver::OdriveDriver(const SerialLink& link)
-    : SerialDriver(
-          {.name = "odrive:" + checked_port(link), .watchdog = watchdog_of(link), .bytes_per_cycle = bytes_per_cycle},
-          link, default_baud),
+    : SerialDriver({.name = "odrive:" + checked_port(link),
+                    .watchdog = watchdog_of(link),
+                    .bytes_per_cycle = bytes_per_cycle,
+                    .estimates_velocity = true},
+                   link, default_baud),
       axis_(link.drive.id.value_or(0)),
       watchdog_(watchdog_of(link)) {
   if (const long found = error(); (found & ~watchdog_expired) != 0) {
@@ -74,9 +78,25 @@ void OdriveDriver::set_property(std::string_view name, std::string_view value) {
 
 long OdriveDriver::error() { return std::strtol(property("error").c_str(), nullptr, 10); }
 
+void OdriveDriver::close_damper(const Device& device, std::optional<double> force_limit) {
+  set_damper(device, DriveFirmware::odrive, force_limit);
+  set_bytes_per_cycle(bytes_per_cycle + bytes_of_velocity);
+}
+
+void OdriveDriver::tell_damper() {
+  const auto set = [&](std::string_view name, double value) {
+    set_property(name, fmt::format("{:.9g}", value));
+    require_taken(name, value, property(name));
+  };
+  if (damper()->torque_limit) set("motor.config.torque_lim", *damper()->torque_limit);
+  for (const DriveNumber& each : damper()->numbers) {
+    set(std::string_view(each.name).substr(each.name.find('.') + 1), each.value);
+  }
+}
+
 void OdriveDriver::request_closed_loop() {
   tell(odrive_line("sc").view());  // the watchdog's own error, from the silence before
-  set_property("controller.config.control_mode", torque_control);
+  set_property("controller.config.control_mode", damper() ? velocity_control : torque_control);
   set_property("controller.config.input_mode", passthrough);
   set_property("config.watchdog_timeout", fmt::format("{}", watchdog_));
   tell(torque_frame(0.0).view());
@@ -85,6 +105,7 @@ void OdriveDriver::request_closed_loop() {
 }
 
 void OdriveDriver::arm() {
+  if (damper()) tell_damper();
   const std::int64_t until = clock_now() + arming_patience;
   request_closed_loop();
   while (property("current_state") != closed_loop) {
@@ -147,7 +168,7 @@ SerialFrame OdriveDriver::question() noexcept {
 }
 
 SerialFrame OdriveDriver::torque_frame(double torque) const noexcept {
-  return odrive_line(odrive_torque(axis_, torque).view());
+  return odrive_line((damper() ? odrive_damped_torque(axis_, torque) : odrive_torque(axis_, torque)).view());
 }
 
 void OdriveDriver::send_idle() noexcept {

@@ -11,11 +11,13 @@ namespace zwidth::rig {
 ///
 /// Its watchdog, which `c` feeds and `f` does not, is set to 100 ms, or four periods, and enabled by arm(). That the axis
 /// has failed and applies no torque `f` does not tell either: every eighth cycle its error is asked for too.
+/// A damper is its velocity loop's gain: then `v` at velocity 0 brings the torque.
 class OdriveDriver : public SerialDriver {
  public:
   /// Throws DriverFailed where the drive does not answer, or stands on an error.
   explicit OdriveDriver(const SerialLink& link);
 
+  void close_damper(const Device& device, std::optional<double> force_limit) override;
   void arm() override;
   [[nodiscard]] std::optional<bool> proves_watchdog() override;
 
@@ -29,6 +31,7 @@ class OdriveDriver : public SerialDriver {
  private:
   [[nodiscard]] std::string property(std::string_view name);
   void set_property(std::string_view name, std::string_view value);
+  void tell_damper();
   void request_closed_loop();
   [[nodiscard]] long error();
 

@@ -26,6 +26,12 @@ SerialFrame odrive_torque(int axis, double torque) noexcept {
   return command;
 }
 
+SerialFrame odrive_damped_torque(int axis, double torque) noexcept {
+  SerialFrame command;
+  command.print("v {} 0 {:.6g}", axis, torque);
+  return command;
+}
+
 std::optional<std::string_view> odrive_answer(std::string_view line) noexcept {
   while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
   const std::size_t star = line.rfind('*');

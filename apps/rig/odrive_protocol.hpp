@@ -17,6 +17,8 @@ struct OdriveFeedback {
 [[nodiscard]] SerialFrame odrive_line(std::string_view command) noexcept;
 /// `c AXIS TORQUE` in N m, without a checksum: "c 0 0.1".
 [[nodiscard]] SerialFrame odrive_torque(int axis, double torque) noexcept;
+/// `v AXIS 0 TORQUE`: the same beside the drive's own damper, in velocity control: "v 0 0 0.1".
+[[nodiscard]] SerialFrame odrive_damped_torque(int axis, double torque) noexcept;
 /// What stands in an answer's line before its checksum; nothing where that is wrong or missing.
 [[nodiscard]] std::optional<std::string_view> odrive_answer(std::string_view line) noexcept;
 /// "POSITION VELOCITY"; nothing for any other text.

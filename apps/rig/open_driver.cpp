@@ -49,11 +49,12 @@ struct Kind {
   std::string_view prefix;
   std::optional<std::string> (*find_problem)(std::string_view where);
   std::unique_ptr<Driver> (*open)(const std::string& where, const Device& device);
+  bool closes_damper = false;
 };
 
-constexpr std::array kinds{Kind{"odrive:", find_port_problem, open_serial<OdriveDriver>},
-                           Kind{"simplefoc:", find_port_problem, open_serial<SimplefocDriver>},
-                           Kind{"moteus:", find_port_problem, open_serial<MoteusDriver>},
+constexpr std::array kinds{Kind{"odrive:", find_port_problem, open_serial<OdriveDriver>, true},
+                           Kind{"simplefoc:", find_port_problem, open_serial<SimplefocDriver>, true},
+                           Kind{"moteus:", find_port_problem, open_serial<MoteusDriver>, true},
                            Kind{"vesc:", find_port_problem, open_serial<VescDriver>},
                            Kind{"udp:", find_udp_problem, open_udp}};
 
@@ -70,6 +71,12 @@ std::optional<std::string> find_driver_name_problem(std::string_view name) {
   const Kind* kind = kind_of(name);
   if (kind == nullptr) return fmt::format("is none; {}", driver_names);
   return kind->find_problem(name.substr(kind->prefix.size()));
+}
+
+std::optional<OptionProblem> find_damper_problem(std::string_view name) {
+  const Kind* kind = kind_of(name);
+  if (kind == nullptr || kind->closes_damper) return std::nullopt;
+  return no_damper_problem(name);
 }
 
 std::unique_ptr<Driver> open_driver(const std::string& name, const Device& device,

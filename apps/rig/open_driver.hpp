@@ -7,6 +7,7 @@
 
 #include "rig/driver.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth::rig {
 
@@ -22,6 +23,9 @@ inline constexpr std::string_view driver_names =
 
 /// What is wrong with a name for a driver, and what is allowed, as far as the name alone tells.
 [[nodiscard]] std::optional<std::string> find_driver_name_problem(std::string_view name);
+
+/// Why no damper can run on the drive of that driver, as far as the name tells.
+[[nodiscard]] std::optional<OptionProblem> find_damper_problem(std::string_view name);
 
 /// The driver of that name. Throws DriverFailed for another, and where it is not reached; Error (invalid_argument) where
 /// the device does not tell what its drive needs to be told.

@@ -3,8 +3,10 @@
 #include <numbers>
 #include <utility>
 
+#include "require_valid.hpp"
 #include "rig/action_steps.hpp"
 #include "rig/rig_actions.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 
 namespace zwidth::rig {
@@ -71,13 +73,23 @@ double bring_to_rest(RigRun& run, const Segment& holding, double least) {
   return rest;
 }
 
+/// A relay takes the place of the wall that the host would run; the drive's damper stays beside it.
+Device without_wall_of_host(const Device& device) {
+  if (has_damper_loop(device.loop())) return device;
+  DeviceParameters parameters = device.parameters();
+  parameters.wall = {};
+  return Device(std::move(parameters));
+}
+
 }  // namespace
 
 RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options, const RelayTrialsOptions& trials,
                       const Progress& progress) {
-  const CriticalStiffness predicted = critical_stiffness(device);
+  internal::require_valid(find_problem(trials, device));
+  const CriticalStiffness predicted = critical_stiffness(without_wall_of_host(device));
   RigRelay result;
   result.trust = trust_of(device);
+  if (trials.damper_on_drive) driver.close_damper(device, options.limits.force);
   RigRun run(driver, options.limits, device.loop().sampling_period);
   Segment segment;
   segment.controller.kind = ControllerOptions::Kind::relay;

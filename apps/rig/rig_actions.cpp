@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "require_valid.hpp"
 #include "rig/action_steps.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
@@ -45,6 +46,47 @@ ControllerOptions wall_of(const Device& device, double stiffness) {
   ControllerOptions controller = wall_controller(device.parameters().wall);
   controller.stiffness = stiffness;
   return controller;
+}
+
+/// What the host runs of a wall: all of it, or the spring.
+ControllerOptions on_host(ControllerOptions controller, bool damper_on_drive) {
+  if (damper_on_drive) controller.damping = controller.velocity_filter_hz = 0.0;
+  return controller;
+}
+
+/// What predicts a wall of two loops knows no drive's estimator.
+void doubt_estimator(const Driver& driver, Trust& trust) {
+  if (driver.facts().estimates_velocity) trust.doubt({.code = FindingCode::damper_estimator_not_modelled});
+}
+
+/// The device as theory of one rate or two knows it with any passive user; nothing where nobody can hold it or two rates
+/// leave it to analyze().
+std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device) {
+  if (!device.has_bodies() || device.bodies().size() > most_bodies_for_absolute_stability) return std::nullopt;
+  if (has_damper_loop(device.loop())) return std::nullopt;
+  return absolute_stability_limit(device, virtual_damper(device));
+}
+
+std::optional<OptionProblem> find_place_problem(bool on_drive, double damping, ControllerOptions::Contact contact,
+                                                const Device& device) {
+  using enum ProblemCode;
+  const Loop& loop = device.loop();
+  if (!has_damper_loop(loop)) {
+    if (!on_drive) return std::nullopt;
+    return option_problem("damper_on_drive", {.code = no_damper_loop});
+  }
+  if (!on_drive) return option_problem("damper_on_drive", {.code = damper_on_drive_not_asked});
+  const double period = damper_timing(loop).sampling_period;
+  if (!(period < loop.sampling_period)) {
+    return option_problem(
+        "loop.damper.sampling_period",
+        {.code = damper_not_faster, .evidence = {{"value", period}, {"bound", loop.sampling_period}}});
+  }
+  if (!(damping > 0.0)) return option_problem("wall.damping", {.code = no_damping_for_drive});
+  if (contact == ControllerOptions::Contact::unilateral) {
+    return option_problem("controller.contact", {.code = contact_beside_drive});
+  }
+  return std::nullopt;
 }
 
 /// The device with the wall that runs as its own.
@@ -110,6 +152,20 @@ double moving_force(const Device& device) {
 
 }  // namespace
 
+std::optional<OptionProblem> find_problem(const WallOptions& options, const Device& device) {
+  return find_place_problem(options.damper_on_drive, options.controller.damping, options.controller.contact, device);
+}
+
+std::optional<OptionProblem> find_problem(const LimitOptions& options, const Device& device) {
+  return find_place_problem(options.damper_on_drive, device.parameters().wall.damping,
+                            ControllerOptions::Contact::bilateral, device);
+}
+
+std::optional<OptionProblem> find_problem(const RelayTrialsOptions& options, const Device& device) {
+  return find_place_problem(options.damper_on_drive, device.parameters().wall.damping,
+                            ControllerOptions::Contact::bilateral, device);
+}
+
 double default_force(const Device& device, std::optional<double> force_limit) {
   const CriticalStiffness predicted = critical_stiffness(device);
   const auto limit = force_limit ? force_limit : device.parameters().actuator.force_limit;
@@ -136,9 +192,7 @@ MeasureOptions default_measurement(const Device& device) {
 LimitOptions default_limit(const Device& device) {
   const CriticalStiffness predicted = critical_stiffness(device);
   std::optional<double> any_user;
-  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability) {
-    any_user = absolute_stability_limit(device, virtual_damper(device)).stiffness;
-  }
+  if (const auto limit = any_user_limit(device)) any_user = limit->stiffness;
   LimitOptions options;
   if (auto search = limit_search_options(device, predicted, any_user)) {
     options.search = *std::move(search);
@@ -203,6 +257,7 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
 
 RigIdentification identify_on_rig(const Device& device, Driver& driver, const RigOptions& options,
                                   const MeasureOptions& measurement, const Progress& progress) {
+  require_open_damper(device);
   RigIdentification result{measure(device, driver, options, measurement, {}), {}, trust_of(device)};
   if (!result.measurement.response) {
     result.trust.inherit(result.measurement.trust);
@@ -218,16 +273,17 @@ RigIdentification identify_on_rig(const Device& device, Driver& driver, const Ri
 }
 
 RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options, const WallOptions& wall) {
-  require_one_rate(device);
+  internal::require_valid(find_problem(wall, device));
   RigWall result;
   result.controller = wall.controller;
+  result.damper_on_drive = wall.damper_on_drive;
   result.predicted = critical_stiffness(device);
   result.trust = result.predicted.trust;
   predict(device, result);
   const double period = device.loop().sampling_period;
   const double frequency = frequency_of(result.predicted);
   Segment segment;
-  segment.controller = wall.controller;
+  segment.controller = on_host(wall.controller, wall.damper_on_drive);
   segment.cycles = cycles_of(wall.duration, device);
   segment.ramps = true;
   segment.watched.push_back(frequency);
@@ -242,6 +298,10 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     const std::vector<double> impulse = impulse_at(frequency, wall.impulse, period);
     segment.force.insert(segment.force.end(), impulse.begin(), impulse.end());
     after = segment.cut_from = segment.watch_from = std::min(segment.cycles, segment.force.size());
+  }
+  if (wall.damper_on_drive) {
+    driver.close_damper(rendering(device, wall.controller), options.limits.force);
+    doubt_estimator(driver, result.trust);
   }
   RigRun run(driver, options.limits, period, options.watcher);
   Played played = run.play(segment);
@@ -261,20 +321,23 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
 
 RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options, const LimitOptions& limit,
                        const Progress& progress) {
-  require_one_rate(device);
+  internal::require_valid(find_problem(limit, device));
   RigLimit result;
   result.predicted = critical_stiffness(device);
-  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability) {
-    result.any_user = absolute_stability_limit(device, virtual_damper(device));
-  }
+  result.any_user = any_user_limit(device);
   result.limits = limits_beside(device, result);
   result.impulse = limit.impulse;
   const double period = device.loop().sampling_period;
   LimitSearch search(limit.search);
   const std::vector<double> impulse = impulse_at(frequency_of(result.predicted), limit.impulse, period);
+  if (limit.damper_on_drive) {
+    driver.close_damper(device, options.limits.force);
+    doubt_estimator(driver, result.predicted.trust);
+  }
   RigRun run(driver, options.limits, period, options.watcher);
+  const auto hosted = [&](double stiffness) { return on_host(wall_of(device, stiffness), limit.damper_on_drive); };
   Segment holding;
-  holding.controller = wall_of(device, limit.search.start);
+  holding.controller = hosted(limit.search.start);
   holding.cycles = cycles_of(std::max(0.5 * limit.dwell, options.limits.ramp), device);
   holding.ramps = true;
   holding.watched = limit.search.frequencies;
@@ -285,7 +348,7 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
     holding.ramps = false;
     holding.cycles = cycles_of(0.5 * limit.dwell, device);
     Segment segment;
-    segment.controller = wall_of(device, stiffness);
+    segment.controller = hosted(stiffness);
     segment.force = impulse;
     for (double& force : segment.force) force *= share;
     segment.cycles = impulse.size() + cycles_of(limit.dwell, device);

@@ -31,37 +31,51 @@ struct RelayTrialsOptions {
   double duration = 20.0;  ///< s, of each
   /// Trials begin so that they find the limit's oscillation, and none at a faster crossover; else as those of relay().
   bool seek_limit = false;
+  bool damper_on_drive = false;  ///< the drive closes the damper of the device's own loop beside the relay
   RelayAnalysisOptions analysis;
 };
 
 struct WallOptions {
   ControllerOptions controller;
-  double duration = 10.0;  ///< s
-  double impulse = 0.0;    ///< N or N m; 0: none
+  double duration = 10.0;        ///< s
+  double impulse = 0.0;          ///< N or N m; 0: none
+  bool damper_on_drive = false;  ///< the drive closes the damper of the device's own loop, the host the spring alone
 };
 
 struct LimitOptions {
   LimitSearchOptions search;
-  double dwell = 0.0;    ///< s, of each trial
-  double impulse = 0.0;  ///< N or N m
+  double dwell = 0.0;            ///< s, of each trial
+  double impulse = 0.0;          ///< N or N m
+  bool damper_on_drive = false;  ///< as of a wall
 };
+
+/// The first that keeps the wall of a device from running so. One whose damper runs in a loop of its own
+/// (has_damper_loop()) needs a damper on the drive, which needs such a loop, faster than the spring's, a damping, and a
+/// wall on both sides: neither the host nor the drive would run another damper than the file's unasked.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const WallOptions& options, const Device& device);
+[[nodiscard]] std::optional<OptionProblem> find_problem(const LimitOptions& options, const Device& device);
+/// The same of a relay, which takes the place of the spring.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RelayTrialsOptions& options, const Device& device);
 
 /// Zero force for a while: link, rate, latency; before that, the firmware's watchdog by silence.
 [[nodiscard]] RigCheck check(const Device& device, Driver& driver, const RigOptions& options, double duration);
 /// Excites, records, and estimates the response.
 [[nodiscard]] RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& options,
                                      const MeasureOptions& measurement, const Progress& progress);
-/// The same, and fits the device's structure to it.
+/// The same, and fits the device's structure to it. Throws Error (invalid_argument) before anything moves for a structure
+/// that identify() refuses.
 [[nodiscard]] RigIdentification identify_on_rig(const Device& device, Driver& driver, const RigOptions& options,
                                                 const MeasureOptions& measurement, const Progress& progress);
-/// The relay experiment. Between trials a soft wall brings the device back.
+/// The relay experiment, without a damper of the host's. Between trials a soft wall brings the device back. Throws as
+/// render_wall().
 [[nodiscard]] RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options,
                                     const RelayTrialsOptions& trials, const Progress& progress);
-/// Renders a wall, until its end or until an oscillation grows.
+/// Renders a wall, until its end or until an oscillation grows. Throws Error (invalid_argument) where find_problem() finds
+/// one, or the drive closes no damper.
 [[nodiscard]] RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options,
                                   const WallOptions& wall);
 /// Raises the stiffness, impulse by impulse, until an oscillation grows. Between trials the softest wall of the search holds
-/// the device.
+/// the device. Throws as render_wall().
 [[nodiscard]] RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options,
                                      const LimitOptions& limit, const Progress& progress);
 

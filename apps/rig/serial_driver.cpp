@@ -14,18 +14,24 @@ namespace {
 
 constexpr std::int64_t lock_step_patience = 500'000'000;
 constexpr double cycles_within_watchdog = 2.0;
+constexpr double printed_step = 1e-6;  // of drives that print six decimals
+constexpr double printed_share = 1e-3;
+constexpr double bits_of_byte = 10.0;  // with start and stop
 
 int baud_of(const SerialLink& link, int otherwise) { return link.drive.baud.value_or(otherwise); }
+
+void require_fast_line(double bytes_per_cycle, double baud, double sampling_period) {
+  if (const auto problem = find_problem(SerialLoad{bytes_per_cycle, baud, sampling_period})) {
+    throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
+  }
+}
 
 /// Refuses what cannot work before a single byte goes out.
 DriverFacts checked(DriverFacts facts, const SerialLink& link, int baud) {
   facts.lock_step = link.lock_step;
   facts.byte_rate = serial_rate(1.0, baud);
   if (link.lock_step) return facts;
-  if (const auto problem =
-          find_problem(SerialLoad{facts.bytes_per_cycle, static_cast<double>(baud), link.sampling_period})) {
-    throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
-  }
+  require_fast_line(facts.bytes_per_cycle, static_cast<double>(baud), link.sampling_period);
   if (facts.watchdog && *facts.watchdog < cycles_within_watchdog * link.sampling_period) {
     throw DriverFailed(
         fmt::format("the firmware lets go after {} s without a force, the loop sends one every {} s; "
@@ -39,6 +45,7 @@ DriverFacts checked(DriverFacts facts, const SerialLink& link, int baud) {
 
 SerialDriver::SerialDriver(DriverFacts facts, const SerialLink& link, int default_baud)
     : facts_(checked(std::move(facts), link, baud_of(link, default_baud))),
+      sampling_period_(link.sampling_period),
       drive_(link.drive),
       port_(link.port, baud_of(link, default_baud)),
       patience_(link.lock_step ? lock_step_patience
@@ -143,6 +150,26 @@ std::string SerialDriver::ask_until_answered(std::string_view frame, const Under
     sleep_until(begin + setup_patience);  // a port that is gone answers at once
   }
   throw DriverFailed("the drive does not answer; check port, power, wiring, and that driver.baud is the drive's");
+}
+
+void SerialDriver::set_damper(const Device& device, DriveFirmware firmware, std::optional<double> force_limit) {
+  const double travel = std::abs(drive_.torque_per_force());  // per rad of the motor
+  Damper& damper = damper_.emplace();
+  damper.numbers = damper_numbers(device, firmware);
+  damper.damping = device.parameters().wall.damping * travel * travel;
+  if (force_limit) damper.torque_limit = *force_limit * travel;
+}
+
+void SerialDriver::require_taken(std::string_view name, double told, std::string_view said) {
+  const auto number = as_number(said);
+  if (number && std::abs(*number - told) <= printed_step + printed_share * std::abs(told)) return;
+  throw DriverFailed(
+      fmt::format("the drive has {} at {} instead of {:.6g}: it closes another damper", name, said, told));
+}
+
+void SerialDriver::set_bytes_per_cycle(double bytes) {
+  if (!facts_.lock_step) require_fast_line(bytes, bits_of_byte * facts_.byte_rate.value_or(0.0), sampling_period_);
+  facts_.bytes_per_cycle = bytes;
 }
 
 void SerialDriver::tell(std::string_view frame) {

@@ -7,10 +7,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "rig/driver.hpp"
 #include "rig/serial_frame.hpp"
 #include "rig/serial_port.hpp"
+#include "zwidth/design/drive_gains.hpp"
 #include "zwidth/model/motor_drive.hpp"
 
 namespace zwidth::rig {
@@ -71,6 +73,20 @@ class SerialDriver : public Driver {
   void tell(std::string_view frame);
   void forget_input() noexcept;
 
+  /// What the drive must close by itself: none unless close_damper() was called.
+  struct Damper {
+    std::vector<DriveNumber> numbers;
+    std::optional<double> torque_limit;  ///< N m, of the motor: spring and damper together
+    double damping = 0.0;                ///< N m s/rad, at the motor
+  };
+  [[nodiscard]] const std::optional<Damper>& damper() const noexcept { return damper_; }
+  /// Throws Error (invalid_argument) as damper_numbers() does.
+  void set_damper(const Device& device, DriveFirmware firmware, std::optional<double> force_limit);
+  /// Throws DriverFailed where what the drive says is not the number that it was told, to the digits that it prints.
+  static void require_taken(std::string_view name, double told, std::string_view said);
+  /// More bytes in each cycle than at first. Throws DriverFailed where the line does not carry them.
+  void set_bytes_per_cycle(double bytes);
+
   [[nodiscard]] SerialPort& port() noexcept { return port_; }
   [[nodiscard]] const MotorDrive& drive() const noexcept { return drive_; }
   void set_watchdog(std::optional<double> watchdog) noexcept { facts_.watchdog = watchdog; }
@@ -81,6 +97,8 @@ class SerialDriver : public Driver {
   [[nodiscard]] bool fill(std::int64_t until) noexcept;
 
   DriverFacts facts_;
+  std::optional<Damper> damper_;
+  double sampling_period_;
   MotorDrive drive_;
   SerialPort port_;
   std::int64_t patience_;  // ns, for an answer

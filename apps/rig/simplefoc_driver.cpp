@@ -74,10 +74,31 @@ double SimplefocDriver::torque_per_target() {
                   motor_, kind));
 }
 
+void SimplefocDriver::close_damper(const Device& device, std::optional<double> force_limit) {
+  set_damper(device, DriveFirmware::simplefoc, force_limit);
+}
+
+void SimplefocDriver::tell_damper() {
+  const auto set = [&](std::string_view name, std::string_view command, double value) {
+    require_taken(name, value, setting(fmt::format("{}{:.6g}", command, value), command));
+  };
+  // Of either unit, that of the sketch counts.
+  set("PID_velocity.P", "VP", damper()->damping / torque_per_target_);
+  for (const DriveNumber& each : damper()->numbers) {
+    if (each.name == "PID_velocity.I") set(each.name, "VI", each.value);
+    if (each.name == "PID_velocity.D") set(each.name, "VD", each.value);
+    if (each.name == "PID_velocity.output_ramp") set(each.name, "VR", each.value);
+    if (each.name == "LPF_velocity.Tf") set(each.name, "VF", each.value);
+  }
+  if (damper()->torque_limit) set("PID_velocity.limit", "VL", *damper()->torque_limit / torque_per_target_);
+}
+
 void SimplefocDriver::arm() {
-  tell(torque_frame(0.0).view());
-  if (const std::string kind = setting("C0", "C"); kind != "torque") {
-    throw DriverFailed(fmt::format("motor {} stays in motion control \"{}\" instead of torque", motor_, kind));
+  tell(simplefoc_target(motor_, 0.0).view());
+  const std::string_view wanted = damper() ? "vel" : "torque";
+  if (damper()) tell_damper();
+  if (const std::string kind = setting(damper() ? "C1" : "C0", "C"); kind != wanted) {
+    throw DriverFailed(fmt::format("motor {} stays in motion control \"{}\" instead of {}", motor_, kind, wanted));
   }
   tell(torque_frame(0.0).view());
   if (const std::string is_enabled = setting("E1", "E"); is_enabled != "1") {
@@ -97,7 +118,7 @@ SerialDriver::Heard SimplefocDriver::hear(std::string_view frame) noexcept {
 SerialFrame SimplefocDriver::question() noexcept { return simplefoc_line(motor_, get_angle); }
 
 SerialFrame SimplefocDriver::torque_frame(double torque) const noexcept {
-  return simplefoc_target(motor_, torque / torque_per_target_);
+  return simplefoc_target(motor_, torque / (damper() ? damper()->damping : torque_per_target_));
 }
 
 void SimplefocDriver::send_idle() noexcept {

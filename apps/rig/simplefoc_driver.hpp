@@ -9,7 +9,8 @@ namespace zwidth::rig {
 
 /// A motor of SimpleFOC (2.3 and 2.4) behind its Commander: `MMG6` for the angle, `M` for a target of torque.
 ///
-/// The unit of a target is the sketch's: amperes, or volts of the motor. There is no watchdog, and no checksum: if this
+/// The unit of a target is the sketch's: amperes, or volts of the motor. A damper is the velocity loop's P alone: a target
+/// is the velocity then, P times which is the torque. There is no watchdog, and no checksum: if this
 /// program dies, the torque stays.
 class SimplefocDriver : public SerialDriver {
  public:
@@ -17,6 +18,7 @@ class SimplefocDriver : public SerialDriver {
   /// (invalid_argument) without the constant for its unit.
   explicit SimplefocDriver(const SerialLink& link);
 
+  void close_damper(const Device& device, std::optional<double> force_limit) override;
   void arm() override;
   [[nodiscard]] std::optional<bool> proves_watchdog() override { return false; }
 
@@ -30,6 +32,7 @@ class SimplefocDriver : public SerialDriver {
   /// What the motor answers to that command: "volt" to "T".
   [[nodiscard]] std::string setting(std::string_view command, std::string_view echo);
   [[nodiscard]] double torque_per_target();
+  void tell_damper();
 
   std::string motor_;
   double torque_per_target_;  // N m/A or N m/V

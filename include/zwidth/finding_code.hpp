@@ -94,6 +94,8 @@ enum class FindingCode : std::uint16_t {
   openffboard_estimator,                ///< where the firmware's position and velocity come from
   drive_velocity_limit,                 ///< the drive's velocity limit bounds the spring
   damper_on_drive,                      ///< what a damper gains that the drive closes in a loop of its own
+  damper_alone_on_drive,                ///< the drive closes the damper alone, and how the spring reaches it
+  damper_estimator_not_modelled,        ///< the drive's damper takes its velocity from an estimator
 
   // reasons of design: why there is no answer, and what an oscillation is
   no_stiffness_too_much,                  ///< the force does not move what is sensed: every wall is stable

@@ -118,6 +118,15 @@ enum class ProblemCode : std::uint16_t {
   delay_out_of_range,                ///< a delay is out of its range
   no_estimator,                      ///< a firmware without an estimator
   estimator_bandwidth_out_of_range,  ///< an estimator's bandwidth is out of its range
+  no_damper_of_its_own,              ///< a drive that closes no damper beside the force that it is sent
+  damper_not_faster,                 ///< a damper on the drive that runs no faster than the spring
+  no_damping_for_drive,              ///< a damper on the drive without damping
+  timing_of_damper_loop,             ///< rate, delay or estimator of a drive whose damper's loop the device states
+  damper_on_drive_not_asked,         ///< a wall of the host, of a device whose damper runs in a loop of its own
+  no_damper_loop,                    ///< a damper on the drive, of a device that does not say when it runs
+  contact_beside_drive,              ///< a wall that only pushes, beside a damper that acts everywhere
+  delays_apart,                      ///< two delays whose difference has no common step with the damper's period
+  damper_closed_while_recorded,      ///< a record of a device whose damper's loop may have been closed
 
   // fits
   locking_transfer_function,  ///< a transfer function has no body to lock

@@ -252,7 +252,7 @@ Identification identify(const Recording& recording, const Device& structure, con
 
 Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
-  require_one_rate(structure);
+  require_open_damper(structure);
   require_valid(find_problem(options));
   check_motion(recordings, structure, options);
   const MeasuredResponse measured = response_with_enough_lines(recordings, structure, options, {});
@@ -263,7 +263,7 @@ Identification identify(std::span<const Recording> recordings, const Device& str
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
-  require_one_rate(structure);
+  require_open_damper(structure);
   require_valid(find_problem(options));
   return identified_by_lines(measured, structure, options);
 }

@@ -46,6 +46,17 @@ void rename_uncertain(DeviceParameters& parameters, const NewKey& new_key) {
   if (!says_anything) parameters.uncertainty.reset();
 }
 
+/// Where the damper runs in a loop of its own.
+void refuse_damper_loop(const Device& device, ProblemCode code) {
+  if (!has_damper_loop(device.loop())) return;
+  const DeviceProblem problem = device_problem("loop.damper", {.code = code});
+  InputProblem told{{}, problem.what, problem.allowed, {}};
+  told.problem = problem.problem;
+  told.place.key = problem.key;
+  throw Error(ErrorCode::invalid_argument, problem.key + ": " + problem.what + "; " + problem.allowed,
+              {std::move(told)});
+}
+
 }  // namespace
 
 DamperTiming damper_timing(const Loop& loop) {
@@ -89,14 +100,10 @@ double internal::rate_ratio(double loop_period, double damper_period) {
   return damper_period - loop_period / more < loop_period / fewer - damper_period ? more : fewer;
 }
 
-void require_one_rate(const Device& device) {
-  if (!has_damper_loop(device.loop())) return;
-  const DeviceProblem problem = device_problem("loop.damper", {.code = ProblemCode::damper_loop_not_known});
-  InputProblem told{{}, problem.what, problem.allowed, {}};
-  told.problem = problem.problem;
-  told.place.key = problem.key;
-  throw Error(ErrorCode::invalid_argument, problem.key + ": " + problem.what + "; " + problem.allowed,
-              {std::move(told)});
+void require_one_rate(const Device& device) { refuse_damper_loop(device, ProblemCode::damper_loop_not_known); }
+
+void require_open_damper(const Device& device) {
+  refuse_damper_loop(device, ProblemCode::damper_closed_while_recorded);
 }
 
 }  // namespace zwidth

@@ -156,7 +156,15 @@ std::span<const Phrase> design_phrases() {
              "spring's loop: "
              "{stiffness} rather than {one_rate_stiffness}{?any_user_stiffness|; any passive user then leaves "
              "{any_user_stiffness:limit}}",
-             "", "set [loop.damper] to the rate and delay of the drive, and ask again"}};
+             "", "set [loop.damper] to the rate and delay of the drive, and ask again"},
+      Phrase{
+          damper_alone_on_drive, "damper_alone_on_drive", note,
+          "the drive closes the damper alone, at {rate_hz:g} Hz and with a delay of {delay}, as [loop.damper] states; "
+          "it takes the spring as {spring}"},
+      Phrase{damper_estimator_not_modelled, "damper_estimator_not_modelled", doubt,
+             "the damper's velocity is the drive's estimator's, which is not modelled beside [loop.damper]: the limit "
+             "on the drive may be lower",
+             "", "begin with a tenth of it, and raise K by half until it vibrates"}};
   return phrases;
 }
 

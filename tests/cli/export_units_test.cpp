@@ -9,6 +9,7 @@ namespace zwidth::cli {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ExportUnits : public Workspace {};
 
@@ -31,6 +32,26 @@ TEST_F(ExportUnits, TheDrivesOwnLoopMayBeGiven) {
   expect_refusal(wall + "moteus --drive-rate 0", "--drive-rate: is 0 Hz");
   expect_refusal(wall + "moteus --drive-delay -1", "--drive-delay: is -1");
   expect_refusal("zwidth export devices/lhifam.toml --format c --drive-rate 3", "--drive-rate: is for --units");
+}
+
+TEST_F(ExportUnits, OfADamperOfItsOwnTheDriveGetsTheDamperAlone) {
+  const std::string damper =
+      "zwidth export devices/lhifam.toml --set wall.damping=50 --set driver.travel=0.06 "
+      "--set loop.damper.sampling_period=1e-4 --units ";
+  const Outcome odrive = run(damper + "odrive --stiffness 4000");
+  EXPECT_EQ(odrive.status, 0) << odrive.errors;
+  EXPECT_THAT(odrive.output,
+              HasSubstr("The damper alone closed on the drive at 10 kHz, the spring by the host at 1 kHz"));
+  EXPECT_THAT(odrive.output, HasSubstr("139.4 kN/m with nobody"));
+  EXPECT_THAT(odrive.output, HasSubstr("axis0.controller.config.vel_gain = 0.0286479"));  // 50 (0.06/2 pi)^2 2 pi
+  EXPECT_THAT(odrive.output, Not(HasSubstr("pos_gain")));
+  EXPECT_THAT(odrive.output, HasSubstr("DOUBTFUL"));
+  const Outcome moteus = run(damper + "moteus");
+  EXPECT_THAT(moteus.output, HasSubstr("servo.pid_position.kp = 0"));
+  EXPECT_THAT(moteus.output, HasSubstr("servo.pid_position.kd = 0.0286479"));
+  EXPECT_THAT(moteus.output, HasSubstr("this wall is not judged"));
+  expect_refusal(damper + "vesc", "closes no damper beside the force that it is sent");
+  expect_refusal(damper + "odrive --drive-rate 8000", "--drive-rate: is given beside [loop.damper]");
 }
 
 // K 30 kN/m stands between the limit in any passive user's hand, 23.1, and that of the wall by itself, 41.2.

@@ -57,6 +57,24 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("check " + lhifam + "--driver udp:h:9 --start 1", 2, "--start: is for a simulated device");
 }
 
+TEST_F(Rig, RunsADamperOnTheDriveWhereTheFileStatesItsLoop) {
+  const std::string apart = lhifam + "--set wall.damping=50 --set loop.damper.sampling_period=1e-4 ";
+  const std::string limits = "--force-limit 1 --position-limit 1 --damper-on-drive ";
+  expect_refused("wall " + apart + "--stiffness 4000", 2, "--damper-on-drive: devices/lhifam.toml: is not given");
+  expect_refused("limit " + apart, 2, "--damper-on-drive: devices/lhifam.toml: is not given");
+  expect_refused("relay " + apart, 2, "--damper-on-drive: devices/lhifam.toml: is not given");
+  expect_refused("wall " + lhifam + "--stiffness 4000 --damper-on-drive", 2, "and the device has no [loop.damper]");
+  expect_refused("wall " + apart + "--stiffness 4000 --damper-on-drive --contact unilateral", 2, "--contact: ");
+  expect_refused("check " + apart + "--damper-on-drive", 2, "--damper-on-drive: is not for rig check");
+  expect_refused("identify " + apart, 2, "which may have been closed around the record");
+  const std::string slow = lhifam + "--set wall.damping=50 --set loop.damper.sampling_period=2e-3 --damper-on-drive ";
+  expect_refused("wall " + slow + "--stiffness 4000", 2, "a damper on the drive runs faster than the spring");
+  for (const std::string driver : {"vesc:/dev/null", "udp:127.0.0.1:9"}) {
+    expect_refused("wall " + apart + limits + "--stiffness 4000 --driver " + driver, 2,
+                   "closes no damper beside the force that it is sent; simulated, odrive, moteus and simplefoc do");
+  }
+}
+
 // Found only after the rig had run, the record was lost or elsewhere.
 TEST_F(Rig, WhatCannotBeWrittenIsToldBeforeAnythingRuns) {
   write("file", "");

@@ -84,6 +84,47 @@ TEST(DriveGains, MakeTheWallThroughAnyGear) {
   }
 }
 
+TEST(DriveGains, OfADamperOfItsOwnAreTheDampersAlone) {
+  DeviceParameters parameters = knob();
+  parameters.loop.damper = LoopDamper{1e-4, 1e-4};
+  parameters.driver = MotorDrive{};
+  parameters.driver->torque_constant = 0.05;
+  const Device device(parameters);
+  const DriveGains odrive = drive_gains(device, DriveFirmware::odrive);
+  ASSERT_EQ(odrive.numbers.size(), 2U);
+  EXPECT_DOUBLE_EQ(number(odrive, "axis0.controller.config.vel_gain"), 2.0 * pi * 0.01);
+  EXPECT_EQ(number(odrive, "axis0.controller.config.vel_integrator_gain"), 0.0);
+  EXPECT_EQ(odrive.sampling_period, 1e-4);
+  EXPECT_EQ(odrive.delay, 1e-4);
+  EXPECT_EQ(odrive.on_drive.critical.stiffness, critical_stiffness(device).stiffness);
+  EXPECT_NE(odrive.on_drive.critical.stiffness, critical_stiffness(Device(knob())).stiffness);
+  EXPECT_TRUE(std::ranges::any_of(odrive.on_drive.trust.findings, [](const Finding& each) {
+    return each.code == FindingCode::damper_estimator_not_modelled;
+  }));
+  const DriveGains moteus = drive_gains(device, DriveFirmware::moteus);
+  EXPECT_EQ(number(moteus, "servo.pid_position.kp"), 0.0);
+  EXPECT_DOUBLE_EQ(number(moteus, "servo.pid_position.kd"), 2.0 * pi * 0.01);
+  EXPECT_DOUBLE_EQ(number(drive_gains(device, DriveFirmware::simplefoc), "PID_velocity.P"), 0.01 / 0.05);
+  const auto code = [](DriveFirmware firmware, const DeviceParameters& of, const DriveLoopOptions& options = {}) {
+    auto problem = find_problem(firmware, Device(of));
+    if (!problem) problem = find_problem(options, firmware, Device(of));
+    return problem ? std::optional(problem->problem->code) : std::nullopt;
+  };
+  EXPECT_EQ(code(DriveFirmware::odrive, parameters), std::nullopt);
+  EXPECT_EQ(code(DriveFirmware::vesc, parameters), ProblemCode::no_damper_of_its_own);
+  EXPECT_EQ(code(DriveFirmware::openffboard, parameters), ProblemCode::no_damper_of_its_own);
+  EXPECT_EQ(code(DriveFirmware::odrive, parameters, {.sampling_period = 1e-4}), ProblemCode::timing_of_damper_loop);
+  EXPECT_EQ(code(DriveFirmware::odrive, parameters, {.estimator_bandwidth = 1e3}), ProblemCode::timing_of_damper_loop);
+  parameters.wall.velocity_filter_hz = 100.0;
+  EXPECT_EQ(code(DriveFirmware::moteus, parameters), ProblemCode::filter_unknown_to_drive);
+  EXPECT_EQ(code(DriveFirmware::simplefoc, parameters), std::nullopt);
+  parameters.wall = {.stiffness = 0.5};
+  EXPECT_EQ(code(DriveFirmware::odrive, parameters), ProblemCode::no_damping_for_drive);
+  parameters = knob();
+  parameters.loop.damper = LoopDamper{2e-3, {}};
+  EXPECT_EQ(code(DriveFirmware::odrive, parameters), ProblemCode::damper_not_faster);
+}
+
 TEST(DriveGains, AnEndStopIsAWholeNumberRoundedDown) {
   DeviceParameters parameters = knob();
   parameters.wall.damping = 0.0;

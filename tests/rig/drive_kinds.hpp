@@ -23,6 +23,7 @@ struct DriveKind {
   bool has_watchdog;
   bool has_checksums;
   bool has_nan;
+  bool closes_damper;
 };
 
 template <typename Kind>
@@ -35,9 +36,10 @@ std::unique_ptr<rig::Driver> new_driver(const rig::SerialLink& link) {
 }
 
 inline constexpr std::array drive_kinds{
-    DriveKind{"odrive", new_firmware<OdriveFirmware>, new_driver<rig::OdriveDriver>, true, true, true},
-    DriveKind{"moteus", new_firmware<MoteusFirmware>, new_driver<rig::MoteusDriver>, true, true, true},
-    DriveKind{"vesc", new_firmware<VescFirmware>, new_driver<rig::VescDriver>, true, true, false},
-    DriveKind{"simplefoc", new_firmware<SimplefocFirmware>, new_driver<rig::SimplefocDriver>, false, false, true}};
+    DriveKind{"odrive", new_firmware<OdriveFirmware>, new_driver<rig::OdriveDriver>, true, true, true, true},
+    DriveKind{"moteus", new_firmware<MoteusFirmware>, new_driver<rig::MoteusDriver>, true, true, true, true},
+    DriveKind{"vesc", new_firmware<VescFirmware>, new_driver<rig::VescDriver>, true, true, false, false},
+    DriveKind{"simplefoc", new_firmware<SimplefocFirmware>, new_driver<rig::SimplefocDriver>, false, false, true,
+              true}};
 
 }  // namespace zwidth::test

@@ -19,7 +19,8 @@ TEST(OdriveProtocol, IsTheDocumentedOne) {
   EXPECT_EQ(odrive_line("r vbus_voltage ").view(), "r vbus_voltage *93\n");  // docs/ascii-protocol.rst
   EXPECT_EQ(odrive_torque(0, 0.1).view(), "c 0 0.1");
   EXPECT_EQ(odrive_torque(1, -1.25e-7).view(), "c 1 -1.25e-07");
-  EXPECT_EQ(odrive_line("f 0").view(), "f 0*118\n");  // 0x66 ^ 0x20 ^ 0x30 = 0x76
+  EXPECT_EQ(odrive_damped_torque(0, -0.25).view(), "v 0 0 -0.25");  // velocity, then the torque beside its loop
+  EXPECT_EQ(odrive_line("f 0").view(), "f 0*118\n");                // 0x66 ^ 0x20 ^ 0x30 = 0x76
   const auto answer = odrive_answer("1.250000 -0.500000*14\r\n");
   ASSERT_TRUE(answer);
   const auto feedback = odrive_feedback(*answer);
@@ -56,6 +57,19 @@ TEST(MoteusProtocol, IsTheDocumentedOne) {
   // By hand from docs/protocol/can.md: write mode 10; float 1.5 at 0x22; two int8 0 at 0x23; float 0.1 at 0x27.
   EXPECT_EQ(moteus_torque(1, 1.5, 0.1).view(), "can send 0001 01000a0d220000c03f022300000d27cdcccc3d");
   EXPECT_EQ(moteus_stop(1).view(), "can send 0001 010000");
+  // The same with two floats at 0x20, no position and velocity 0; two int8 of the whole at 0x23; float 2 at 0x25.
+  EXPECT_EQ(moteus_damped_torque(1, 1.5, 2.0, 0.1).view(),
+            "can send 0001 01000a0e200000c07f000000000d220000c03f02237f7f0d25000000400d27cdcccc3d");
+  EXPECT_EQ(moteus_damped_torque(1, 1.5, {}, 0.1).view(),
+            "can send 0001 01000a0e200000c07f000000000d220000c03f02237f7f0d27cdcccc3d");
+  // docs/protocol/can.md: 0x40 to, 0x42 asks, 0x41 from the diagnostic stream of channel 1.
+  EXPECT_EQ(moteus_tunnel(1, "OK\n").view(), "can send 0001 4001034f4b0a");
+  EXPECT_EQ(moteus_tunnel_question(1).view(), "can send 8001 420130");
+  EXPECT_EQ(moteus_tunnel_reply("rcv 100 4101044f4b0d0a", 1), "OK");
+  EXPECT_FALSE(moteus_tunnel_reply("rcv 100 410100", 1)) << "it says nothing";
+  EXPECT_FALSE(moteus_tunnel_reply("rcv 100 4101054f4b0d0a", 1)) << "half";
+  const std::string longest = "conf set servo.pid_position.kd -1.23457e-05\n";
+  EXPECT_TRUE(moteus_line(moteus_tunnel(127, longest).view(), true).view().ends_with("\n")) << "it fits";
   EXPECT_EQ(moteus_question(17).view(), "can send 8011 11001d01");
   const auto flagged = moteus_reply("rcv 0100 21000A2D010000C03F505050 E B F r t12345 f0", 1);  // of an fdcanusb
   ASSERT_TRUE(flagged);

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
+#include "rig/damped_device.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
@@ -16,22 +19,42 @@ namespace zwidth::test {
 /// The motor behind an emulated drive: a simulated device whose time moves one sampling period with each torque.
 class EmulatedMotor {
  public:
-  explicit EmulatedMotor(const Device& device) : loop_(device, {}), drive_(device.parameters().driver.value()) {}
+  explicit EmulatedMotor(const Device& device)
+      : device_(has_damper_loop(device.loop()) ? with_one_rate(device) : device),
+        timing_(device.loop().damper),
+        loop_(device_, {}),
+        drive_(device.parameters().driver.value()) {}
 
   /// Turns of its shaft.
   [[nodiscard]] double turns() {
     if (is_not_a_number) return std::numeric_limits<double>::quiet_NaN();
-    return loop_.measure() / drive_.position_per_turn();
+    return (damped_ ? damped_->measure() : loop_.measure()) / drive_.position_per_turn();
   }
   /// N m at its shaft, from now on.
   void set_torque(double torque) {
     const double force = torque / drive_.torque_per_force();
     force_ = force;
-    loop_.move(force);
+    if (damped_) {
+      damped_->move(force);
+    } else {
+      loop_.move(force);
+    }
     ++forces_;
     if (force != 0.0) ++nonzero_forces_;
     largest_force_ = std::max(largest_force_.load(), std::abs(force));
   }
+  /// The drive closes a damper of its own from now on, N m s/rad at its shaft, in the loop of the device's file: begun at
+  /// rest where it is another than before.
+  void set_damping(double damping, double filter_hz = 0.0) {
+    if (damping == damping_) return;
+    damping_ = damping;
+    DeviceParameters parameters = device_.parameters();
+    parameters.loop.damper = timing_;
+    parameters.wall.damping = damping / (drive_.torque_per_force() * drive_.torque_per_force());
+    parameters.wall.velocity_filter_hz = filter_hz;
+    damped_.emplace(Device(parameters), 0.0);
+  }
+  [[nodiscard]] double damping() const { return damping_; }
   void let_go() {
     force_ = 0.0;
     ++times_let_go_;
@@ -49,7 +72,11 @@ class EmulatedMotor {
   std::atomic<bool> is_not_a_number = false;
 
  private:
+  Device device_;
+  std::optional<LoopDamper> timing_;
   HybridLoop loop_;
+  std::optional<rig::DampedDevice> damped_;
+  std::atomic<double> damping_ = 0.0;
   MotorDrive drive_;
   std::atomic<double> force_ = 0.0;
   std::atomic<int> forces_ = 0;

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rig/firmware.hpp"
@@ -111,6 +114,20 @@ class MoteusFirmware : public Firmware {
     for (std::size_t at = 0; at < bytes.size();) {
       const unsigned kind = bytes[at++];
       if (kind == 0x50) continue;
+      if (kind == 0x40 || kind == 0x42) {  // the diagnostic stream: what it is told, and what it says
+        const unsigned size = at + 1 < bytes.size() ? bytes[at + 1] : 0;
+        at += 2;
+        if (kind == 0x42) {
+          const std::string said = said_.substr(0, size);
+          said_.erase(0, said.size());
+          reply += fmt::format("4101{:02x}", said.size());
+          for (const char c : said) reply += fmt::format("{:02x}", static_cast<unsigned char>(c));
+          continue;
+        }
+        for (unsigned i = 0; i < size && at < bytes.size(); ++i) told_ += static_cast<char>(bytes[at++]);
+        if (told_.ends_with('\n')) configure(std::exchange(told_, {}));
+        continue;
+      }
       const unsigned type = (kind >> 2U) & 3U;
       unsigned count = kind & 3U;
       if (count == 0) count = at < bytes.size() ? bytes[at++] : 0;
@@ -133,6 +150,21 @@ class MoteusFirmware : public Firmware {
     return reply;
   }
 
+  /// "conf set NAME VALUE", "conf get NAME"
+  void configure(const std::string& line) {
+    const std::string words = line.substr(0, line.size() - 1);
+    const std::string name = words.substr(std::min(words.size(), std::size_t{9}), words.find(' ', 9) - 9);
+    const auto found = numbers_.find(name);
+    if (found == numbers_.end()) {
+      said_ += "ERR unknown\r\n";
+    } else if (words.starts_with("conf set ")) {
+      found->second = std::atof(words.c_str() + words.rfind(' '));
+      said_ += "OK\r\n";
+    } else {
+      said_ += fmt::format("{:.6f}\r\n", static_cast<float>(found->second));
+    }
+  }
+
   void command(std::map<unsigned, double>& written, EmulatedMotor& motor) {
     if (written[0] == stopped) {
       mode_ = stopped;
@@ -140,13 +172,22 @@ class MoteusFirmware : public Firmware {
     } else if (written[0] == position && (mode_ == stopped || mode_ == position)) {
       const bool has_gains =
           !written.contains(0x23) || !written.contains(0x24) || written[0x23] != 0 || written[0x24] != 0;
-      if (has_gains) return fail(motor);  // the position of a rig's torque must not pull
+      if (has_gains && !has_damper_alone(written)) return fail(motor);  // the position of a rig's torque must not pull
+      if (has_gains) motor.set_damping(numbers_["servo.pid_position.kd"] / (2.0 * std::numbers::pi));
       mode_ = position;
       fed_ = Clock::now();
       const double timeout = written.contains(0x27) ? written[0x27] : 0.1;
       timeout_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
       motor.set_torque(written[0x22]);
     }
+  }
+
+  /// No position, velocity 0, and no gain of position beside that of velocity.
+  [[nodiscard]] bool has_damper_alone(std::map<unsigned, double>& written) {
+    constexpr double whole = 127.0;
+    return written.contains(0x20) && std::isnan(written[0x20]) && written[0x21] == 0.0 && written[0x23] == whole &&
+           written[0x24] == whole && numbers_["servo.pid_position.kp"] == 0.0 &&
+           numbers_["servo.pid_position.ki"] == 0.0 && written.contains(0x25);
   }
 
   [[nodiscard]] std::string value(unsigned which, unsigned type, EmulatedMotor& motor) const {
@@ -158,6 +199,11 @@ class MoteusFirmware : public Firmware {
   }
 
   bool is_adapter_;
+  std::map<std::string, double> numbers_{{"servo.pid_position.kp", 4.0},  // its defaults
+                                         {"servo.pid_position.kd", 0.05},
+                                         {"servo.pid_position.ki", 1.0}};
+  std::string told_;
+  std::string said_;
   std::string line_;
   bool has_checksums_ = false;
   int mode_ = stopped;

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -88,6 +91,20 @@ class OdriveFirmware : public Firmware {
           motor.set_torque(static_cast<double>(value));
         }
         return "";
+      case 'v': {
+        float velocity = 0.0F;
+        if (std::sscanf(line.c_str(), "v %u %f %f", &axis, &velocity, &value) < 2) return "invalid command format";
+        if (axis > 1) return fmt::format("invalid motor {}", axis);
+        fed_ = Clock::now();
+        if (state_ != closed_loop) return "";
+        if (velocity != 0.0F || numbers_["controller.config.vel_integrator_gain"] != 0.0) {
+          fail(motor);  // it would run away
+          return "";
+        }
+        motor.set_damping(numbers_["controller.config.vel_gain"] / (2.0 * std::numbers::pi));
+        motor.set_torque(static_cast<double>(value));
+        return "";
+      }
       case 'f':
         if (std::sscanf(line.c_str(), "f %u", &axis) < 1) return "invalid command format";
         if (axis > 1) return fmt::format("invalid motor {}", axis);
@@ -95,6 +112,10 @@ class OdriveFirmware : public Firmware {
       case 'r': {
         if (line == "r axis0.error") return fmt::format("{}", error_);
         if (line == "r axis0.current_state") return fmt::format("{}", state_);
+        if (const auto found = numbers_.find(line.substr(std::min(line.size(), std::size_t{8})));
+            line.starts_with("r axis0.") && found != numbers_.end()) {
+          return fmt::format("{:.6f}", static_cast<float>(found->second));
+        }
         return "invalid property";
       }
       case 'w':
@@ -119,12 +140,18 @@ class OdriveFirmware : public Firmware {
       state_ = error_ == 0 && static_cast<int>(value) == closed_loop ? closed_loop : idle;
       fed_ = Clock::now();
       if (state_ == idle) motor.idle();
+    } else if (const auto found = numbers_.find(name.substr(std::min(name.size(), std::size_t{8})));
+               name.starts_with("w axis0.") && found != numbers_.end()) {
+      found->second = value;
     } else if (name != "w axis0.controller.config.control_mode" && name != "w axis0.controller.config.input_mode") {
       return "invalid property";
     }
     return "";
   }
 
+  std::map<std::string, double> numbers_{{"controller.config.vel_gain", 1.0 / 6.0},  // its defaults
+                                         {"controller.config.vel_integrator_gain", 1.0 / 3.0},
+                                         {"motor.config.torque_lim", 1e9}};
   std::string line_;
   bool is_whole_ = true;
   long error_ = 0;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <map>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -85,8 +86,16 @@ class SimplefocFirmware : public Firmware {
       case 'R':
         return echo("R") + number(phase_resistance_);
       case 'C':
-        if (!is_sentinel(input[1])) is_torque_ = std::atoi(input + 1) == 0;
-        return echo("C") + (is_torque_ ? "torque\r\n" : "angle\r\n");
+        if (!is_sentinel(input[1])) motion_ = std::atoi(input + 1);
+        return echo("C") + (motion_ == torque_motion     ? "torque\r\n"
+                            : motion_ == velocity_motion ? "vel\r\n"
+                                                         : "angle\r\n");
+      case 'V': {
+        const auto found = velocity_.find(input[1]);
+        if (found == velocity_.end()) return echo("V") + "err\r\n";
+        if (!is_sentinel(input[2])) found->second = std::atof(input + 2);
+        return echo(std::string("V") + input[1]) + number(found->second);
+      }
       case 'E':
         if (!is_sentinel(input[1])) is_enabled_ = std::atoi(input + 1) != 0;
         if (!is_enabled_) motor.idle();
@@ -97,10 +106,15 @@ class SimplefocFirmware : public Firmware {
   }
 
   void apply(EmulatedMotor& motor) const {
-    if (!is_enabled_ || !is_torque_) return;
+    if (!is_enabled_ || motion_ > velocity_motion) return;
     const MotorDrive& drive = motor.drive();
-    motor.set_torque(static_cast<double>(target_) *
-                     (torque_ == "volt" ? drive.torque_per_volt.value() : drive.torque_constant.value()));
+    const double unit = torque_ == "volt" ? drive.torque_per_volt.value() : drive.torque_constant.value();
+    if (motion_ == torque_motion) return motor.set_torque(static_cast<double>(target_) * unit);
+    if (velocity_.at('I') != 0.0 || velocity_.at('D') != 0.0 || velocity_.at('R') != 0.0) return;  // no damper alone
+    const double time_constant = velocity_.at('F');
+    const double damping = velocity_.at('P') * unit;
+    motor.set_damping(damping, time_constant > 0.0 ? 1.0 / (2.0 * std::numbers::pi * time_constant) : 0.0);
+    motor.set_torque(static_cast<double>(target_) * damping);
   }
 
   std::string torque_;
@@ -109,7 +123,10 @@ class SimplefocFirmware : public Firmware {
   std::size_t count_ = 0;
   bool is_for_machines_ = false;
   int decimals_ = 3;
-  bool is_torque_ = false;
+  static constexpr int torque_motion = 0;
+  static constexpr int velocity_motion = 1;
+  int motion_ = 2;
+  std::map<char, double> velocity_{{'P', 0.5}, {'I', 10.0}, {'D', 0.0}, {'R', 1000.0}, {'L', 12.0}, {'F', 0.005}};
   bool is_enabled_ = true;
   float target_ = 0.0F;
 };

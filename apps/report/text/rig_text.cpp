@@ -134,7 +134,8 @@ std::string rig_text(const Device& device, const RigWall& wall) {
   const Units units = units_of(device.parameters().motion);
   std::string text = rig_heading(device, "Wall on the rig", wall.session);
   text += labelled("  wall", fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
-                                         quantity(wall.controller.damping, units.damping)));
+                                         quantity(wall.controller.damping, units.damping)) +
+                                 (wall.damper_on_drive ? ", closed by the drive" : ""));
   text += predicted_lines(wall.limits, units);
   text += trust_lines(wall.trust, "wall");
   if (wall.predicted_stable == false) {

@@ -39,7 +39,8 @@ struct DriveLoopOptions {
 /// A wall in the numbers of a motor drive.
 struct DriveGains {
   std::vector<DriveNumber> numbers;  ///< to be set; integral gains and what else would act beside it among them, as 0
-  double stiffness = 0.0;            ///< K that these numbers make: less than asked for where the firmware rounds
+  double stiffness = 0.0;            ///< K that these numbers make: less than asked for where the firmware rounds; of a
+                                     ///< damper alone the host's
   /// The device with this wall closed on the drive, with the firmware's estimator of position and velocity. Doubtful,
   /// always: the drive's current loop is not in it, so that its limits bound those of the drive from above.
   Analysis on_drive;
@@ -54,10 +55,26 @@ struct DriveGains {
 /// linear device; wall.damping > 0 for odrive and simplefoc (their stiffness is a gain of the damping's), 0 for
 /// openffboard; a torque per volt or per ampere for simplefoc; actuator.force_limit for vesc and openffboard, which count
 /// in shares of it.
+///
+/// Where the damper runs in a loop of its own (has_damper_loop()) it alone is the drive's: checks a firmware that closes one,
+/// a damper > 0 that is faster than the spring, no velocity filter but for simplefoc, travel and torque constant as above.
 [[nodiscard]] std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& device);
 
+/// Whether the firmware closes a damper beside a force that it is sent: odrive, moteus, simplefoc.
+[[nodiscard]] bool closes_damper(DriveFirmware firmware);
+
+/// The damper of a device whose drive closes it ([loop.damper]), as the numbers of the firmware: with B_m as below
+///
+///     odrive       vel_gain = 2 pi B_m, velocity control; the spring's torque comes as that of the command v, at velocity 0
+///     moteus       kp = 0, kd = 2 pi B_m; the spring's torque comes as feedforward torque, at velocity 0
+///     simplefoc    PID_velocity.P = B_m/(torque per volt, or torque constant), MotionControlType::velocity; the spring's
+///                  torque tau comes as the velocity tau/B_m
+///
+/// Throws Error (invalid_argument) where find_problem() finds one.
+[[nodiscard]] std::vector<DriveNumber> damper_numbers(const Device& device, DriveFirmware firmware);
+
 /// The first member outside its domain. An estimator's bandwidth is for odrive, below 1/(2T), beyond which the firmware
-/// refuses it, and for moteus, below 2 pi/(4T); for simplefoc it is that of wall.velocity_filter_hz.
+/// refuses it, and for moteus, below 2 pi/(4T); for simplefoc it is that of wall.velocity_filter_hz. None may be given where the device states the damper's loop.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, DriveFirmware firmware,
                                                         const Device& device);
 
@@ -89,6 +106,8 @@ struct DriveGains {
 /// which is the same with a = 2/(2 + w T). SimpleFOC low-passes its velocity with a = Tf/(Tf + T), Tf = 1/(2 pi
 /// wall.velocity_filter_hz). VESC (with an encoder) and OpenFFBoard take the encoder's position as it is, and VESC its
 /// difference for the velocity.
+/// Of a device whose damper runs in a loop of its own the numbers are damper_numbers(), `on_drive` is the analysis of its
+/// two loops, and the drive's estimator is not in it, which is a doubt.
 /// Throws Error (invalid_argument) where find_problem() finds one, and as analyze() does.
 /// Sources: controller.cpp, encoder.cpp (ODrive 0.5.6), lowpass_filter.cpp (SimpleFOC 2.3), motor_position.h,
 /// bldc_servo_control.h, pid.h (moteus db1a7623), FOCMotor and BLDCMotor (SimpleFOC 2.3), Axis.cpp (OpenFFBoard 160af910),

@@ -20,6 +20,10 @@ struct DamperTiming {
 /// device.
 void require_one_rate(const Device& device);
 
+/// Throws Error (invalid_argument) where has_damper_loop(): of the structure that a record is fitted with, around which that
+/// damper may have been closed.
+void require_open_damper(const Device& device);
+
 /// The same device whose damper runs with its spring: what a spring without a damper is judged by.
 [[nodiscard]] Device with_one_rate(const Device& device);
 

@@ -54,7 +54,8 @@ struct RigRelay {
 /// A wall that was rendered.
 struct RigWall {
   RigSession session;                    ///< what ran
-  ControllerOptions controller;          ///< the wall as it ran
+  ControllerOptions controller;          ///< the wall as it ran, spring and damper
+  bool damper_on_drive = false;          ///< the drive closed the damper; forces are those of the host, the spring's
   CriticalStiffness predicted;           ///< with the file's user, the wall's damper and filters
   HoldingLimits limits;                  ///< from the device's file, with this wall; who holds the rig is not known
   Trust trust;                           ///< in the wall: in the prediction, and whether what ran bears it out

@@ -93,6 +93,36 @@ std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device
   return {};
 }
 
+/// Of the damper alone, at the motor; nothing for a firmware that closes none beside a force that it is sent.
+std::vector<DriveNumber> numbers_of_damper(DriveFirmware firmware, const Device& device) {
+  const MotorDrive drive = drive_of(device);
+  const double damping = device.parameters().wall.damping * std::pow(drive.torque_per_force(), 2);
+  const double filter_hz = device.parameters().wall.velocity_filter_hz;
+  switch (firmware) {
+    case DriveFirmware::odrive: {
+      const std::string axis = fmt::format("axis{}.controller.config.", drive.id.value_or(0));
+      return {{axis + "vel_gain", turn * damping, "N m/(turn/s)"}, {axis + "vel_integrator_gain", 0.0, "N m/turn"}};
+    }
+    case DriveFirmware::moteus:
+      return {{"servo.pid_position.kp", 0.0, "N m/turn"},
+              {"servo.pid_position.kd", turn * damping, "N m/(turn/s)"},
+              {"servo.pid_position.ki", 0.0, "N m/(turn s)"}};
+    case DriveFirmware::simplefoc: {
+      const bool by_volts = drive.torque_per_volt.has_value();
+      return {{"PID_velocity.P", damping / (by_volts ? *drive.torque_per_volt : *drive.torque_constant),
+               by_volts ? "V/(rad/s)" : "A/(rad/s)"},
+              {"PID_velocity.I", 0.0, ""},
+              {"PID_velocity.D", 0.0, ""},
+              {"PID_velocity.output_ramp", 0.0, ""},
+              {"LPF_velocity.Tf", filter_hz > 0.0 ? 1.0 / (turn * filter_hz) : 0.0, "s"}};
+    }
+    case DriveFirmware::openffboard:
+    case DriveFirmware::vesc:
+      break;
+  }
+  return {};
+}
+
 bool has_loop(DriveFirmware firmware) { return firmware == DriveFirmware::odrive || firmware == DriveFirmware::moteus; }
 
 /// rad/s, of a phase-locked loop: as given, or the firmware's default.
@@ -162,9 +192,79 @@ std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, 
   return remarks;
 }
 
+/// Why the firmware cannot close this device's damper.
+std::optional<OptionProblem> find_damper_problem(DriveFirmware firmware, const Device& device) {
+  const DeviceParameters& parameters = device.parameters();
+  const MotorDrive drive = drive_of(device);
+  const Wall& wall = parameters.wall;
+  if (!closes_damper(firmware)) {
+    return option_problem("loop.damper",
+                          {.code = ProblemCode::no_damper_of_its_own,
+                           .subjects = {{"drive", "this firmware"}, {"able", "odrive, moteus and simplefoc"}}});
+  }
+  const double period = damper_timing(parameters.loop).sampling_period;
+  if (!(period < parameters.loop.sampling_period)) {
+    return option_problem("loop.damper.sampling_period",
+                          {.code = ProblemCode::damper_not_faster,
+                           .evidence = {{"value", period}, {"bound", parameters.loop.sampling_period}}});
+  }
+  if (!(wall.damping > 0.0)) return option_problem("wall.damping", {.code = ProblemCode::no_damping_for_drive});
+  if (wall.velocity_filter_hz > 0.0 && firmware != DriveFirmware::simplefoc) {
+    return option_problem("wall.velocity_filter_hz", {.code = ProblemCode::filter_unknown_to_drive});
+  }
+  if (parameters.motion == Motion::linear && !drive.travel) {
+    return option_problem("driver.travel", {.code = ProblemCode::travel_per_turn_missing});
+  }
+  if (firmware == DriveFirmware::simplefoc && !drive.torque_per_volt && !drive.torque_constant) {
+    return option_problem("driver.torque_per_volt", {.code = ProblemCode::torque_per_volt_missing});
+  }
+  return std::nullopt;
+}
+
+/// How the spring's force goes beside the damper.
+std::string spring_beside_damper(DriveFirmware firmware, const Device& device) {
+  switch (firmware) {
+    case DriveFirmware::odrive:
+      return "the torque of the command v at velocity 0, in velocity control";
+    case DriveFirmware::moteus:
+      return "feedforward torque at velocity 0, in position mode";
+    default:
+      break;
+  }
+  const double damping = device.parameters().wall.damping * std::pow(drive_of(device).torque_per_force(), 2);
+  return fmt::format("the velocity of its torque over {:.6g} N m s/rad, in velocity control", damping);
+}
+
+DriveGains gains_of_damper(const Device& device, DriveFirmware firmware) {
+  DriveGains gains;
+  gains.numbers = numbers_of_damper(firmware, device);
+  gains.stiffness = device.parameters().wall.stiffness.value_or(0.0);
+  const DamperTiming damper = damper_timing(device.loop());
+  gains.sampling_period = damper.sampling_period;
+  gains.delay = damper.delay;
+  gains.on_drive = analyze(device);
+  gains.on_drive.trust.doubt({.code = FindingCode::current_loop_not_modelled});
+  if (has_loop(firmware)) gains.on_drive.trust.doubt({.code = FindingCode::damper_estimator_not_modelled});
+  gains.remarks.push_back(
+      note({.code = FindingCode::damper_alone_on_drive,
+            .evidence = {{"rate_hz", std::round(1.0 / damper.sampling_period)}, {"delay", damper.delay, "s"}},
+            .subjects = {{"spring", spring_beside_damper(firmware, device)}}}));
+  return gains;
+}
+
 }  // namespace
 
+bool closes_damper(DriveFirmware firmware) {
+  return firmware == DriveFirmware::odrive || firmware == DriveFirmware::moteus || firmware == DriveFirmware::simplefoc;
+}
+
+std::vector<DriveNumber> damper_numbers(const Device& device, DriveFirmware firmware) {
+  internal::require_valid(find_damper_problem(firmware, device));
+  return numbers_of_damper(firmware, device);
+}
+
 std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& device) {
+  if (has_damper_loop(device.loop())) return find_damper_problem(firmware, device);
   const DeviceParameters& parameters = device.parameters();
   const MotorDrive drive = drive_of(device);
   const Wall& wall = parameters.wall;
@@ -206,6 +306,13 @@ std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& 
 
 std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, DriveFirmware firmware,
                                           const Device& device) {
+  if (has_damper_loop(device.loop())) {
+    const Problem stated{.code = ProblemCode::timing_of_damper_loop};
+    if (options.sampling_period) return option_problem("sampling_period", stated);
+    if (options.delay) return option_problem("delay", stated);
+    if (options.estimator_bandwidth) return option_problem("estimator_bandwidth", stated);
+    return std::nullopt;
+  }
   if (options.sampling_period && !(std::isfinite(*options.sampling_period) && *options.sampling_period > 0.0)) {
     return option_problem("sampling_period", {.code = ProblemCode::no_positive_quantity,
                                               .evidence = {{"value", *options.sampling_period}},
@@ -229,9 +336,9 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
 }
 
 DriveGains drive_gains(const Device& device, DriveFirmware firmware, const DriveLoopOptions& options) {
-  require_one_rate(device);
   internal::require_valid(find_problem(firmware, device));
   internal::require_valid(find_problem(options, firmware, device));
+  if (has_damper_loop(device.loop())) return gains_of_damper(device, firmware);
   DriveGains gains;
   gains.numbers = numbers_of(firmware, device);
   gains.sampling_period = options.sampling_period.value_or(period_of(firmware, device));
