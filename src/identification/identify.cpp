@@ -132,10 +132,11 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
                   .correlations = correlations_of(*found),
                   .unidentifiable = open_numbers_of(*found),
                   .misfit = {},
-                  .settled = found->settled};
+                  .settled = found->last_change == 0.0};
     result.rivals = rival_table(found->best, found->rivals);
     fit.rivals = result.rivals;
     fit.limit = told_limit(found->best.interval);
+    fit.last_change = found->last_change;
   } else {
     for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
       result.fit.estimates.push_back(undetermined_estimate(key, structure));
@@ -170,7 +171,7 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
 
 /// A device found from lines or limits, in the words of one found from its motion.
 FoundDevice found_device(const FittedByLines& fitted, const Device& structure, const IdentifyOptions& options) {
-  FoundDevice found{.device = fitted.device, .best = {}, .settled = fitted.settled};
+  FoundDevice found{.device = fitted.device, .best = {}, .last_change = fitted.last_change};
   found.best = {.numbers = fitted.numbers,
                 .x = fitted.x,
                 .covariance = fitted.covariance,
@@ -229,8 +230,8 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
                                          options.segment,
                                          options.limits,
                                          tell});
-  if (!fitted || !told_limit(fitted->found.best.interval)) {  // the motion tells of no limit: the lines are left
-    doubts.push_back({.code = FindingCode::search_stopped});
+  if (!fitted || !told_limit(fitted->found.best.interval)) {  // the lines are left
+    doubts.push_back({.code = FindingCode::motion_tells_no_limit});
     return identified_by_lines(measured, structure, options, std::move(doubts));
   }
   fit.left = fitted->left;

@@ -24,6 +24,7 @@ struct LimitRange {
   double best = 0.0;    ///< logarithms
   ProfileEnd low;
   ProfileEnd high;
+  double last_change = 0.0;  ///< of ends that were stopped, and of a best that still gave way to a better one
 };
 
 /// The limit of a found motion, nobody holding, no damper.
@@ -52,11 +53,13 @@ class LimitOfMotion {
       range = LimitRange{*moment, at(found_.best.z, *moment).value_or(0.0), end(*moment, -1.0), {}};
       if (!range->low.found_better) range->high = end(*moment, 1.0);
       const ProfileEnd& better = range->low.found_better ? range->low : range->high;
+      range->last_change = std::max(range->low.last_change, range->high.last_change);
       if (!better.found_better) return range;
       auto again = minimise(*found_.likelihood, better.z, fine);
       if (!again) return range;
       found_.best = *std::move(again);
     }
+    if (const auto last = at(found_.best.z, range->moment)) range->last_change = std::abs(*last - range->best);
     return range;
   }
 
@@ -167,7 +170,7 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   FoundDevice& found = fit.found;
   found.device = motion->model->family().device_at(motion->best.z, range->moment);
   found.rivals = start.rivals;
-  found.settled = motion->best.settled && range->low.settled && range->high.settled;
+  found.last_change = std::max(range->last_change, last_change(motion->best, slope));
   found.best = {
       .numbers = numbers,
       .x = motion->best.z.head(count),

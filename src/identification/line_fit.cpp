@@ -91,7 +91,8 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
 
   const auto count = static_cast<Eigen::Index>(model.numbers.size());
   FittedByLines found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
-  found.slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest()).head(count);
+  const Eigen::VectorXd slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest());
+  found.slope = slope.head(count);
   SumOfSquares left;
   if (lines) {
     const Eigen::MatrixXd moved = moved_covariance(likelihood, *best, count);
@@ -110,7 +111,7 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
   found.lower = std::exp(middle - together * (middle - low.value));
   found.value = std::exp(middle);
   found.upper = std::exp(middle + together * (high.value - middle));
-  found.settled = best->settled && low.settled && high.settled;
+  found.last_change = std::max({last_change(*best, slope), low.last_change, high.last_change});
   found.chi_squared_of_bands = p_of(left);
   return found;
 }

@@ -34,7 +34,7 @@ struct FittedByLines {
   double lower = 0.0;           ///< least K_CR within 1.92 of the best log-likelihood, no damper; N/m or N m/rad
   double value = 0.0;           ///< K_CR of the most likely device
   double upper = 0.0;           ///< the largest
-  bool settled = false;         ///< the search came to rest, and both ends were reached
+  double last_change = 0.0;     ///< as FoundDevice::last_change
   /// p-value: whether bands of neighbouring lines are off together by chance, and limits from what is fitted.
   double chi_squared_of_bands = 1.0;
 };

@@ -33,12 +33,6 @@ std::span<const Phrase> identification_phrases() {
       Phrase{nothing_determined, "nothing_determined", refusal,
              "the {?by=record|record determines}{?by=recordings|recordings determine} no parameter of the structure",
              "", "free fewer, or excite more strongly"},
-      Phrase{numbers_undetermined, "numbers_undetermined", doubt,
-             "the data do not determine {keys}: taken as they stand in the "
-             "{?taken_from=structure|structure}{?taken_from=start|start of the search}"},
-      Phrase{number_is_placeholder, "number_is_placeholder", warning,
-             "{key} = {value:.4g} is a placeholder: the data do not determine it",
-             "give what is known, or a device file as the structure"},
       Phrase{parameter_unidentifiable, "parameter_unidentifiable", warning, "the response says nothing about {key}",
              "it stays near the structure's value, without an interval"},
       Phrase{only_combination_identifiable, "only_combination_identifiable", warning,
@@ -47,12 +41,13 @@ std::span<const Phrase> identification_phrases() {
       Phrase{parameter_hardly_determined, "parameter_hardly_determined", warning,
              "{key} is known to {relative_deviation:percent} only (one standard deviation)",
              "the data hardly determine it"},
-      Phrase{fitted_too, "fitted_too", note,
-             "{key} is fitted too: {?given|the record shows another than the structure's {given:.4g} s}{!given|the "
-             "record is explained better with it}"},
       Phrase{search_stopped, "search_stopped", doubt,
-             "the search for the parameters was stopped while it still improved", "",
-             "free fewer parameters, or start from values that are nearly right"},
+             "the search for the parameters was stopped while its steps still moved the critical stiffness by "
+             "{moved:percent}",
+             "the interval may be too narrow", "free fewer parameters, or start from values that are nearly right"},
+      Phrase{motion_tells_no_limit, "motion_tells_no_limit", doubt,
+             "the motion determines no critical stiffness: the answer is that of the response's lines",
+             "lines do not show dry friction, nor other nonlinear forces", "excite more strongly or for longer"},
       Phrase{limit_outside_band, "limit_outside_band", doubt,
              "the crossover that limits, near {frequency:.4g} Hz, lies {side} the measured band, {lowest:.4g} to "
              "{highest:.4g} Hz: {?side=above|delay, lag and modes there are not in the data; excite higher "

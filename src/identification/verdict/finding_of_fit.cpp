@@ -50,6 +50,17 @@ Finding open_interval(const FittedLikelihood& fit) {
   return found;
 }
 
+bool was_stopped(const FittedLikelihood& fit) {
+  return fit.last_change > Calibration::most_change * std::log(fit.limit->upper / fit.limit->lower);
+}
+
+Finding stopped_search(const FittedLikelihood& fit) {
+  return {.code = FindingCode::search_stopped,
+          .evidence = {{"moved", std::expm1(fit.last_change)},
+                       {"share", fit.last_change / std::log(fit.limit->upper / fit.limit->lower)},
+                       {"threshold", Calibration::most_change}}};
+}
+
 bool stands_out(const Omnibus& left) { return !(left.p >= Calibration::least_p); }
 
 Finding outstanding(const Omnibus& left, const std::vector<NamedRecord>& records) {

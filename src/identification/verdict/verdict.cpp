@@ -14,6 +14,7 @@ Verdict verdict_of(const FittedLikelihood& fit) {
   if (trust.refused()) return verdict;
   const bool is_narrow = fit.limit->upper <= Calibration::widest_interval * fit.limit->lower;
   if (!is_narrow) trust.doubt(open_interval(fit));
+  if (was_stopped(fit)) trust.doubt(stopped_search(fit));
   if (fit.left && stands_out(*fit.left)) trust.doubt(outstanding(*fit.left, fit.records));
   if (fit.delay && contradicts(*fit.delay)) {
     const bool matters = fit.delay->stiffness < fit.limit->lower || fit.delay->stiffness > fit.limit->upper;

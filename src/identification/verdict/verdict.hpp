@@ -39,6 +39,7 @@ struct GivenDelay {
 struct FittedLikelihood {
   Motion motion = Motion::linear;
   std::optional<Interval> limit = {};        ///< all within 1.92 of the best log-likelihood; absent: none was found
+  double last_change = 0.0;                  ///< FoundDevice::last_change
   std::optional<Omnibus> left = {};          ///< of what it leaves in time; absent: nothing was fitted
   std::vector<NamedRecord> records = {};     ///< those that `left` counts
   std::vector<RivalEstimate> rivals = {};    ///< rival_table()
