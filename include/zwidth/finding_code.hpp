@@ -389,7 +389,6 @@ enum class FindingCode : std::uint16_t {
   limit_outside_band,               ///< the crossover that limits is outside the measured band
   data_leave_interval_open,         ///< the data leave the critical stiffness open
   residual_stands_out,              ///< what the best fit leaves of a record is more than its noise
-  lag_beyond_drives,                ///< an actuator's lag that no drive has
   fitted_late_beyond_drives,        ///< a fitted delay and lag that no drive has
   fitted_body_too_heavy,            ///< a fitted mass or inertia that no haptic device has
   mass_far_from_structure,          ///< a fitted mass powers of ten off the structure's

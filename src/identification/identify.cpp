@@ -12,6 +12,7 @@
 #include "identification/response/response_choice.hpp"
 #include "identification/response_of_device.hpp"
 #include "identification/verdict/assumed_experiment.hpp"
+#include "identification/verdict/plausible_device.hpp"
 #include "identification/verdict/turned_sign.hpp"
 #include "identification/verdict/verdict.hpp"
 #include "require_valid.hpp"
@@ -137,6 +138,10 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
     fit.rivals = result.rivals;
     fit.limit = told_limit(found->best.interval);
     fit.last_change = found->last_change;
+    const Device* known = is_known(options) ? &structure : nullptr;
+    if (auto doubt = doubt_of_masses(result.fit.device, known)) fit.doubts_of_data.push_back(*std::move(doubt));
+    std::ranges::move(implausible_device(result.fit.device, known, measured.response.sampling_period),
+                      std::back_inserter(result.remarks));
   } else {
     for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
       result.fit.estimates.push_back(undetermined_estimate(key, structure));

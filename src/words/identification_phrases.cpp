@@ -69,10 +69,6 @@ std::span<const Phrase> identification_phrases() {
           "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
           "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}{?kind=given|free {number}, or "
           "measure it}"},
-      Phrase{lag_beyond_drives, "lag_beyond_drives", doubt,
-             "the actuator's lag comes out as {lag:.4g} s, {periods:.3g} sampling periods: it was probably exchanged "
-             "with the time that a body's mass takes on its damping, or friction or a spring hides it",
-             "", "name what is free without the lag"},
       Phrase{fitted_late_beyond_drives, "fitted_late_beyond_drives", warning,
              "delay and lag come to {late:.4g} s, {periods:.3g} sampling periods", "few drives are as slow as that",
              "are force and motion of the same instant, and the time in seconds? Else, is it in {likely_unit}? It must "

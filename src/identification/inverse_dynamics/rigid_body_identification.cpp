@@ -14,6 +14,7 @@
 #include "counted.hpp"
 #include "identification/device_file_trust.hpp"
 #include "identification/response/plausibility.hpp"
+#include "identification/verdict/plausible_device.hpp"
 #include "identification/verdict/verdict.hpp"
 #include "model/option_beyond.hpp"
 #include "model/uncertainty_problem.hpp"
