@@ -43,7 +43,7 @@ std::vector<Finding> contradicted_numbers(const FoundMotion& found, const Motion
   const auto count = static_cast<Eigen::Index>(numbers.size());
   if (count == 0) return {};
   numbers.insert(numbers.end(), start.parts.numbers.begin(), start.parts.numbers.end());
-  const DeviceFamily family(start.device, numbers, locked, start.parts.further_body);
+  const DeviceFamily family(start.device, numbers, locked);
   const MotionModel model(family, start.parts.terms, start.records, found.model->parts());
   const auto order = static_cast<Eigen::Index>(found.evidence->noise().front().filter.size()) - 1;
   const auto evidence = std::make_shared<TimeEvidence>(model, found.evidence->segments(), start.encoder_steps, order);

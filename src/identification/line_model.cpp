@@ -26,7 +26,7 @@ bool is_named(const std::vector<std::string>& keys, const std::string& key) {
 
 /// How large numbers are that show in a response.
 RivalSetting setting_of_lines(const DeviceParameters& device, const LineFitSetting& setting) {
-  RivalSetting sizes{.device = device, .locked = setting.locked, .rms_force = 1.0, .largest_force = 1.0};
+  RivalSetting sizes{.device = device, .locked = setting.locked, .rms_force = 1.0};
   for (const ResponsePoint& point : setting.response->points) {
     sizes.rms_position = std::max(sizes.rms_position, std::abs(point.value));
     sizes.rms_speed = std::max(sizes.rms_speed, std::abs(point.value) * point.frequency);

@@ -199,7 +199,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
-  const DeviceFamily family(start.device, parts.numbers, locked, parts.further_body);
+  const DeviceFamily family(start.device, parts.numbers, locked);
   const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples_whole, {});
   const auto whole_at = [&](int parts_of_period) {
     Whole made;

@@ -15,8 +15,7 @@ std::span<const Phrase> identification_phrases() {
       "before it slides}{?rival=stiffening_spring|a spring that stiffens}{?rival=actuator_lag|a lag of the "
       "actuator}{?rival=ground_spring|a spring to the "
       "ground}{?rival=drive_saturation|a drive that saturates}{?rival=drive_dead_band|a dead band of the "
-      "drive}{?rival=cogging|cogging}{?rival=constant_force|a constant force}{?rival=further_body|a further body} "
-      "({parameter}), within which it is {with_lower} to {with_upper}}";
+      "drive}{?rival=constant_force|a constant force} ({parameter}), within which it is {with_lower} to {with_upper}}";
   static constexpr const char* record_against_rival =
       "{?rival=coulomb_friction|record at a second, larger amplitude}{?rival=drag|record at a second amplitude}"
       "{?rival=damping_drift|record the device when it is warm}"
@@ -24,9 +23,8 @@ std::span<const Phrase> identification_phrases() {
       "motion}{?rival=stiffening_spring|record at a second amplitude}{?rival=actuator_lag|excite higher "
       "frequencies}{?rival=ground_spring|excite lower frequencies}"
       "{?rival=drive_saturation|record with less force}{?rival=drive_dead_band|record with more force}"
-      "{?rival=cogging|record larger motion}{?rival=constant_force|record for longer}{?rival=further_body|excite "
-      "higher "
-      "frequencies}{!rival|excite more strongly or for longer{?delay_within_ms|, and at higher frequencies}}";
+      "{?rival=constant_force|record for longer}"
+      "{!rival|excite more strongly or for longer{?delay_within_ms|, and at higher frequencies}}";
   static constexpr std::array phrases{
       Phrase{motion_against_force, "motion_against_force", refusal,
              "the position falls as the force rises: scale one of them by -1"},

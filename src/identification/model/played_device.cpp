@@ -58,13 +58,9 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   constexpr double least = 1e-9;
   delay_samples = static_cast<std::ptrdiff_t>(std::floor(samples + least));
   const double share = std::max(0.0, samples - static_cast<double>(delay_samples));
-  Eigen::MatrixXd columns = motion_columns(family.recorded_device(x));
+  const Eigen::MatrixXd columns = motion_columns(family.recorded_device(x));
   input = columns.col(columns.rows());
-  std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
-  if (family.has_further_body()) {  // no term acts on it: 1 / mass, which has no bound, stays out of the exponential
-    columns.rightCols(1).setZero();
-    for (Eigen::MatrixXd& each : slopes) each.rightCols(1).setZero();
-  }
+  const std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
   const int wanted = forces.empty() && frictions.empty() ? 1 : parts;
   const auto step = [&](double length) {
     if (length < least) return LinearStep{};
