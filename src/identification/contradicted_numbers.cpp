@@ -15,7 +15,7 @@ namespace {
 
 /// The numbers of the structure that were not free, but for those of the loop.
 std::vector<Number> numbers_given(const MotionStart& start, const std::vector<std::string>& locked) {
-  const RivalSetting setting = rival_setting(start.device, locked, start.records, 1.0);
+  const RivalSetting setting = rival_setting(start.device, locked, start.records);
   const TypicalSizes typical{setting.sampling_period, typical_damping(setting),
                              setting.rms_force / setting.rms_position};
   std::vector<Number> given;

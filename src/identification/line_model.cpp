@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "identification/model/device_numbers.hpp"
@@ -33,7 +32,6 @@ RivalSetting setting_of_lines(const DeviceParameters& device, const LineFitSetti
   }
   sizes.largest_speed = sizes.rms_speed;
   const double highest = setting.response->points.back().frequency;
-  sizes.highest_frequency = highest / (2.0 * std::numbers::pi);
   sizes.sampling_period = setting.response->sampling_period.value_or(1.0 / highest);
   return sizes;
 }

@@ -1,7 +1,6 @@
 #include "identification/motion_start.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -54,8 +53,7 @@ MotionStart motion_start(std::span<const Recording> recordings, const FrequencyR
   start.device = fit_parameters(Device(start.device), response, linear).device.parameters();
   start.device.uncertainty.reset();
 
-  const double highest_hz = response.points.back().frequency / (2.0 * std::numbers::pi);
-  RivalSetting setting = rival_setting(start.device, free.locked, start.records, highest_hz);
+  RivalSetting setting = rival_setting(start.device, free.locked, start.records);
   setting.frees_lag = free.lateness || holds(keys, actuator_lag_key);
   const TypicalSizes typical{period, typical_damping(setting), setting.rms_force / setting.rms_position};
   for (const std::string& key : keys) {

@@ -44,8 +44,11 @@ std::span<const Phrase> identification_phrases() {
              "{moved:percent}",
              "the interval may be too narrow", "free fewer parameters, or start from values that are nearly right"},
       Phrase{motion_tells_no_limit, "motion_tells_no_limit", doubt,
-             "the motion determines no critical stiffness: the answer is that of the response's lines",
-             "lines do not show dry friction, nor other nonlinear forces", "excite more strongly or for longer"},
+             "the motion tells of no critical stiffness: friction and drag explain its damping, or no device of the "
+             "structure plays it",
+             "the answer is that of the lines of its response, which take friction and drag for damping; that of small "
+             "motion may be lower",
+             "record at several times the force and give both, or free fewer parameters"},
       Phrase{limit_outside_band, "limit_outside_band", doubt,
              "the crossover that limits, near {frequency:.4g} Hz, lies {side} the measured band, {lowest:.4g} to "
              "{highest:.4g} Hz: {?side=above|delay, lag and modes there are not in the data; excite higher "

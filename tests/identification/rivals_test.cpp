@@ -60,8 +60,7 @@ MotionModel model_of(const DeviceParameters& device, const ModelParts& parts, co
 
 RivalSetting setting_of(const DeviceParameters& device, const RivalsRecord& record) {
   const std::vector<ForceMotionRecord> records = {record.record()};
-  constexpr double highest = 60.0;
-  RivalSetting setting = rival_setting(device, {}, records, highest);
+  RivalSetting setting = rival_setting(device, {}, records);
   setting.frees_lag = true;
   return setting;
 }

@@ -19,7 +19,7 @@ void add_constant_forces(const RivalSetting& setting, ModelParts& parts) {
   for (std::size_t record = 0; record < setting.records; ++record) {
     const std::string key = parts.add(
         {"constant_force." + std::to_string(record), Number::Scale::any, setting.rms_force, 0.0, constant_deviation});
-    parts.terms.forces.push_back({std::make_shared<ConstantForceLaw>(), actuated_body(setting), "", {key}, record});
+    parts.terms.forces.push_back({std::make_shared<ConstantForceLaw>(), actuated_body(setting), {key}, record});
   }
 }
 

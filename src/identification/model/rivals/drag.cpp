@@ -21,7 +21,7 @@ void add_drag(const RivalSetting& setting, ModelParts& parts) {
   const double unit = typical_damping(setting) / setting.largest_speed;
   for (const std::string& body : moving_bodies_of(setting)) {
     const std::string key = parts.add({"drag." + body, Number::Scale::any, unit, 0.0, drag_deviation});
-    parts.terms.forces.push_back({std::make_shared<DragLaw>(), body, "", {key}});
+    parts.terms.forces.push_back({std::make_shared<DragLaw>(), body, {key}});
   }
 }
 

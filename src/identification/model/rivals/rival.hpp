@@ -25,7 +25,6 @@ struct RivalSetting {
   double rms_position = 0.0;        ///< m or rad, about the mean; > 0
   double duration = 0.0;            ///< s, of the longest record
   double sampling_period = 0.0;     ///< s
-  double highest_frequency = 0.0;   ///< Hz, that the records tell of; > 0
   std::size_t records = 1;
   bool frees_lag = false;  ///< a lag may hide beside the delay
 };
@@ -33,7 +32,7 @@ struct RivalSetting {
 /// Of records of such a device. Speeds are differences over 5 periods, which an encoder's steps hardly touch.
 /// Requires a force and a motion in each.
 [[nodiscard]] RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std::string>& locked,
-                                         std::span<const ForceMotionRecord> records, double highest_frequency);
+                                         std::span<const ForceMotionRecord> records);
 
 /// N s/m or N m s/rad: what all bodies' dampings come to, at least 2 % of the rms force over the rms speed.
 [[nodiscard]] double typical_damping(const RivalSetting& setting);
