@@ -15,6 +15,7 @@
 #include "identification/verdict/plausible_device.hpp"
 #include "identification/verdict/turned_sign.hpp"
 #include "identification/verdict/verdict.hpp"
+#include "model/loop_keys.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -188,8 +189,7 @@ FoundDevice found_device(const FittedByLines& fitted, const Device& structure, c
   const std::string spring = "body." + structure.bodies()[structure.loop().held].name + ".stiffness";
   for (const Number& number : fitted.numbers) {
     if (std::ranges::count(free, number.key) > 0) continue;
-    if (number.key == "actuator.time_constant")
-      found.rivals.push_back({"actuator_lag", {number.key}, RivalMeasure::time});
+    if (number.key == key_of_lag) found.rivals.push_back({"actuator_lag", {number.key}, RivalMeasure::time});
     if (number.key == spring) found.rivals.push_back({"ground_spring", {number.key}, RivalMeasure::stiffness});
   }
   return found;
@@ -211,7 +211,7 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
   std::optional<FoundDevice> found;
   if (fitted) {
     found = found_device(*fitted, structure, options);
-    fit.left = omnibus_of_lines(*fitted);
+    fit.left = fitted->left;
     fit.records = {{measured.source, response.sampling_period.value_or(0.0)}};
   }
   return judged(measured, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
@@ -288,7 +288,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   MeasuredResponse none;
   none.source = "measured limits";
   FittedLikelihood fit{.motion = structure.parameters().motion};
-  if (fitted) fit.left = omnibus_of_lines(*fitted);
+  if (fitted) fit.left = fitted->left;
   fit.records = {{none.source, 0.0}};
   return judged(none, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
 }

@@ -47,10 +47,4 @@ void compare_with_response(ParameterFit& fit, const FrequencyResponse& response,
   fit.model_error = std::sqrt(std::max(0.0, *middle));
 }
 
-Omnibus omnibus_of_lines(const FittedByLines& fitted) {
-  Omnibus left;
-  left.p = fitted.chi_squared_of_bands;
-  return left;
-}
-
 }  // namespace zwidth::internal

@@ -3,23 +3,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/loop_keys.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
-namespace {
-
-constexpr const char* delay_of_loop = "loop.delay";
-constexpr const char* lag_of_actuator = "actuator.time_constant";
-
-}  // namespace
+namespace {}  // namespace
 
 DeviceFamily::DeviceFamily(DeviceParameters structure, std::vector<Number> numbers, std::vector<std::string> locked)
     : structure_(std::move(structure)), numbers_(std::move(numbers)), locked_(std::move(locked)) {
   structure_.uncertainty.reset();
   for (const Number& each : numbers_) {
     if (parameter(structure_, each.key)) ++of_device_;
-    has_lag_ = has_lag_ || each.key == lag_of_actuator;
+    has_lag_ = has_lag_ || each.key == key_of_lag;
     has_damping_drift_ = has_damping_drift_ || each.key == key_of_damping_drift;
     has_delay_drift_ = has_delay_drift_ || each.key == key_of_delay_drift;
   }
@@ -97,7 +93,7 @@ Eigen::VectorXd DeviceFamily::coordinates_of(const DeviceParameters& device) con
     x(i) = number.start;
     std::optional<double> value = parameter(device, number.key);
     if (!value) continue;
-    if (has_lag_ && number.key == delay_of_loop) *value += device.actuator.time_constant;
+    if (has_lag_ && number.key == key_of_delay) *value += device.actuator.time_constant;
     x(i) = number.coordinate(*value);
   }
   return x;

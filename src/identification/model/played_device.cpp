@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/loop_keys.hpp"
+
 namespace zwidth::internal {
 
 PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
@@ -19,8 +21,8 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Number& number = numbers[static_cast<std::size_t>(i)];
     number_slopes(i) = number.slope(x(i));
-    if (number.key == "loop.delay") instants.emplace_back(i, number_slopes(i));
-    if (number.key == "actuator.time_constant") instants.emplace_back(i, -number_slopes(i));  // the sum stays
+    if (number.key == key_of_delay) instants.emplace_back(i, number_slopes(i));
+    if (number.key == key_of_lag) instants.emplace_back(i, -number_slopes(i));  // the sum stays
   }
   for (const ForceTerm& term : terms.forces) {
     if (term.record && *term.record != record) continue;
