@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "identification/device_file_trust.hpp"
 #include "identification/likelihood_fit.hpp"
 #include "identification/line_fit.hpp"
@@ -44,12 +43,14 @@ IdentifyOptions::Method method_of(std::span<const Recording> recordings, const D
 void check_motion(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options) {
   if (options.method != IdentifyOptions::Method::motion) return;
   if (structure.bodies().size() > most_bodies_of_motion)
-    refuse_member("method", fmt::format("fits the motion of {} bodies", structure.bodies().size()),
-                  fmt::format("must fit the lines of more than {}", most_bodies_of_motion));
+    refuse_member("method",
+                  {.code = ProblemCode::motion_not_fitted,
+                   .evidence = {counted("bodies", structure.bodies().size()), counted("most", most_bodies_of_motion)}});
   for (const Recording& each : recordings) {
     if (each.channels.size() == 2 && each.channels[1].samples.size() < least_samples_of_motion)
-      refuse_member("method", fmt::format("fits the motion of {} samples", each.channels[1].samples.size()),
-                    fmt::format("must fit the lines of fewer than {}", least_samples_of_motion));
+      refuse_member("method", {.code = ProblemCode::motion_not_fitted,
+                               .evidence = {counted("samples", each.channels[1].samples.size()),
+                                            counted("least", least_samples_of_motion)}});
   }
 }
 
@@ -277,7 +278,7 @@ Identification identify(const MeasuredResponse& measured, const Device& structur
 Identification identify_from_limits(const Device& structure, const IdentifyOptions& options) {
   require_one_rate(structure);
   require_valid(find_problem(options));
-  if (options.limits.empty()) refuse_member("limits", "has none", "must be one at least");
+  if (options.limits.empty()) refuse_member("limits", {.code = ProblemCode::no_values});
   const auto fitted = fit_lines({.structure = structure,
                                  .limits = options.limits,
                                  .free = options.fit.free,
