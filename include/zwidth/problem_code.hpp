@@ -379,6 +379,10 @@ enum class ProblemCode : std::uint16_t {
   unit_of_other_column,             ///< a unit is not the one of the column
   no_period_of_table,               ///< a table has no sampling period
   motion_not_fitted,                ///< no motion of this kind is fitted
+  limit_part_without_value,         ///< a part of a measured limit has no =
+  no_number_of_limit,               ///< a measured limit has no number of that name
+  limit_number_twice,               ///< a measured limit has a number twice
+  limit_without_stiffness,          ///< a measured limit has no stiffness
 
   // computations that do not come to their end
   outline_not_closed,              ///< the boundary of the region does not close

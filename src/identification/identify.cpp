@@ -121,6 +121,50 @@ ParameterEstimate undetermined_estimate(const std::string& key, const Device& st
   return estimate;
 }
 
+/// What was found, in the answer and before the judge. `known`: the structure, where its numbers are the device's.
+void take_found(const FoundDevice& found, const Device* known, Identification& result, FittedLikelihood& fit) {
+  result.fit = {.device = device_of(found),
+                .estimates = estimates_of(found),
+                .correlations = correlations_of(found),
+                .unidentifiable = open_numbers_of(found),
+                .misfit = {},
+                .settled = found.last_change == 0.0};
+  result.rivals = rival_table(found.best, found.rivals);
+  fit.rivals = result.rivals;
+  fit.limit = told_limit(found.best.interval);
+  fit.last_change = found.last_change;
+  if (auto doubt = doubt_of_masses(result.fit.device, known)) fit.doubts_of_data.push_back(*std::move(doubt));
+  std::ranges::move(implausible_device(result.fit.device, known, result.response.sampling_period),
+                    std::back_inserter(result.remarks));
+}
+
+std::optional<LimitPlace> place_of_limit(const Identification& result) {
+  const std::optional<Crossover>& limit = result.analysis.critical.limit;
+  if (!limit || result.fit.frequencies.empty()) return std::nullopt;
+  return LimitPlace{hertz(limit->frequency), hertz(result.fit.frequencies.front()),
+                    hertz(result.fit.frequencies.back())};
+}
+
+/// The interval of the fit is that of the limit without damper and filters, which was fitted.
+void take_interval(const Interval& interval, Identification& result) {
+  const Wall& wall = result.fit.device.parameters().wall;
+  if (!result.analysis.interval || wall.damping != 0.0 || !wall.filters.empty()) return;
+  result.analysis.interval->lower = std::min(interval.lower, result.analysis.critical.stiffness);
+  result.analysis.interval->upper = std::max(interval.upper, result.analysis.critical.stiffness);
+}
+
+/// The trust of the answer with that of its limit, and of what stays assumed; into the device and the analysis.
+void spread_trust(const Device& structure, const IdentifyOptions& options, Identification& result) {
+  if (!result.trust.refused() && result.analysis.critical.trust.refused())
+    result.trust.inherit(result.analysis.critical.trust);
+  keep_what_is_assumed(structure, result.fit.estimates,
+                       is_known(options) ? std::vector<std::string>{} : unseen_placeholders(options.fit.locked),
+                       result.fit.device, result.trust);
+  result.fit.device = with_trust(result.fit.device, result.trust);
+  if (result.trust.refused()) result.analysis = analyze(result.fit.device, {.any_user = false});
+  result.analysis.trust.inherit(result.trust);
+}
+
 /// The device, its analysis and the verdict on it, of what was found and is known of it.
 Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
                       const std::optional<FoundDevice>& found, FittedLikelihood fit, IdentifyOptions::Method method) {
@@ -130,30 +174,14 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
                         .fit = {.device = structure, .misfit = {}}};
   result.remarks = remarks_of_fit(measured);
   if (found) {
-    result.fit = {.device = device_of(*found),
-                  .estimates = estimates_of(*found),
-                  .correlations = correlations_of(*found),
-                  .unidentifiable = open_numbers_of(*found),
-                  .misfit = {},
-                  .settled = found->last_change == 0.0};
-    result.rivals = rival_table(found->best, found->rivals);
-    fit.rivals = result.rivals;
-    fit.limit = told_limit(found->best.interval);
-    fit.last_change = found->last_change;
-    const Device* known = is_known(options) ? &structure : nullptr;
-    if (auto doubt = doubt_of_masses(result.fit.device, known)) fit.doubts_of_data.push_back(*std::move(doubt));
-    std::ranges::move(implausible_device(result.fit.device, known, measured.response.sampling_period),
-                      std::back_inserter(result.remarks));
+    take_found(*found, is_known(options) ? &structure : nullptr, result, fit);
   } else {
     for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
       result.fit.estimates.push_back(undetermined_estimate(key, structure));
   }
   compare_with_response(result.fit, measured.response, options.fit);
   result.analysis = analyze(result.fit.device, {.any_user = false});
-  const std::optional<Crossover>& limit = result.analysis.critical.limit;
-  if (found && limit && !result.fit.frequencies.empty()) {
-    fit.place = {hertz(limit->frequency), hertz(result.fit.frequencies.front()), hertz(result.fit.frequencies.back())};
-  }
+  if (found) fit.place = place_of_limit(result);
   Verdict verdict = verdict_of(fit);
   result.trust = std::move(verdict.trust);
   std::ranges::move(verdict.remarks, std::back_inserter(result.remarks));
@@ -161,18 +189,8 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
                     std::back_inserter(result.remarks));
   const Wall& wall = result.fit.device.parameters().wall;
   result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
-  if (found && result.analysis.interval && wall.damping == 0.0 && wall.filters.empty()) {
-    result.analysis.interval->lower = std::min(found->best.interval.lower, result.analysis.critical.stiffness);
-    result.analysis.interval->upper = std::max(found->best.interval.upper, result.analysis.critical.stiffness);
-  }
-  if (!result.trust.refused() && result.analysis.critical.trust.refused())
-    result.trust.inherit(result.analysis.critical.trust);
-  keep_what_is_assumed(structure, result.fit.estimates,
-                       is_known(options) ? std::vector<std::string>{} : unseen_placeholders(options.fit.locked),
-                       result.fit.device, result.trust);
-  result.fit.device = with_trust(result.fit.device, result.trust);
-  if (result.trust.refused()) result.analysis = analyze(result.fit.device, {.any_user = false});
-  result.analysis.trust.inherit(result.trust);
+  if (found) take_interval(found->best.interval, result);
+  spread_trust(structure, options, result);
   return result;
 }
 

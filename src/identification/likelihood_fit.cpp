@@ -45,7 +45,8 @@ class LimitOfMotion {
     for (int begins = 0; begins < most_begins; ++begins) {
       const auto moment = moment_at_best();
       if (!moment) return std::nullopt;
-      range = LimitRange{*moment, at(found_.best.z, *moment).value_or(0.0), end(*moment, -1.0), {}};
+      const double best = at(found_.best.z, *moment).value_or(0.0);
+      range = LimitRange{*moment, best, end(*moment, -1.0), {best, found_.best.z}};
       if (!range->low.found_better) range->high = end(*moment, 1.0);
       const ProfileEnd& better = range->low.found_better ? range->low : range->high;
       range->last_change = std::max(range->low.last_change, range->high.last_change);

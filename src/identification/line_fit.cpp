@@ -66,6 +66,7 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
   ProfileEnd low;
   ProfileEnd high;
   for (int begins = 0; begins < most_begins; ++begins) {  // an end that is more likely than the best was none
+    high = {*limit(best->z), best->z};
     low = profile_end(likelihood, *best, limit, family.of_device(), -1.0, rise_of_95 * shared);
     if (!low.found_better) high = profile_end(likelihood, *best, limit, family.of_device(), 1.0, rise_of_95 * shared);
     const ProfileEnd& better = low.found_better ? low : high;

@@ -6,6 +6,9 @@ namespace zwidth::internal {
 
 std::span<const ProblemPhrase> identification_problem_phrases() {
   using enum ProblemCode;
+  static constexpr const char* allowed_limit =
+      "{?decimal|a point as the decimal mark: \"K=3.5\"}{?meant|did you mean {meant}?}{!decimal|{!meant|K=STIFFNESS, "
+      "B=DAMPING, hz=FREQUENCY, of which K must be there: \"K=3, B=0, hz=40\"}}";
   static constexpr std::array phrases{
       ProblemPhrase{no_frequency_in_hertz, "no_frequency_in_hertz", "{?entry|has}{!entry|is} {hertz:.6g} Hz",
                     "must be finite and above 0"},
@@ -72,7 +75,11 @@ std::span<const ProblemPhrase> identification_problem_phrases() {
       ProblemPhrase{motion_not_fitted, "motion_not_fitted",
                     "fits the motion{?bodies| of {bodies:n} bodies}{?samples| of {samples:n} samples}",
                     "must fit the lines {?bodies|of more than {most:n}}{?samples|of fewer than "
-                    "{least:n}}{!bodies|{!samples|where no position is recorded}}"}};
+                    "{least:n}}{!bodies|{!samples|where no position is recorded}}"},
+      ProblemPhrase{limit_part_without_value, "limit_part_without_value", "{part} has no =", allowed_limit},
+      ProblemPhrase{no_number_of_limit, "no_number_of_limit", "{word} is no number of a limit", allowed_limit},
+      ProblemPhrase{limit_number_twice, "limit_number_twice", "has {number} twice", "each once"},
+      ProblemPhrase{limit_without_stiffness, "limit_without_stiffness", "has no K", allowed_limit}};
   return phrases;
 }
 
