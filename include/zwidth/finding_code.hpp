@@ -387,7 +387,7 @@ enum class FindingCode : std::uint16_t {
   only_combination_identifiable,    ///< the response determines a combination of parameters only
   parameter_hardly_determined,      ///< a parameter known to half its size or less
   fitted_too,                       ///< a parameter is free that was not asked for
-  search_stopped,                   ///< the search was stopped while it still improved
+  motion_tells_no_limit,            ///< the motion leaves the critical stiffness open, the response's lines do not
   limit_outside_band,               ///< the crossover that limits is outside the measured band
   data_leave_interval_open,         ///< the data leave the critical stiffness open
   residual_stands_out,              ///< what the best fit leaves of a record is more than its noise

@@ -50,9 +50,12 @@ std::span<const Phrase> identification_phrases() {
       Phrase{fitted_too, "fitted_too", note,
              "{key} is fitted too: {?given|the record shows another than the structure's {given:.4g} s}{!given|the "
              "record is explained better with it}"},
-      Phrase{search_stopped, "search_stopped", doubt,
-             "the search for the parameters was stopped while it still improved", "",
-             "free fewer parameters, or start from values that are nearly right"},
+      Phrase{motion_tells_no_limit, "motion_tells_no_limit", doubt,
+             "the motion tells of no critical stiffness: friction and drag explain its damping, or no device of the "
+             "structure plays it",
+             "the answer is that of the lines of its response, which take friction and drag for damping; that of small "
+             "motion may be lower",
+             "record at several times the force and give both, or free fewer parameters"},
       Phrase{limit_outside_band, "limit_outside_band", doubt,
              "the crossover that limits, near {frequency:.4g} Hz, lies {side} the measured band, {lowest:.4g} to "
              "{highest:.4g} Hz: {?side=above|delay, lag and modes there are not in the data; excite higher "
