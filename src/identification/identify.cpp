@@ -5,6 +5,7 @@
 #include "counted.hpp"
 #include "identification/device_file_trust.hpp"
 #include "identification/likelihood_fit.hpp"
+#include "identification/limit_of_response.hpp"
 #include "identification/line_fit.hpp"
 #include "identification/model/segment_player.hpp"
 #include "identification/response/plausibility.hpp"
@@ -131,7 +132,6 @@ void take_found(const FoundDevice& found, const Device* known, Identification& r
                 .settled = found.last_change == 0.0};
   result.rivals = rival_table(found.best, found.rivals);
   fit.rivals = result.rivals;
-  fit.limit = told_limit(found.best.interval);
   fit.last_change = found.last_change;
   if (auto doubt = doubt_of_masses(result.fit.device, known)) fit.doubts_of_data.push_back(*std::move(doubt));
   std::ranges::move(implausible_device(result.fit.device, known, result.response.sampling_period),
@@ -167,13 +167,17 @@ void spread_trust(const Device& structure, const IdentifyOptions& options, Ident
 
 /// The device, its analysis and the verdict on it, of what was found and is known of it.
 Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
-                      const std::optional<FoundDevice>& found, FittedLikelihood fit, IdentifyOptions::Method method) {
+                      std::optional<FoundDevice> found, FittedLikelihood fit, IdentifyOptions::Method method) {
   Identification result{.source = measured.source,
                         .method = method,
                         .response = measured.response,
                         .fit = {.device = structure, .misfit = {}}};
   result.remarks = remarks_of_fit(measured);
   if (found) {
+    Interval& interval = found->best.interval;
+    fit.limit = told_limit(interval);
+    if (!is_explained(fit))
+      interval = with_limit_of_response(interval, measured.response, structure, options.fit.locked);
     take_found(*found, is_known(options) ? &structure : nullptr, result, fit);
   } else {
     for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
@@ -215,9 +219,11 @@ FoundDevice found_device(const FittedByLines& fitted, const Device& structure, c
 }
 
 Identification identified_by_lines(const MeasuredResponse& measured, const Device& structure,
-                                   const IdentifyOptions& options, std::vector<Finding> doubts = {}) {
+                                   const IdentifyOptions& options, std::vector<Finding> doubts = {},
+                                   bool motion_tells_none = false) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
   FittedLikelihood fit = before_fit(measured, structure, std::move(doubts));
+  fit.motion_tells_none = motion_tells_none;
   if (!fit.contradictions.empty() || is_drowned(response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::lines);
   const auto fitted = fit_lines({.structure = structure,
@@ -233,7 +239,7 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
     fit.left = fitted->left;
     fit.records = {{measured.source, response.sampling_period.value_or(0.0)}};
   }
-  return judged(measured, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
+  return judged(measured, structure, options, std::move(found), std::move(fit), IdentifyOptions::Method::lines);
 }
 
 Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
@@ -254,10 +260,8 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
                                          options.segment,
                                          options.limits,
                                          tell});
-  if (!fitted || !told_limit(fitted->found.best.interval)) {  // the lines are left
-    doubts.push_back({.code = FindingCode::motion_tells_no_limit});
-    return identified_by_lines(measured, structure, options, std::move(doubts));
-  }
+  if (!fitted || !told_limit(fitted->found.best.interval))
+    return identified_by_lines(measured, structure, options, std::move(doubts), true);
   fit.left = fitted->left;
   fit.delay = fitted->delay;
   fit.doubts_of_data.insert(fit.doubts_of_data.end(), fitted->contradicted.begin(), fitted->contradicted.end());

@@ -82,6 +82,17 @@ TEST(Verdict, DoubtsASearchThatWasStoppedOnItsWay) {
   EXPECT_NEAR(stopped.findings[0].evidence.at(0).value, 0.0222, 1e-4);
 }
 
+TEST(Verdict, DoubtsLinesWhereTheMotionTellsOfNoLimit) {
+  FittedLikelihood fit = narrow_fit();
+  EXPECT_TRUE(is_explained(fit));
+  fit.motion_tells_none = true;
+  EXPECT_FALSE(is_explained(fit));
+  const Trust doubted = verdict_of(fit).trust;
+  EXPECT_EQ(doubted.verdict, Trust::Verdict::doubtful);
+  ASSERT_EQ(doubted.findings.size(), 1U);
+  EXPECT_EQ(doubted.findings[0].code, FindingCode::motion_tells_no_limit);
+}
+
 TEST(Verdict, RefusesWhatHasNoLimitOrContradictsItself) {
   FittedLikelihood fit = narrow_fit();
   fit.limit.reset();
