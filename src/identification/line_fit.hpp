@@ -36,7 +36,8 @@ struct FittedByLines {
   double value = 0.0;           ///< K_CR of the most likely device
   double upper = 0.0;           ///< the largest
   double last_change = 0.0;     ///< as FoundDevice::last_change
-  Omnibus left = {};  ///< whether bands of neighbouring lines are off together by chance, and limits from what is fitted
+  Omnibus left =
+      {};  ///< whether bands of neighbouring lines are off together by chance, and limits from what is fitted
 };
 
 /// The most likely device of a structure, and the least and the largest critical stiffness that the data allow.
