@@ -9,10 +9,12 @@
 
 namespace zwidth::internal {
 
-/// Throws Error (invalid_argument) "what; allowed" of a member of the options, which the message does not name.
-[[noreturn]] inline void refuse_member(const std::string& member, std::string what, std::string allowed) {
-  const std::string message = what + "; " + allowed;
-  InputProblem told{{}, std::move(what), std::move(allowed), {}};
+/// Throws Error (invalid_argument) of a member of the options, in the words of its problem, which do not name it.
+[[noreturn]] inline void refuse_member(const std::string& member, Problem problem) {
+  OptionProblem words = option_problem(member, std::move(problem));
+  const std::string message = words.what + "; " + words.allowed;
+  InputProblem told{{}, std::move(words.what), std::move(words.allowed), {}};
+  told.problem = std::move(words.problem);
   told.place.option = member;
   throw Error(ErrorCode::invalid_argument, message, {std::move(told)});
 }

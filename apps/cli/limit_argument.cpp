@@ -7,6 +7,7 @@
 #include <cctype>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/number_text.hpp"
@@ -18,8 +19,6 @@ namespace zwidth::cli {
 namespace {
 
 constexpr const char* limit_option = "--limit";
-constexpr const char* allowed_limit =
-    "K=STIFFNESS, B=DAMPING, hz=FREQUENCY, of which K must be there: \"K=3, B=0, hz=40\"";
 
 /// A number that a limit may state.
 struct StatedNumber {
@@ -50,9 +49,10 @@ std::size_t number_called(std::string_view word) {
   const std::array<std::string, 6> known{"stiffness", "damping", "frequency", "f", "freq", "frequency_hz"};
   const std::string meant = nearest_word(word, known);
   const std::string suggestion = meant.empty() ? "" : meant == "stiffness" ? "K" : meant == "damping" ? "B" : "hz";
-  throw BadInput(problem_of_value(limit_option, fmt::format("{} is no number of a limit", in_quotes(word)),
-                                  suggestion.empty() ? allowed_limit : fmt::format("did you mean {}?", suggestion),
-                                  suggestion.empty() ? std::nullopt : std::optional(suggestion)));
+  Problem problem{.code = ProblemCode::no_number_of_limit, .subjects = {{"word", in_quotes(word)}}};
+  if (suggestion.empty()) throw BadInput(input_problem({.option = limit_option}, std::move(problem)));
+  problem.subjects.push_back({"meant", suggestion});
+  throw BadInput(input_problem({.option = limit_option}, std::move(problem), suggestion));
 }
 
 /// As "3,5 Nm": the comma of a number stands where parts are told apart.
@@ -68,12 +68,16 @@ MeasuredLimit measured_limit(std::string_view text, Motion motion) {
     const std::string_view part = without_blanks(untrimmed);
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos) {
-      throw BadInput(limit_option, fmt::format("{} has no =", in_quotes(part)),
-                     is_rest_of_number(part) ? "a point as the decimal mark: \"K=3.5\"" : allowed_limit);
+      Problem problem{.code = ProblemCode::limit_part_without_value, .subjects = {{"part", in_quotes(part)}}};
+      if (is_rest_of_number(part)) problem.subjects.push_back({"decimal", "comma"});
+      throw BadInput(input_problem({.option = limit_option}, std::move(problem)));
     }
     const std::size_t index = number_called(without_blanks(part.substr(0, equals)));
     const StatedNumber& stated = stated_numbers[index];
-    if (values[index]) throw BadInput(limit_option, fmt::format("has {} twice", stated.key), "each once");
+    if (values[index]) {
+      throw BadInput(input_problem({.option = limit_option}, {.code = ProblemCode::limit_number_twice,
+                                                              .subjects = {{"number", std::string(stated.key)}}}));
+    }
     const auto value = measured_number(without_blanks(part.substr(equals + 1)), stated.measure, motion);
     if (!value) {
       InputProblem problem = problem_of_value(limit_option, value.error());
@@ -82,7 +86,8 @@ MeasuredLimit measured_limit(std::string_view text, Motion motion) {
     }
     values[index] = *value;
   }
-  if (!values[0]) throw BadInput(limit_option, "has no K", allowed_limit);
+  if (!values[0])
+    throw BadInput(input_problem({.option = limit_option}, {.code = ProblemCode::limit_without_stiffness}));
   MeasuredLimit limit;
   limit.stiffness = *values[0];
   limit.damping = values[1].value_or(0.0);

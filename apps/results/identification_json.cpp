@@ -95,8 +95,8 @@ Json identification_json(const Identification& identified, PointsInJson points) 
   for (const UnidentifiableCombination& each : fit.unidentifiable) json["unidentifiable"].push_back(each.parameters);
   json["misfit"] = fit.misfit;
   json["model_error"] = fit.model_error;
-  json["held_to_measured_critical_point"] = fit.stiffness_without_hold.has_value();
-  json["critical_stiffness_without_hold"] = fit.stiffness_without_hold;
+  json["held_to_measured_critical_point"] = false;  // every fit counts all points alike
+  json["critical_stiffness_without_hold"] = nullptr;
   json["rivals"] = identified.rivals;
   // The limit, none where it is refused, and how far it is to be trusted.
   if (identified.trust.refused()) {

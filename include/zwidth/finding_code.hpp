@@ -384,17 +384,14 @@ enum class FindingCode : std::uint16_t {
   table_gives_no_reason,            ///< a table doubts its critical stiffness and gives no reason
   motion_against_force,             ///< the position falls as the force rises
   nothing_determined,               ///< the data determine no parameter
-  numbers_undetermined,             ///< the data do not determine some parameters: they are taken as given
-  number_is_placeholder,            ///< a parameter that the data do not determine stands for an unknown one
   parameter_unidentifiable,         ///< the response says nothing about a parameter
   only_combination_identifiable,    ///< the response determines a combination of parameters only
   parameter_hardly_determined,      ///< a parameter known to half its size or less
-  fitted_too,                       ///< a parameter is free that was not asked for
-  search_stopped,                   ///< the search was stopped while it still improved
+  search_stopped,                   ///< the search was stopped while it still moved the limit
+  motion_tells_no_limit,            ///< the motion leaves the critical stiffness open, the response's lines do not
   limit_outside_band,               ///< the crossover that limits is outside the measured band
   data_leave_interval_open,         ///< the data leave the critical stiffness open
   residual_stands_out,              ///< what the best fit leaves of a record is more than its noise
-  lag_beyond_drives,                ///< an actuator's lag that no drive has
   fitted_late_beyond_drives,        ///< a fitted delay and lag that no drive has
   fitted_body_too_heavy,            ///< a fitted mass or inertia that no haptic device has
   mass_far_from_structure,          ///< a fitted mass powers of ten off the structure's

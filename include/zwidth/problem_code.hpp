@@ -357,6 +357,42 @@ enum class ProblemCode : std::uint16_t {
   frequency_of_digital_filter,    ///< a digital filter has no frequency of its own
   filter_frequency_out_of_range,  ///< a filter's frequency is not below Nyquist
 
+  // identification: options, recordings and responses
+  no_frequency_in_hertz,            ///< a frequency is not finite and above 0
+  no_rising_band,                   ///< a band does not rise
+  no_overlap,                       ///< an overlap of segments is not from 0 to below 1
+  segments_of_periodic_force,       ///< segments of a periodic force
+  periods_of_aperiodic_force,       ///< periods of an aperiodic force
+  lines_beside_segments,            ///< lines beside segments or a period
+  segment_not_in_record,            ///< a segment is too short or longer than the record
+  period_not_in_record,             ///< a period is not from 2 samples to half of the record
+  periods_all_skipped,              ///< fewer than two periods would be left
+  line_not_possible,                ///< a line is not above 0
+  line_beyond_nyquist,              ///< a line is not below half the sampling rate
+  line_twice,                       ///< a line is asked for twice
+  lines_too_close_for_record,       ///< a record is too short for its lines
+  band_leaves_no_line,              ///< a band holds no line of a response
+  period_without_line,              ///< a force excites no line of a period
+  no_line_excited,                  ///< a force excites no line of a record
+  sample_not_a_number,              ///< a sample of a signal is not finite
+  force_and_motion_of_two_lengths,  ///< force and motion have different lengths
+  record_of_few_samples,            ///< a record has too few samples
+  period_not_above_zero,            ///< a sampling period is not above 0
+  signal_is_constant,               ///< a signal is constant
+  force_does_not_repeat,            ///< a force has no period
+  recording_of_other_channels,      ///< a recording has not two channels
+  recording_twice,                  ///< two recordings hold the same samples
+  response_is_continuous,           ///< a response without a sampling period
+  response_of_few_lines,            ///< a response has too few lines
+  no_unit_text,                     ///< a text is no unit
+  unit_of_other_column,             ///< a unit is not the one of the column
+  no_period_of_table,               ///< a table has no sampling period
+  motion_not_fitted,                ///< no motion of this kind is fitted
+  limit_part_without_value,         ///< a part of a measured limit has no =
+  no_number_of_limit,               ///< a measured limit has no number of that name
+  limit_number_twice,               ///< a measured limit has a number twice
+  limit_without_stiffness,          ///< a measured limit has no stiffness
+
   // computations that do not come to their end
   outline_not_closed,              ///< the boundary of the region does not close
   boundary_not_followed,           ///< the boundary of the region turns too often

@@ -6,31 +6,25 @@
 
 #include "identification/fit/bounded_step.hpp"
 #include "identification/model/device_numbers.hpp"
+#include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/profile.hpp"
+#include "model/loop_keys.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 /// The numbers of the structure that were not free, but for those of the loop.
 std::vector<Number> numbers_given(const MotionStart& start, const std::vector<std::string>& locked) {
-  const RivalSetting setting = rival_setting(start.device, locked, start.records, 1.0);
+  const RivalSetting setting = rival_setting(start.device, locked, start.records);
   const TypicalSizes typical{setting.sampling_period, typical_damping(setting),
                              setting.rms_force / setting.rms_position};
   std::vector<Number> given;
   for (const std::string& key : fittable_parameters(Device(start.device), locked)) {
-    const bool is_of_loop = key == "loop.delay" || key == "actuator.time_constant";
+    const bool is_of_loop = key == key_of_delay || key == key_of_lag;
     if (!is_of_loop && !start.parts.has(key)) given.push_back(device_number(key, start.device, typical));
   }
   return given;
-}
-
-double limit_without_damper(DeviceParameters device) {
-  device.wall.damping = 0.0;
-  if (find_problem(device)) return 0.0;
-  const CriticalStiffness limit = critical_stiffness(Device(std::move(device)));
-  return limit.status == StiffnessStatus::finite ? limit.stiffness : 0.0;
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ std::vector<Finding> contradicted_numbers(const FoundMotion& found, const Motion
   const auto count = static_cast<Eigen::Index>(numbers.size());
   if (count == 0) return {};
   numbers.insert(numbers.end(), start.parts.numbers.begin(), start.parts.numbers.end());
-  const DeviceFamily family(start.device, numbers, locked, start.parts.further_body);
+  const DeviceFamily family(start.device, numbers, locked);
   const MotionModel model(family, start.parts.terms, start.records, found.model->parts());
   const auto order = static_cast<Eigen::Index>(found.evidence->noise().front().filter.size()) - 1;
   const auto evidence = std::make_shared<TimeEvidence>(model, found.evidence->segments(), start.encoder_steps, order);
@@ -54,7 +48,8 @@ std::vector<Finding> contradicted_numbers(const FoundMotion& found, const Motion
   const auto picture = likelihood.picture(z);
   if (!picture) return {};
   const Eigen::VectorXd step = bounded_step(picture->hessian, picture->gradient, likelihood.lowest() - z);
-  const double then = limit_without_damper(family.device_at(z + step));
+  const auto log_then = log_bare_limit(family.device_at(z + step));
+  const double then = log_then ? std::exp(*log_then) : 0.0;
   if (then >= interval.lower && then <= interval.upper) return {};
   const Eigen::MatrixXd covariance = covariance_of(picture->hessian);
   std::vector<Finding> findings;

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "identification/model/number_keys.hpp"
+#include "identification/verdict/confidence.hpp"
+#include "model/loop_keys.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-constexpr double of_95 = 1.96;
 constexpr double clear_deviations = 2.0;
-constexpr const char* key_of_delay = "loop.delay";
-constexpr const char* key_of_lag = "actuator.time_constant";
 
 Eigen::Index size_of(const FoundDevice& found) { return static_cast<Eigen::Index>(found.best.numbers.size()); }
 const Number& number_at(const FoundDevice& found, Eigen::Index i) {
@@ -50,8 +50,8 @@ ParameterEstimate estimate_at(const FoundDevice& found, Eigen::Index i, std::str
   estimate.identifiable = is_told(found, i);
   if (!estimate.identifiable) return estimate;
   estimate.standard_deviation = number.slope(x) * deviation;
-  estimate.lower = number.value(std::max(number.lowest(), x - of_95 * deviation));
-  estimate.upper = number.value(x + of_95 * deviation);
+  estimate.lower = number.value(std::max(number.lowest(), x - deviations_of_95 * deviation));
+  estimate.upper = number.value(x + deviations_of_95 * deviation);
   return estimate;
 }
 
@@ -60,9 +60,9 @@ DeviceParameters with_clear_rivals(const FoundDevice& found) {
   DeviceParameters device = found.device;
   for (Eigen::Index i = 0; i < size_of(found); ++i) {
     const std::string& key = number_at(found, i).key;
-    if (key.starts_with("friction.") && is_clear(found, i)) {
+    if (const auto rubbing = body_of_friction(key); rubbing && is_clear(found, i)) {
       for (Body& body : device.bodies) {
-        if (key == "friction." + body.name) body.coulomb = number_at(found, i).value(found.best.x(i));
+        if (*rubbing == body.name) body.coulomb = number_at(found, i).value(found.best.x(i));
       }
     }
     if (!parameter(device, key) || !is_of_rival(found, key) || is_clear(found, i)) continue;
@@ -73,7 +73,7 @@ DeviceParameters with_clear_rivals(const FoundDevice& found) {
 }
 
 /// Of the values of those numbers.
-Eigen::MatrixXd covariance_of(const FoundDevice& found, const std::vector<Eigen::Index>& of) {
+Eigen::MatrixXd covariance_of_values(const FoundDevice& found, const std::vector<Eigen::Index>& of) {
   Eigen::VectorXd slopes(static_cast<Eigen::Index>(of.size()));
   for (std::size_t i = 0; i < of.size(); ++i)
     slopes(static_cast<Eigen::Index>(i)) = number_at(found, of[i]).slope(found.best.x(of[i]));
@@ -82,7 +82,7 @@ Eigen::MatrixXd covariance_of(const FoundDevice& found, const std::vector<Eigen:
   const Eigen::VectorXd shared = covariance * limit;
   const double variance = limit.dot(shared);
   const Interval& interval = found.best.interval;
-  const double half = 0.5 * std::log(interval.upper / interval.lower) / of_95;
+  const double half = 0.5 * std::log(interval.upper / interval.lower) / deviations_of_95;
   if (variance > 0.0 && std::isfinite(half) && half * half > variance)
     covariance += (half * half / variance - 1.0) / variance * shared * shared.transpose();
   return covariance;
@@ -97,9 +97,8 @@ std::vector<ParameterEstimate> estimates_of(const FoundDevice& found) {
   }
   for (Eigen::Index i = 0; i < size_of(found); ++i) {
     const std::string& key = number_at(found, i).key;
-    const std::string friction = "friction.";
-    if (key.starts_with(friction) && is_clear(found, i))
-      estimates.push_back(estimate_at(found, i, "body." + key.substr(friction.size()) + ".coulomb"));
+    const std::optional<std::string> rubbing = body_of_friction(key);
+    if (rubbing && is_clear(found, i)) estimates.push_back(estimate_at(found, i, "body." + *rubbing + ".coulomb"));
   }
   return estimates;
 }
@@ -139,7 +138,7 @@ Device device_of(const FoundDevice& found) {
     if (is_kept_rival || (is_free_number(found, i) && is_told(found, i))) kept.push_back(i);
   }
   if (kept.empty()) return Device(std::move(device));
-  const Eigen::MatrixXd covariance = covariance_of(found, kept);
+  const Eigen::MatrixXd covariance = covariance_of_values(found, kept);
   Uncertainty uncertainty;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     uncertainty.parameters.push_back(number_at(found, kept[i]).key);

@@ -17,7 +17,8 @@ struct FoundDevice {
   DeviceParameters device;  ///< most likely; at its softest moment where it drifts
   BestNumbers best;
   std::vector<AddedRival> rivals = {};
-  bool settled = false;  ///< the search came to rest, and both ends of the interval were reached
+  /// Of log K_CR, by the last step of the search or of an end of the interval that was stopped; 0: all came to rest.
+  double last_change = 0.0;
 };
 
 /// What is said of each number that was free, in its own units; dry friction of more than two deviations as well.

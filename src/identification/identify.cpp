@@ -1,19 +1,21 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "identification/device_file_trust.hpp"
 #include "identification/likelihood_fit.hpp"
+#include "identification/limit_of_response.hpp"
 #include "identification/line_fit.hpp"
 #include "identification/model/segment_player.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/response/response_choice.hpp"
 #include "identification/response_of_device.hpp"
 #include "identification/verdict/assumed_experiment.hpp"
+#include "identification/verdict/plausible_device.hpp"
 #include "identification/verdict/turned_sign.hpp"
 #include "identification/verdict/verdict.hpp"
+#include "model/loop_keys.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -42,12 +44,14 @@ IdentifyOptions::Method method_of(std::span<const Recording> recordings, const D
 void check_motion(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options) {
   if (options.method != IdentifyOptions::Method::motion) return;
   if (structure.bodies().size() > most_bodies_of_motion)
-    refuse_member("method", fmt::format("fits the motion of {} bodies", structure.bodies().size()),
-                  fmt::format("must fit the lines of more than {}", most_bodies_of_motion));
+    refuse_member("method",
+                  {.code = ProblemCode::motion_not_fitted,
+                   .evidence = {counted("bodies", structure.bodies().size()), counted("most", most_bodies_of_motion)}});
   for (const Recording& each : recordings) {
     if (each.channels.size() == 2 && each.channels[1].samples.size() < least_samples_of_motion)
-      refuse_member("method", fmt::format("fits the motion of {} samples", each.channels[1].samples.size()),
-                    fmt::format("must fit the lines of fewer than {}", least_samples_of_motion));
+      refuse_member("method", {.code = ProblemCode::motion_not_fitted,
+                               .evidence = {counted("samples", each.channels[1].samples.size()),
+                                            counted("least", least_samples_of_motion)}});
   }
 }
 
@@ -118,45 +122,39 @@ ParameterEstimate undetermined_estimate(const std::string& key, const Device& st
   return estimate;
 }
 
-/// The device, its analysis and the verdict on it, of what was found and is known of it.
-Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
-                      const std::optional<FoundDevice>& found, FittedLikelihood fit, IdentifyOptions::Method method) {
-  Identification result{.source = measured.source,
-                        .method = method,
-                        .response = measured.response,
-                        .fit = {.device = structure, .misfit = {}}};
-  result.remarks = remarks_of_fit(measured);
-  if (found) {
-    result.fit = {.device = device_of(*found),
-                  .estimates = estimates_of(*found),
-                  .correlations = correlations_of(*found),
-                  .unidentifiable = open_numbers_of(*found),
-                  .misfit = {},
-                  .settled = found->settled};
-    result.rivals = rival_table(found->best, found->rivals);
-    fit.rivals = result.rivals;
-    fit.limit = told_limit(found->best.interval);
-  } else {
-    for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
-      result.fit.estimates.push_back(undetermined_estimate(key, structure));
-  }
-  compare_with_response(result.fit, measured.response, options.fit);
-  result.analysis = analyze(result.fit.device, {.any_user = false});
-  const std::optional<Crossover>& limit = result.analysis.critical.limit;
-  if (found && limit && !result.fit.frequencies.empty()) {
-    fit.place = {hertz(limit->frequency), hertz(result.fit.frequencies.front()), hertz(result.fit.frequencies.back())};
-  }
-  Verdict verdict = verdict_of(fit);
-  result.trust = std::move(verdict.trust);
-  std::ranges::move(verdict.remarks, std::back_inserter(result.remarks));
-  std::ranges::move(assumptions_of_experiment(structure, is_known(options), options.fit.locked),
+/// What was found, in the answer and before the judge. `known`: the structure, where its numbers are the device's.
+void take_found(const FoundDevice& found, const Device* known, Identification& result, FittedLikelihood& fit) {
+  result.fit = {.device = device_of(found),
+                .estimates = estimates_of(found),
+                .correlations = correlations_of(found),
+                .unidentifiable = open_numbers_of(found),
+                .misfit = {},
+                .settled = found.last_change == 0.0};
+  result.rivals = rival_table(found.best, found.rivals);
+  fit.rivals = result.rivals;
+  fit.last_change = found.last_change;
+  if (auto doubt = doubt_of_masses(result.fit.device, known)) fit.doubts_of_data.push_back(*std::move(doubt));
+  std::ranges::move(implausible_device(result.fit.device, known, result.response.sampling_period),
                     std::back_inserter(result.remarks));
+}
+
+std::optional<LimitPlace> place_of_limit(const Identification& result) {
+  const std::optional<Crossover>& limit = result.analysis.critical.limit;
+  if (!limit || result.fit.frequencies.empty()) return std::nullopt;
+  return LimitPlace{hertz(limit->frequency), hertz(result.fit.frequencies.front()),
+                    hertz(result.fit.frequencies.back())};
+}
+
+/// The interval of the fit is that of the limit without damper and filters, which was fitted.
+void take_interval(const Interval& interval, Identification& result) {
   const Wall& wall = result.fit.device.parameters().wall;
-  result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
-  if (found && result.analysis.interval && wall.damping == 0.0 && wall.filters.empty()) {
-    result.analysis.interval->lower = std::min(found->best.interval.lower, result.analysis.critical.stiffness);
-    result.analysis.interval->upper = std::max(found->best.interval.upper, result.analysis.critical.stiffness);
-  }
+  if (!result.analysis.interval || wall.damping != 0.0 || !wall.filters.empty()) return;
+  result.analysis.interval->lower = std::min(interval.lower, result.analysis.critical.stiffness);
+  result.analysis.interval->upper = std::max(interval.upper, result.analysis.critical.stiffness);
+}
+
+/// The trust of the answer with that of its limit, and of what stays assumed; into the device and the analysis.
+void spread_trust(const Device& structure, const IdentifyOptions& options, Identification& result) {
   if (!result.trust.refused() && result.analysis.critical.trust.refused())
     result.trust.inherit(result.analysis.critical.trust);
   keep_what_is_assumed(structure, result.fit.estimates,
@@ -165,12 +163,44 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
   result.fit.device = with_trust(result.fit.device, result.trust);
   if (result.trust.refused()) result.analysis = analyze(result.fit.device, {.any_user = false});
   result.analysis.trust.inherit(result.trust);
+}
+
+/// The device, its analysis and the verdict on it, of what was found and is known of it.
+Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
+                      std::optional<FoundDevice> found, FittedLikelihood fit, IdentifyOptions::Method method) {
+  Identification result{.source = measured.source,
+                        .method = method,
+                        .response = measured.response,
+                        .fit = {.device = structure, .misfit = {}}};
+  result.remarks = remarks_of_fit(measured);
+  if (found) {
+    Interval& interval = found->best.interval;
+    fit.limit = told_limit(interval);
+    if (!is_explained(fit))
+      interval = with_limit_of_response(interval, measured.response, structure, options.fit.locked);
+    take_found(*found, is_known(options) ? &structure : nullptr, result, fit);
+  } else {
+    for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
+      result.fit.estimates.push_back(undetermined_estimate(key, structure));
+  }
+  compare_with_response(result.fit, measured.response, options.fit);
+  result.analysis = analyze(result.fit.device, {.any_user = false});
+  if (found) fit.place = place_of_limit(result);
+  Verdict verdict = verdict_of(fit);
+  result.trust = std::move(verdict.trust);
+  std::ranges::move(verdict.remarks, std::back_inserter(result.remarks));
+  std::ranges::move(assumptions_of_experiment(structure, is_known(options), options.fit.locked),
+                    std::back_inserter(result.remarks));
+  const Wall& wall = result.fit.device.parameters().wall;
+  result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
+  if (found) take_interval(found->best.interval, result);
+  spread_trust(structure, options, result);
   return result;
 }
 
 /// A device found from lines or limits, in the words of one found from its motion.
 FoundDevice found_device(const FittedByLines& fitted, const Device& structure, const IdentifyOptions& options) {
-  FoundDevice found{.device = fitted.device, .best = {}, .settled = fitted.settled};
+  FoundDevice found{.device = fitted.device, .best = {}, .last_change = fitted.last_change};
   found.best = {.numbers = fitted.numbers,
                 .x = fitted.x,
                 .covariance = fitted.covariance,
@@ -182,17 +212,18 @@ FoundDevice found_device(const FittedByLines& fitted, const Device& structure, c
   const std::string spring = "body." + structure.bodies()[structure.loop().held].name + ".stiffness";
   for (const Number& number : fitted.numbers) {
     if (std::ranges::count(free, number.key) > 0) continue;
-    if (number.key == "actuator.time_constant")
-      found.rivals.push_back({"actuator_lag", {number.key}, RivalMeasure::time});
+    if (number.key == key_of_lag) found.rivals.push_back({"actuator_lag", {number.key}, RivalMeasure::time});
     if (number.key == spring) found.rivals.push_back({"ground_spring", {number.key}, RivalMeasure::stiffness});
   }
   return found;
 }
 
 Identification identified_by_lines(const MeasuredResponse& measured, const Device& structure,
-                                   const IdentifyOptions& options, std::vector<Finding> doubts = {}) {
+                                   const IdentifyOptions& options, std::vector<Finding> doubts = {},
+                                   bool motion_tells_none = false) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
   FittedLikelihood fit = before_fit(measured, structure, std::move(doubts));
+  fit.motion_tells_none = motion_tells_none;
   if (!fit.contradictions.empty() || is_drowned(response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::lines);
   const auto fitted = fit_lines({.structure = structure,
@@ -205,10 +236,10 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
   std::optional<FoundDevice> found;
   if (fitted) {
     found = found_device(*fitted, structure, options);
-    fit.left = omnibus_of_lines(*fitted);
+    fit.left = fitted->left;
     fit.records = {{measured.source, response.sampling_period.value_or(0.0)}};
   }
-  return judged(measured, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
+  return judged(measured, structure, options, std::move(found), std::move(fit), IdentifyOptions::Method::lines);
 }
 
 Identification identified_by_motion(std::span<const Recording> recordings, const MeasuredResponse& measured,
@@ -229,10 +260,8 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
                                          options.segment,
                                          options.limits,
                                          tell});
-  if (!fitted || !told_limit(fitted->found.best.interval)) {  // the motion tells of no limit: the lines are left
-    doubts.push_back({.code = FindingCode::search_stopped});
-    return identified_by_lines(measured, structure, options, std::move(doubts));
-  }
+  if (!fitted || !told_limit(fitted->found.best.interval))
+    return identified_by_lines(measured, structure, options, std::move(doubts), true);
   fit.left = fitted->left;
   fit.delay = fitted->delay;
   fit.doubts_of_data.insert(fit.doubts_of_data.end(), fitted->contradicted.begin(), fitted->contradicted.end());
@@ -271,7 +300,7 @@ Identification identify(const MeasuredResponse& measured, const Device& structur
 Identification identify_from_limits(const Device& structure, const IdentifyOptions& options) {
   require_one_rate(structure);
   require_valid(find_problem(options));
-  if (options.limits.empty()) refuse_member("limits", "has none", "must be one at least");
+  if (options.limits.empty()) refuse_member("limits", {.code = ProblemCode::no_values});
   const auto fitted = fit_lines({.structure = structure,
                                  .limits = options.limits,
                                  .free = options.fit.free,
@@ -282,7 +311,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   MeasuredResponse none;
   none.source = "measured limits";
   FittedLikelihood fit{.motion = structure.parameters().motion};
-  if (fitted) fit.left = omnibus_of_lines(*fitted);
+  if (fitted) fit.left = fitted->left;
   fit.records = {{none.source, 0.0}};
   return judged(none, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
 }

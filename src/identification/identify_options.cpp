@@ -6,27 +6,34 @@
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "zwidth/identification/identification.hpp"
 
 namespace zwidth {
 namespace {
 
+using internal::counted;
+
 std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options) {
   if (!(std::isfinite(options.robust_threshold) && options.robust_threshold >= 0.0)) {
-    return OptionProblem{"robust_threshold", fmt::format("is {}", options.robust_threshold), "must be finite and >= 0"};
+    return option_problem("robust_threshold",
+                          {.code = ProblemCode::below_zero, .evidence = {{"value", options.robust_threshold}}});
   }
   for (const auto& [name, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
     if (value && !(std::isfinite(*value) && *value > 0.0)) {
-      return OptionProblem{name, fmt::format("is {} rad/s", *value), "must be finite and > 0"};
+      return option_problem(name, {.code = ProblemCode::not_finite_and_positive,
+                                   .evidence = {{"value", *value}},
+                                   .subjects = {{"unit", "rad/s"}}});
     }
   }
   if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return OptionProblem{"highest", fmt::format("is {} rad/s", *options.highest),
-                         fmt::format("must be above lowest, {} rad/s", *options.lowest)};
+    return option_problem("highest", {.code = ProblemCode::not_above_lowest_frequency,
+                                      .evidence = {{"value", *options.highest}, {"lowest", *options.lowest}}});
   }
   if (options.free.size() > max_free_parameters) {
-    return OptionProblem{"free", fmt::format("has {} keys", options.free.size()),
-                         fmt::format("must be at most {}", max_free_parameters)};
+    return option_problem("free",
+                          {.code = ProblemCode::too_many_free,
+                           .evidence = {counted("free", options.free.size()), counted("most", max_free_parameters)}});
   }
   return std::nullopt;
 }
@@ -41,9 +48,11 @@ std::optional<OptionProblem> find_problem(const IdentifyOptions& options) {
   if (auto problem = within("response", find_problem(options.response))) return problem;
   if (auto problem = within("fit", find_fit_problem(options.fit))) return problem;
   if (!(std::isfinite(options.segment) && options.segment > 0.0))
-    return OptionProblem{"segment", fmt::format("is {} s", options.segment), "must be finite and above 0"};
+    return option_problem("segment", {.code = ProblemCode::not_finite_and_above,
+                                      .evidence = {{"value", options.segment}, {"bound", 0.0}},
+                                      .subjects = {{"unit", "s"}}});
   if (options.method == IdentifyOptions::Method::motion && options.response.output != OutputQuantity::position)
-    return OptionProblem{"method", "fits the motion", "must fit the lines where no position is recorded"};
+    return option_problem("method", {.code = ProblemCode::motion_not_fitted});
   for (std::size_t i = 0; i < options.limits.size(); ++i) {
     if (auto problem = within(fmt::format("limits[{}]", i), find_problem(options.limits[i]))) return problem;
   }

@@ -1,22 +1,22 @@
 #include "identification/likelihood_fit.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "identification/contradicted_numbers.hpp"
+#include "identification/model/number_keys.hpp"
 #include "identification/motion_search.hpp"
+#include "identification/verdict/bare_limit.hpp"
+#include "identification/verdict/confidence.hpp"
 #include "identification/verdict/left_over.hpp"
 #include "identification/verdict/limit_moment.hpp"
 #include "identification/verdict/profile.hpp"
 #include "identification/verdict/widening.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
+#include "model/loop_keys.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-constexpr double half_of_chi_squared = 1.92;  // 95 %: half the quantile with one degree of freedom
 
 /// The limit over the fits that are as likely, before what is left is asked.
 struct LimitRange {
@@ -24,6 +24,7 @@ struct LimitRange {
   double best = 0.0;    ///< logarithms
   ProfileEnd low;
   ProfileEnd high;
+  double last_change = 0.0;  ///< of ends that were stopped, and of a best that still gave way to a better one
 };
 
 /// The limit of a found motion, nobody holding, no damper.
@@ -33,12 +34,7 @@ class LimitOfMotion {
 
   /// log K_CR when `share` of a record is over; nothing where there is none.
   [[nodiscard]] std::optional<double> at(const Eigen::VectorXd& z, double share) const {
-    DeviceParameters device = found_.model->family().device_at(z, share);
-    device.wall.damping = 0.0;
-    if (find_problem(device)) return std::nullopt;
-    const CriticalStiffness limit = critical_stiffness(Device(std::move(device)));
-    const bool is_finite = limit.status == StiffnessStatus::finite && limit.stiffness > 0.0;
-    return is_finite ? std::optional(std::log(limit.stiffness)) : std::nullopt;
+    return log_bare_limit(found_.model->family().device_at(z, share));
   }
 
   /// An end that is more likely than the best was none: the search goes on from there.
@@ -49,14 +45,17 @@ class LimitOfMotion {
     for (int begins = 0; begins < most_begins; ++begins) {
       const auto moment = moment_at_best();
       if (!moment) return std::nullopt;
-      range = LimitRange{*moment, at(found_.best.z, *moment).value_or(0.0), end(*moment, -1.0), {}};
+      const double best = at(found_.best.z, *moment).value_or(0.0);
+      range = LimitRange{*moment, best, end(*moment, -1.0), {best, found_.best.z}};
       if (!range->low.found_better) range->high = end(*moment, 1.0);
       const ProfileEnd& better = range->low.found_better ? range->low : range->high;
+      range->last_change = std::max(range->low.last_change, range->high.last_change);
       if (!better.found_better) return range;
       auto again = minimise(*found_.likelihood, better.z, fine);
       if (!again) return range;
       found_.best = *std::move(again);
     }
+    if (const auto last = at(found_.best.z, range->moment)) range->last_change = std::abs(*last - range->best);
     return range;
   }
 
@@ -75,7 +74,7 @@ class LimitOfMotion {
   [[nodiscard]] ProfileEnd end(double share, double direction) const {
     return profile_end(
         *found_.likelihood, found_.best, [&](const Eigen::VectorXd& z) { return at(z, share); },
-        found_.model->family().of_limit(), direction, half_of_chi_squared);
+        found_.model->family().of_limit(), direction, rise_of_95);
   }
 
   FoundMotion& found_;
@@ -111,7 +110,7 @@ std::vector<FittedMotion> motions_of(const FoundMotion& found, std::span<const R
       motion.unexplained = rest.norm() / std::sqrt(static_cast<double>(fitted)) / deviation;
     for (Eigen::Index i = 0; i < numbers; ++i) {
       const Number& number = device.best.numbers[static_cast<std::size_t>(i)];
-      if (number.key != "constant_force." + std::to_string(record)) continue;
+      if (number.key != constant_force_key(record)) continue;
       motion.constant_force = number.value(device.best.x(i));
       motion.constant_force_deviation =
           number.slope(device.best.x(i)) * std::sqrt(std::max(0.0, device.best.covariance(i, i)));
@@ -124,7 +123,7 @@ std::vector<FittedMotion> motions_of(const FoundMotion& found, std::span<const R
 /// What the data alone say of a delay that is given: the fit's less what was believed.
 std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNumbers& best, const LimitOfMotion& limit,
                                          double share) {
-  const auto place = std::ranges::find(best.numbers, "loop.delay", &Number::key);
+  const auto place = std::ranges::find(best.numbers, key_of_delay, &Number::key);
   if (place == best.numbers.end() || !std::isfinite(place->prior_deviation)) return std::nullopt;
   const auto i = static_cast<Eigen::Index>(place - best.numbers.begin());
   const double believed = 1.0 / (place->prior_deviation * place->prior_deviation);
@@ -167,7 +166,7 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   FoundDevice& found = fit.found;
   found.device = motion->model->family().device_at(motion->best.z, range->moment);
   found.rivals = start.rivals;
-  found.settled = motion->best.settled && range->low.settled && range->high.settled;
+  found.last_change = std::max(range->last_change, last_change(motion->best, slope));
   found.best = {
       .numbers = numbers,
       .x = motion->best.z.head(count),

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -13,22 +12,14 @@
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/fit/minimise.hpp"
 #include "identification/line_model.hpp"
+#include "identification/verdict/bare_limit.hpp"
+#include "identification/verdict/confidence.hpp"
 #include "identification/verdict/line_bands.hpp"
 #include "identification/verdict/profile.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-/// log K_CR of the bare device; nothing where it has no limit.
-std::optional<double> log_limit(DeviceParameters device) {
-  device.wall.damping = 0.0;
-  if (find_problem(device)) return std::nullopt;
-  const CriticalStiffness found = critical_stiffness(Device(std::move(device)));
-  const bool is_finite = found.status == StiffnessStatus::finite && found.stiffness > 0.0;
-  return is_finite ? std::optional(std::log(found.stiffness)) : std::nullopt;
-}
 
 /// Of the numbers, others refitted; 0 for those that a bound holds, which the fit does not move.
 Eigen::MatrixXd moved_covariance(const LeastSquaresProblem& problem, const Minimum& best, Eigen::Index count) {
@@ -48,15 +39,9 @@ Eigen::MatrixXd moved_covariance(const LeastSquaresProblem& problem, const Minim
   return inverse.topLeftCorner(count, count);
 }
 
-double p_of(const SumOfSquares& squares) {
-  if (!(squares.freedom > 0.0) || !std::isfinite(squares.sum)) return 1.0;
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(squares.freedom), squares.sum));
-}
-
 }  // namespace
 
 std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
-  constexpr double rise = 1.92;  // 95 %: half the quantile of chi-squared with one degree of freedom
   constexpr int most_begins = 4;
   constexpr MinimiseOptions fine{.most_steps = 60, .least_gain = 1e-4};
   if (!setting.response && setting.limits.empty()) return std::nullopt;
@@ -74,15 +59,16 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
     parts.push_back(std::make_shared<GivenNumbers>(family, setting.structure.parameters(), *model.given));
   const SumOfEvidence likelihood(family.numbers(), parts);
 
-  const auto limit = [&](const Eigen::VectorXd& z) { return log_limit(family.device_at(z)); };
+  const auto limit = [&](const Eigen::VectorXd& z) { return log_bare_limit(family.device_at(z)); };
   std::optional<Minimum> best = minimise(likelihood, likelihood.start(family.coordinates_of(model.start)), fine);
   if (!best || !limit(best->z)) return std::nullopt;
   const double shared = setting.response ? shared_noise(*setting.response) : 1.0;
   ProfileEnd low;
   ProfileEnd high;
   for (int begins = 0; begins < most_begins; ++begins) {  // an end that is more likely than the best was none
-    low = profile_end(likelihood, *best, limit, family.of_device(), -1.0, rise * shared);
-    if (!low.found_better) high = profile_end(likelihood, *best, limit, family.of_device(), 1.0, rise * shared);
+    high = {*limit(best->z), best->z};
+    low = profile_end(likelihood, *best, limit, family.of_device(), -1.0, rise_of_95 * shared);
+    if (!low.found_better) high = profile_end(likelihood, *best, limit, family.of_device(), 1.0, rise_of_95 * shared);
     const ProfileEnd& better = low.found_better ? low : high;
     if (!better.found_better) break;
     auto again = minimise(likelihood, better.z, fine);
@@ -91,7 +77,8 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
 
   const auto count = static_cast<Eigen::Index>(model.numbers.size());
   FittedByLines found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
-  found.slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest()).head(count);
+  const Eigen::VectorXd slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest());
+  found.slope = slope.head(count);
   SumOfSquares left;
   if (lines) {
     const Eigen::MatrixXd moved = moved_covariance(likelihood, *best, count);
@@ -110,8 +97,8 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
   found.lower = std::exp(middle - together * (middle - low.value));
   found.value = std::exp(middle);
   found.upper = std::exp(middle + together * (high.value - middle));
-  found.settled = best->settled && low.settled && high.settled;
-  found.chi_squared_of_bands = p_of(left);
+  found.last_change = std::max({last_change(*best, slope), low.last_change, high.last_change});
+  found.left = omnibus_of_lines(left);
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/model/number.hpp"
+#include "identification/verdict/omnibus.hpp"
 #include "zwidth/identification/measured_limit.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/signal/frequency_response.hpp"
@@ -34,9 +35,9 @@ struct FittedByLines {
   double lower = 0.0;           ///< least K_CR within 1.92 of the best log-likelihood, no damper; N/m or N m/rad
   double value = 0.0;           ///< K_CR of the most likely device
   double upper = 0.0;           ///< the largest
-  bool settled = false;         ///< the search came to rest, and both ends were reached
-  /// p-value: whether bands of neighbouring lines are off together by chance, and limits from what is fitted.
-  double chi_squared_of_bands = 1.0;
+  double last_change = 0.0;     ///< as FoundDevice::last_change
+  Omnibus left =
+      {};  ///< whether bands of neighbouring lines are off together by chance, and limits from what is fitted
 };
 
 /// The most likely device of a structure, and the least and the largest critical stiffness that the data allow.

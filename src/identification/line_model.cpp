@@ -4,20 +4,17 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "identification/model/device_numbers.hpp"
 #include "identification/model/rivals/catalogue.hpp"
+#include "model/loop_keys.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-constexpr const char* delay_of_lines = "loop.delay";
-constexpr const char* lag_of_lines = "actuator.time_constant";
 constexpr double known_to = 0.2;  // a number of a file that says nothing more
 
 bool is_named(const std::vector<std::string>& keys, const std::string& key) {
@@ -26,14 +23,13 @@ bool is_named(const std::vector<std::string>& keys, const std::string& key) {
 
 /// How large numbers are that show in a response.
 RivalSetting setting_of_lines(const DeviceParameters& device, const LineFitSetting& setting) {
-  RivalSetting sizes{.device = device, .locked = setting.locked, .rms_force = 1.0, .largest_force = 1.0};
+  RivalSetting sizes{.device = device, .locked = setting.locked, .rms_force = 1.0};
   for (const ResponsePoint& point : setting.response->points) {
     sizes.rms_position = std::max(sizes.rms_position, std::abs(point.value));
     sizes.rms_speed = std::max(sizes.rms_speed, std::abs(point.value) * point.frequency);
   }
   sizes.largest_speed = sizes.rms_speed;
   const double highest = setting.response->points.back().frequency;
-  sizes.highest_frequency = highest / (2.0 * std::numbers::pi);
   sizes.sampling_period = setting.response->sampling_period.value_or(1.0 / highest);
   return sizes;
 }
@@ -89,10 +85,10 @@ Number number_of_limits(const std::string& key, const DeviceParameters& start, b
 
 /// A limit tells of a lag what it tells of a delay: a lag alone is fitted as a delay, both by their sum (DeviceFamily).
 void fit_lag_as_delay(LineModel& model) {
-  const auto lag = std::ranges::find(model.numbers, lag_of_lines, &Number::key);
+  const auto lag = std::ranges::find(model.numbers, key_of_lag, &Number::key);
   if (lag == model.numbers.end()) return;
   const double value = model.start.actuator.time_constant;
-  const auto delay = std::ranges::find(model.numbers, delay_of_lines, &Number::key);
+  const auto delay = std::ranges::find(model.numbers, key_of_delay, &Number::key);
   if (delay != model.numbers.end()) {
     if (delay->scale == Number::Scale::logarithmic) delay->unit += value;
     return;
@@ -100,7 +96,7 @@ void fit_lag_as_delay(LineModel& model) {
   const bool is_open = lag->prior_deviation > 1.0 || value == 0.0;
   double deviation = is_open ? model.start.loop.sampling_period : known_to * value;
   if (model.given) {
-    const auto place = std::ranges::find(model.given->parameters, lag_of_lines) - model.given->parameters.begin();
+    const auto place = std::ranges::find(model.given->parameters, key_of_lag) - model.given->parameters.begin();
     const auto i = static_cast<std::size_t>(place);
     if (i < model.given->parameters.size()) {
       deviation = std::sqrt(model.given->covariance[i][i]);
@@ -112,7 +108,7 @@ void fit_lag_as_delay(LineModel& model) {
     }
   }
   *lag = {
-      .key = delay_of_lines, .unit = deviation, .expected = model.start.loop.delay / deviation, .prior_deviation = 1.0};
+      .key = key_of_delay, .unit = deviation, .expected = model.start.loop.delay / deviation, .prior_deviation = 1.0};
 }
 
 }  // namespace
@@ -121,10 +117,10 @@ LineModel model_of_response(const LineFitSetting& setting) {
   constexpr double typical_delay = 0.5;  // sampling periods
   LineModel model{setting.structure.parameters(), {}, {}};
   std::vector<std::string> free = free_parameters(setting.structure, setting.free, setting.locked);
-  if ((setting.frees_lateness || is_named(free, lag_of_lines)) && !is_named(free, delay_of_lines)) {
+  if ((setting.frees_lateness || is_named(free, key_of_lag)) && !is_named(free, key_of_delay)) {
     const double period = setting.response->sampling_period.value_or(model.start.loop.sampling_period);
     if (model.start.loop.delay == 0.0) model.start.loop.delay = typical_delay * period;
-    free.emplace_back(delay_of_lines);
+    free.emplace_back(key_of_delay);
   }
   ParameterFitOptions linear;
   linear.free = free;
@@ -133,11 +129,11 @@ LineModel model_of_response(const LineFitSetting& setting) {
   model.start.uncertainty.reset();
 
   RivalSetting sizes = setting_of_lines(model.start, setting);
-  sizes.frees_lag = setting.frees_lateness || is_named(free, lag_of_lines);
+  sizes.frees_lag = setting.frees_lateness || is_named(free, key_of_lag);
   const TypicalSizes typical{sizes.sampling_period, typical_damping(sizes), sizes.rms_force / sizes.rms_position};
   ModelParts parts;
   for (const std::string& key : free) {
-    if (key != lag_of_lines) parts.numbers.push_back(device_number(key, model.start, typical));
+    if (key != key_of_lag) parts.numbers.push_back(device_number(key, model.start, typical));
   }
   actuator_lag().add(sizes, parts);
   ground_spring().add(sizes, parts);
@@ -163,9 +159,9 @@ LineModel model_of_limits(const LineFitSetting& setting) {
     if (names_none && number.scale != Number::Scale::logarithmic) continue;  // a file that gives 0 means none
     model.numbers.push_back(std::move(number));
   }
-  const bool has_delay = std::ranges::find(model.numbers, delay_of_lines, &Number::key) != model.numbers.end();
+  const bool has_delay = std::ranges::find(model.numbers, key_of_delay, &Number::key) != model.numbers.end();
   if (setting.frees_lateness && model.start.loop.delay == 0.0 && !has_delay) {
-    model.numbers.push_back({.key = delay_of_lines, .unit = model.start.loop.sampling_period, .prior_deviation = 1.0});
+    model.numbers.push_back({.key = key_of_delay, .unit = model.start.loop.sampling_period, .prior_deviation = 1.0});
   }
   fit_lag_as_delay(model);
   return model;

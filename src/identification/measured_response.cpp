@@ -73,22 +73,24 @@ Trust trust_of(const MeasuredStiffness& stiffness) {
 constexpr std::size_t fewest_samples = 16;
 
 void check(std::span<const Recording> recordings, const FrequencyResponseOptions& options) {
-  const auto require = [](bool holds, const std::string& what) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, what);
+  const auto require = [](bool holds, const Problem& problem) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, problem);
   };
   require_valid(find_problem(options));
-  require(!recordings.empty(), "there is no recording; at least one");
+  require(!recordings.empty(), {.code = ProblemCode::no_recording});
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const Recording& each = recordings[r];
-    require(each.channels.size() == 2,
-            fmt::format("the recording has {} channels; two, the force and the motion", each.channels.size()));
+    require(each.channels.size() == 2, {.code = ProblemCode::recording_of_other_channels,
+                                        .evidence = {counted("channels", each.channels.size())}});
     require(std::isfinite(each.sampling_period) && each.sampling_period > 0.0,
-            fmt::format("{}: has a sampling period of {} s; above 0", each.source, each.sampling_period));
+            {.code = ProblemCode::period_not_above_zero,
+             .evidence = {{"value", each.sampling_period}},
+             .subjects = {{"source", each.source}}});
     for (std::size_t before = 0; before < r; ++before) {
       require(each.channels[1].samples.empty() || each.channels[0].samples != recordings[before].channels[0].samples ||
                   each.channels[1].samples != recordings[before].channels[1].samples,
-              fmt::format("{}: holds the same samples as {}; give each recording once", each.source,
-                          recordings[before].source));
+              {.code = ProblemCode::recording_twice,
+               .subjects = {{"source", each.source}, {"other", recordings[before].source}}});
     }
   }
 }

@@ -1,9 +1,11 @@
 #include "identification/motion_search.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "identification/model/number_keys.hpp"
+#include "identification/verdict/profile.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -150,7 +152,7 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
   for (std::size_t i = 0; i < model.numbers().size(); ++i) {
     const std::string& key = model.numbers()[i].key;
     const auto at = static_cast<Eigen::Index>(i);
-    if (key == "friction." + body) x(at) = share;
+    if (key == friction_key(body)) x(at) = share;
     if (key.starts_with("body.") && key.ends_with(".damping")) x(at) *= damping_beside;
   }
   return x;
@@ -159,7 +161,7 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
 bool rubs(const MotionModel& model, const Eigen::VectorXd& z) {
   constexpr double least = 1e-3;  // of the force: less moves no limit
   for (std::size_t i = 0; i < model.numbers().size(); ++i) {
-    if (model.numbers()[i].key.starts_with("friction.") && z(static_cast<Eigen::Index>(i)) > least) return true;
+    if (body_of_friction(model.numbers()[i].key) && z(static_cast<Eigen::Index>(i)) > least) return true;
   }
   return false;
 }
@@ -167,12 +169,9 @@ bool rubs(const MotionModel& model, const Eigen::VectorXd& z) {
 /// Whether numbers of the device differ by more than a quarter of a deviation.
 bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to) {
   constexpr double notable = 0.25;
-  const Eigen::MatrixXd hessian = from.picture.hessian;
-  const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
-  const Eigen::MatrixXd covariance = scaled.ldlt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()));
+  const Eigen::MatrixXd covariance = covariance_of(from.picture.hessian);
   for (Eigen::Index i = 0; i < model.family().of_device(); ++i) {
-    if (std::abs(to.z(i) - from.z(i)) > notable * unit(i) * std::sqrt(std::max(0.0, covariance(i, i)))) return true;
+    if (std::abs(to.z(i) - from.z(i)) > notable * std::sqrt(std::max(0.0, covariance(i, i)))) return true;
   }
   return false;
 }
@@ -199,7 +198,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
-  const DeviceFamily family(start.device, parts.numbers, locked, parts.further_body);
+  const DeviceFamily family(start.device, parts.numbers, locked);
   const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples_whole, {});
   const auto whole_at = [&](int parts_of_period) {
     Whole made;

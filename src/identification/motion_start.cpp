@@ -1,26 +1,23 @@
 #include "identification/motion_start.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "identification/model/device_numbers.hpp"
 #include "identification/response/encoder_step.hpp"
+#include "model/loop_keys.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-constexpr const char* loop_delay = "loop.delay";
-constexpr const char* actuator_lag_key = "actuator.time_constant";
-
 bool holds(const std::vector<std::string>& keys, const char* key) { return std::ranges::count(keys, key) > 0; }
 
 /// A delay that the file gives.
 Number given_delay(const DeviceParameters& device, double period) {
-  return {.key = loop_delay,
+  return {.key = key_of_delay,
           .unit = period,
           .expected = (device.loop.delay + device.actuator.time_constant) / period,
           .prior_deviation = deviation_of_given_delay};
@@ -42,26 +39,25 @@ MotionStart motion_start(std::span<const Recording> recordings, const FrequencyR
   }
   const double period = recordings.front().sampling_period;
   std::vector<std::string> keys = free_parameters(structure, free.keys, free.locked);
-  if (free.lateness && !holds(keys, loop_delay)) keys.emplace_back(loop_delay);
+  if (free.lateness && !holds(keys, key_of_delay)) keys.emplace_back(key_of_delay);
   constexpr double typical_delay = 0.5;  // sampling periods
   if (free.lateness && start.device.loop.delay == 0.0) start.device.loop.delay = typical_delay * period;
   ParameterFitOptions linear{.free = keys, .locked = free.locked};
   // Few lines tell of few numbers: masses come first, and the motion tells the rest.
   const std::size_t most = std::max<std::size_t>(2, response.points.size()) - 1;
-  if (linear.free.size() >= most) std::erase(linear.free, loop_delay);
+  if (linear.free.size() >= most) std::erase(linear.free, key_of_delay);
   if (linear.free.size() > most) linear.free.resize(most);
   if (free.is_start) linear.start = ParameterFitOptions::Start::from_structure;
   start.device = fit_parameters(Device(start.device), response, linear).device.parameters();
   start.device.uncertainty.reset();
 
-  const double highest_hz = response.points.back().frequency / (2.0 * std::numbers::pi);
-  RivalSetting setting = rival_setting(start.device, free.locked, start.records, highest_hz);
-  setting.frees_lag = free.lateness || holds(keys, actuator_lag_key);
+  RivalSetting setting = rival_setting(start.device, free.locked, start.records);
+  setting.frees_lag = free.lateness || holds(keys, key_of_lag);
   const TypicalSizes typical{period, typical_damping(setting), setting.rms_force / setting.rms_position};
   for (const std::string& key : keys) {
-    if (key != actuator_lag_key) start.parts.numbers.push_back(device_number(key, start.device, typical));
+    if (key != key_of_lag) start.parts.numbers.push_back(device_number(key, start.device, typical));
   }
-  if (!holds(keys, loop_delay)) start.parts.numbers.push_back(given_delay(structure.parameters(), period));
+  if (!holds(keys, key_of_delay)) start.parts.numbers.push_back(given_delay(structure.parameters(), period));
   start.rivals = add_rivals(setting, start.parts);
   return start;
 }

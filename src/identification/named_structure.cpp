@@ -24,7 +24,7 @@ bool names_structure(std::string_view name) { return bodies_by_name().contains(n
 std::optional<OptionProblem> find_problem(const NamedStructureOptions& options) {
   constexpr const char* member = "sampling_period";
   if (!options.sampling_period && !options.record_period) {
-    return OptionProblem{member, "missing", "the table has none, and the loop to judge needs one, in seconds"};
+    return option_problem(member, {.code = ProblemCode::no_period_of_table});
   }
   for (const std::optional<double>& each : {options.sampling_period, options.record_period}) {
     if (!each) continue;

@@ -16,7 +16,7 @@ FrequencyResponse band_of(const FrequencyResponse& response, const ParameterFitO
            (options.highest && point.frequency > *options.highest);
   });
   if (band.points.empty() && !response.points.empty())
-    refuse_member(options.lowest ? "fit.lowest" : "fit.highest", "leaves no line of the response", "widen the band");
+    refuse_member(options.lowest ? "fit.lowest" : "fit.highest", {.code = ProblemCode::band_leaves_no_line});
   return band;
 }
 
@@ -45,12 +45,6 @@ void compare_with_response(ParameterFit& fit, const FrequencyResponse& response,
   const auto middle = beyond_noise.begin() + count / 2;
   std::ranges::nth_element(beyond_noise, middle);
   fit.model_error = std::sqrt(std::max(0.0, *middle));
-}
-
-Omnibus omnibus_of_lines(const FittedByLines& fitted) {
-  Omnibus left;
-  left.p = fitted.chi_squared_of_bands;
-  return left;
 }
 
 }  // namespace zwidth::internal

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "identification/line_fit.hpp"
-#include "identification/verdict/omnibus.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/signal/frequency_response.hpp"
 
@@ -14,8 +12,5 @@ namespace zwidth::internal {
 ///
 ///     misfit^2 = mean |r_k|^2 / variance_k,    model_error^2 = median (|r_k|^2 - variance_k) / |H_k|^2, 0 at least
 void compare_with_response(ParameterFit& fit, const FrequencyResponse& response, const ParameterFitOptions& options);
-
-/// The test of bands of lines as an omnibus test: what is left follows the force.
-[[nodiscard]] Omnibus omnibus_of_lines(const FittedByLines& fitted);
 
 }  // namespace zwidth::internal

@@ -13,8 +13,8 @@ namespace zwidth::internal {
 
 constexpr double many_periods = 20.0;  ///< of delay or lag: few drives are as slow
 
-/// A sampling period of a haptic loop lies between a microsecond and a tenth of a second. `whose`: the
-/// remark's first words; empty for the device's.
+/// A sampling period of a haptic loop lies between a microsecond and a tenth of a second. `whose`:
+/// "recording", "structure"; empty for the device's.
 [[nodiscard]] std::optional<Remark> implausible_period(double period, const std::string& whose);
 
 /// Delay and lag beside a period: the device's own, or the recording's.

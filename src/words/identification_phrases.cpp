@@ -15,8 +15,7 @@ std::span<const Phrase> identification_phrases() {
       "before it slides}{?rival=stiffening_spring|a spring that stiffens}{?rival=actuator_lag|a lag of the "
       "actuator}{?rival=ground_spring|a spring to the "
       "ground}{?rival=drive_saturation|a drive that saturates}{?rival=drive_dead_band|a dead band of the "
-      "drive}{?rival=cogging|cogging}{?rival=constant_force|a constant force}{?rival=further_body|a further body} "
-      "({parameter}), within which it is {with_lower} to {with_upper}}";
+      "drive}{?rival=constant_force|a constant force} ({parameter}), within which it is {with_lower} to {with_upper}}";
   static constexpr const char* record_against_rival =
       "{?rival=coulomb_friction|record at a second, larger amplitude}{?rival=drag|record at a second amplitude}"
       "{?rival=damping_drift|record the device when it is warm}"
@@ -24,21 +23,14 @@ std::span<const Phrase> identification_phrases() {
       "motion}{?rival=stiffening_spring|record at a second amplitude}{?rival=actuator_lag|excite higher "
       "frequencies}{?rival=ground_spring|excite lower frequencies}"
       "{?rival=drive_saturation|record with less force}{?rival=drive_dead_band|record with more force}"
-      "{?rival=cogging|record larger motion}{?rival=constant_force|record for longer}{?rival=further_body|excite "
-      "higher "
-      "frequencies}{!rival|excite more strongly or for longer{?delay_within_ms|, and at higher frequencies}}";
+      "{?rival=constant_force|record for longer}"
+      "{!rival|excite more strongly or for longer{?delay_within_ms|, and at higher frequencies}}";
   static constexpr std::array phrases{
       Phrase{motion_against_force, "motion_against_force", refusal,
              "the position falls as the force rises: scale one of them by -1"},
       Phrase{nothing_determined, "nothing_determined", refusal,
              "the {?by=record|record determines}{?by=recordings|recordings determine} no parameter of the structure",
              "", "free fewer, or excite more strongly"},
-      Phrase{numbers_undetermined, "numbers_undetermined", doubt,
-             "the data do not determine {keys}: taken as they stand in the "
-             "{?taken_from=structure|structure}{?taken_from=start|start of the search}"},
-      Phrase{number_is_placeholder, "number_is_placeholder", warning,
-             "{key} = {value:.4g} is a placeholder: the data do not determine it",
-             "give what is known, or a device file as the structure"},
       Phrase{parameter_unidentifiable, "parameter_unidentifiable", warning, "the response says nothing about {key}",
              "it stays near the structure's value, without an interval"},
       Phrase{only_combination_identifiable, "only_combination_identifiable", warning,
@@ -47,12 +39,16 @@ std::span<const Phrase> identification_phrases() {
       Phrase{parameter_hardly_determined, "parameter_hardly_determined", warning,
              "{key} is known to {relative_deviation:percent} only (one standard deviation)",
              "the data hardly determine it"},
-      Phrase{fitted_too, "fitted_too", note,
-             "{key} is fitted too: {?given|the record shows another than the structure's {given:.4g} s}{!given|the "
-             "record is explained better with it}"},
       Phrase{search_stopped, "search_stopped", doubt,
-             "the search for the parameters was stopped while it still improved", "",
-             "free fewer parameters, or start from values that are nearly right"},
+             "the search for the parameters was stopped while its steps still moved the critical stiffness by "
+             "{moved:percent}",
+             "the interval may be too narrow", "free fewer parameters, or start from values that are nearly right"},
+      Phrase{motion_tells_no_limit, "motion_tells_no_limit", doubt,
+             "the motion tells of no critical stiffness: friction and drag explain its damping, or no device of the "
+             "structure plays it",
+             "the answer is that of the lines of its response, which take friction and drag for damping; that of small "
+             "motion may be lower",
+             "record at several times the force and give both, or free fewer parameters"},
       Phrase{limit_outside_band, "limit_outside_band", doubt,
              "the crossover that limits, near {frequency:.4g} Hz, lies {side} the measured band, {lowest:.4g} to "
              "{highest:.4g} Hz: {?side=above|delay, lag and modes there are not in the data; excite higher "
@@ -74,10 +70,6 @@ std::span<const Phrase> identification_phrases() {
           "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
           "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}{?kind=given|free {number}, or "
           "measure it}"},
-      Phrase{lag_beyond_drives, "lag_beyond_drives", doubt,
-             "the actuator's lag comes out as {lag:.4g} s, {periods:.3g} sampling periods: it was probably exchanged "
-             "with the time that a body's mass takes on its damping, or friction or a spring hides it",
-             "", "name what is free without the lag"},
       Phrase{fitted_late_beyond_drives, "fitted_late_beyond_drives", warning,
              "delay and lag come to {late:.4g} s, {periods:.3g} sampling periods", "few drives are as slow as that",
              "are force and motion of the same instant, and the time in seconds? Else, is it in {likely_unit}? It must "

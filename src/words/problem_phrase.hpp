@@ -26,6 +26,9 @@ struct ProblemPhrase {
 // Of studies in files.
 [[nodiscard]] std::span<const ProblemPhrase> study_file_problem_phrases();
 
+// Of responses and of what a device is identified from.
+[[nodiscard]] std::span<const ProblemPhrase> identification_problem_phrases();
+
 // Of models and designs.
 [[nodiscard]] std::span<const ProblemPhrase> model_problem_phrases();
 

@@ -396,8 +396,9 @@ std::span<const ProblemPhrase> option_problem_phrases() {
 
 std::span<const std::span<const ProblemPhrase>> problem_phrases() {
   static const std::array all{
-      option_problem_phrases(),  device_file_problem_phrases(), recording_problem_phrases(),
-      mat_uff_problem_phrases(), study_file_problem_phrases(),  model_problem_phrases(),
+      option_problem_phrases(),         device_file_problem_phrases(), recording_problem_phrases(),
+      mat_uff_problem_phrases(),        study_file_problem_phrases(),  model_problem_phrases(),
+      identification_problem_phrases(),
   };
   return all;
 }

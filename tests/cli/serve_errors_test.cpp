@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "cli/served.hpp"
 
@@ -164,6 +165,32 @@ TEST_F(ServedErrors, AnErrorSaysWhatWasGivenAndWhatIsAllowed) {
   // Of a device that came as JSON there are no lines.
   const HttpAnswer of_json = post("analyze", R"({"device":{"body":[{"name":"b","mass":-1}]}})");
   EXPECT_FALSE(json::parse(of_json.body).at("error").contains("line")) << of_json.body;
+}
+
+TEST_F(ServedErrors, AMeasuredLimitIsRefusedByItsCode) {
+  const std::string device = contents("devices/lhifam.toml");
+  const auto error_of = [&](const char* limit) {
+    const json request{{"device_toml", device}, {"options", {{"limit", limit}}}};
+    const HttpAnswer answer = post("identify", request.dump());
+    EXPECT_EQ(answer.status, 400) << limit;
+    return json::parse(answer.body).at("error");
+  };
+  for (const auto& [limit, code] : {std::pair{"B=0, hz=40", "limit_without_stiffness"},
+                                    {"K=0", "not_finite_and_positive"},
+                                    {"K=3, B=-1", "negative"},
+                                    {"K=3, hz=0", "not_finite_and_positive"},
+                                    {"K=3, K=4", "limit_number_twice"},
+                                    {"K=3,5", "limit_part_without_value"},
+                                    {"K=3, stifness=4", "no_number_of_limit"},
+                                    {"K=3 kg", "unit_of_other_measure"},
+                                    {"K=3 N m/rad", "unit_of_other_measure"}}) {
+    const json error = error_of(limit);
+    EXPECT_EQ(error.at("code"), code) << limit << error;
+    EXPECT_EQ(error.at("place").at("option"), "limit") << limit << error;
+  }
+  EXPECT_EQ(error_of("K=3, stifness=4").at("suggestion"), "K");
+  EXPECT_EQ(error_of("K=3, frequency=40").at("suggestion"), "hz");
+  EXPECT_EQ(error_of("K=3, other=40").at("suggestion"), nullptr);
 }
 
 TEST_F(ServedErrors, AnErrorHasItsPlaceAndAllProblemsAsFields) {

@@ -199,7 +199,8 @@ TEST(FrequencyResponse, VelocityAndAccelerationBecomePosition) {
       EXPECT_LT(std::abs(point.value - std::polar(2.0, -0.3)), 1e-8);
     }
     EXPECT_TRUE(std::any_of(response.remarks.begin(), response.remarks.end(), [](const Remark& remark) {
-      return remark.what.find("turned into a position") != std::string::npos;
+      return remark.finding && (remark.finding->code == FindingCode::velocity_integrated ||
+                                remark.finding->code == FindingCode::acceleration_integrated);
     }));
   }
 }
@@ -218,7 +219,8 @@ TEST(FrequencyResponse, SaysThatTheTransientHasNotDiedOut) {
   const auto record = test::synthetic_record(device, test::multisine(1.0, 200.0, 40.0, 20), {1e-7, 0.0, 0.0}, 3);
   const auto response = frequency_response(record.force, record.position, period, over_periods(record.period, 1));
   EXPECT_TRUE(std::any_of(response.remarks.begin(), response.remarks.end(), [](const Remark& remark) {
-    return remark.severity == Remark::Severity::warning && remark.what.find("transient") != std::string::npos;
+    return remark.severity == Remark::Severity::warning && remark.finding &&
+           remark.finding->code == FindingCode::transient_in_periods;
   }));
 }
 

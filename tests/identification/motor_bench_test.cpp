@@ -1,5 +1,10 @@
-// A bench that nobody here made: a motor and a load on a spring, with backlash and friction. Expected values are those read off the
+// A bench that nobody here made: a motor and a load on a spring, with backlash and friction. Modes and ratio are those read off the
 // raw data by the record's authors and by others (README of the recordings).
+//
+// Its limit: between its lines at 81 and 82 Hz the phase passes -180 degrees at 301.7 A/rad. No line there is that sure: they scatter
+// by 4 % and 3 degrees about any smooth response, alike in each period, as friction and backlash make it, and the phase falls by 3 degrees
+// a hertz. Complex polynomials of degree 1 to 4 through 1/P and the lines around pass at 79.5 to 80.5 Hz, 220 to 272 A/rad, each within
+// 12 to 20 %. An honest interval holds both.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,15 +54,17 @@ class MotorBench : public testing::Test {
     return made;
   }
 
-  /// Not sound beside the truth.
+  /// No structure of linear bodies explains it: a doubt, whose interval holds what the response alone shows.
   static void expect_honest(const Identification& found) {
+    EXPECT_EQ(found.trust.verdict, Trust::Verdict::doubtful);
     ASSERT_TRUE(found.analysis.interval.has_value());
-    const bool holds = found.analysis.interval->lower <= known_limit && known_limit <= found.analysis.interval->upper;
-    EXPECT_TRUE(holds || !found.trust.sound())
-        << found.analysis.interval->lower << " to " << found.analysis.interval->upper;
+    EXPECT_LE(found.analysis.interval->lower, smooth_limit);
+    EXPECT_GE(found.analysis.interval->upper, known_limit);
+    EXPECT_NEAR(found.analysis.critical.stiffness, smooth_limit, 26.0);
   }
 
-  static constexpr double known_limit = 301.7;  // A/rad
+  static constexpr double smooth_limit = 246.0;  // A/rad, the middle of what smooth curves through the lines show
+  static constexpr double known_limit = 301.7;   // A/rad
   Recording recording_;
 };
 

@@ -21,6 +21,12 @@ namespace {
 struct RecordedBody {
   double cubic_spring = 0.0;  ///< N/m^3
   double tip_mass = 0.0;      ///< kg, on a spring that lets it swing at 60 Hz
+  double controller = 0.0;    ///< N/m: the force is less by so much of the read position
+};
+
+struct RecordedMotion {
+  std::vector<double> force;
+  std::vector<double> position;
 };
 
 constexpr double record_period = 1e-3;  // s
@@ -38,7 +44,7 @@ std::vector<double> sweep() {
 }
 
 /// By fine steps; with 1e-5 m of white noise.
-std::vector<double> positions_of(const RecordedBody& body, const std::vector<double>& force, unsigned seed) {
+RecordedMotion recorded(const RecordedBody& body, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> noise(0.0, 1e-5);
   constexpr int parts = 100;
@@ -50,9 +56,10 @@ std::vector<double> positions_of(const RecordedBody& body, const std::vector<dou
   double v = 0.0;
   double tip_x = 0.0;
   double tip_v = 0.0;
-  std::vector<double> positions;
-  for (const double each : force) {
-    positions.push_back(x + noise(random));
+  RecordedMotion record{sweep(), {}};
+  for (double& each : record.force) {
+    record.position.push_back(x + noise(random));
+    each -= body.controller * record.position.back();
     for (int part = 0; part < parts; ++part) {
       x += 0.5 * step * v;
       tip_x += 0.5 * step * tip_v;
@@ -63,13 +70,12 @@ std::vector<double> positions_of(const RecordedBody& body, const std::vector<dou
       tip_x += 0.5 * step * tip_v;
     }
   }
-  return positions;
+  return record;
 }
 
 /// What a rigid body leaves of the record.
 std::optional<Omnibus> left_by_rigid_body(const RecordedBody& body, unsigned seed) {
-  const std::vector<double> force = sweep();
-  const std::vector<double> position = positions_of(body, force, seed);
+  const auto [force, position] = recorded(body, seed);
   DeviceParameters start;
   start.name = "rigid";
   start.bodies = {{.name = "motor", .mass = 0.22, .damping = 1.1}};
@@ -106,6 +112,21 @@ TEST(Omnibus, HoldsWhereTheModelIsRight) {
     EXPECT_GT(found->p, 1e-3) << seed;
     EXPECT_EQ(found->parts.size(), 2U) << seed;
   }
+}
+
+// The controller's force follows the noise of the position that it reads, and of none before.
+TEST(Omnibus, HoldsInFeedback) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const auto found = left_by_rigid_body({.controller = 500.0}, seed);
+    ASSERT_TRUE(found) << seed;
+    EXPECT_GT(found->p, 1e-3) << seed;
+  }
+}
+
+TEST(Omnibus, FindsAMissingModeInFeedback) {
+  const auto found = left_by_rigid_body({.tip_mass = 0.02, .controller = 500.0}, 1);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->p, Calibration::least_p);
 }
 
 TEST(Omnibus, FindsACubicSpring) {

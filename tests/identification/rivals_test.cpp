@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -56,28 +55,14 @@ ModelParts numbers_of(const DeviceParameters& device, bool with_delay) {
 }
 
 MotionModel model_of(const DeviceParameters& device, const ModelParts& parts, const RivalsRecord& record, int steps) {
-  return {DeviceFamily(device, parts.numbers, {}, parts.further_body), parts.terms, {record.record()}, steps};
+  return {DeviceFamily(device, parts.numbers, {}), parts.terms, {record.record()}, steps};
 }
 
 RivalSetting setting_of(const DeviceParameters& device, const RivalsRecord& record) {
   const std::vector<ForceMotionRecord> records = {record.record()};
-  constexpr double highest = 60.0;
-  RivalSetting setting = rival_setting(device, {}, records, highest);
+  RivalSetting setting = rival_setting(device, {}, records);
   setting.frees_lag = true;
-  setting.cogging_per_turn = 14.0;
   return setting;
-}
-
-/// The catalogue, and what is written but not yet in it.
-std::vector<Rival> all_rivals() {
-  std::vector<Rival> all(rivals().begin(), rivals().end());
-  all.push_back(further_body());
-  return all;
-}
-
-void add_all(const RivalSetting& setting, ModelParts& parts) {
-  further_body().add(setting, parts);  // its numbers belong among the device's, which add_rivals() puts first
-  add_rivals(setting, parts);
 }
 
 const Segment whole{0, 0, 150};
@@ -96,8 +81,8 @@ TEST(Rivals, CodesAndNumbersAreDistinct) {
   ModelParts parts = numbers_of(device, true);
   const std::vector<AddedRival> added = add_rivals(setting_of(device, record), parts);
   std::set<std::string_view> codes;
-  for (const Rival& rival : all_rivals()) codes.insert(rival.code);
-  EXPECT_EQ(codes.size(), all_rivals().size());
+  for (const Rival& rival : rivals()) codes.insert(rival.code);
+  EXPECT_EQ(codes.size(), rivals().size());
   EXPECT_EQ(added.size(), rivals().size());  // all apply to this device
   std::set<std::string> keys;
   for (const Number& number : parts.numbers) keys.insert(number.key);
@@ -105,14 +90,10 @@ TEST(Rivals, CodesAndNumbersAreDistinct) {
   for (const AddedRival& rival : added) {
     for (const std::string& key : rival.keys) EXPECT_TRUE(parts.has(key)) << key;
   }
-  // those of the device first: 6 and its delay, lag and spring; three of a further body; its drifts behind them
+  // those of the device first: 6 and its delay, lag and spring; its drifts behind them
   EXPECT_EQ(DeviceFamily(device, parts.numbers, {}).of_device(), 9);
   EXPECT_EQ(DeviceFamily(device, parts.numbers, {}).of_limit(), 11);
-  ModelParts more = numbers_of(device, true);
-  add_all(setting_of(device, record), more);
-  const DeviceFamily family(device, more.numbers, {}, more.further_body);
-  EXPECT_EQ(family.of_device(), 12);
-  for (std::size_t i = 12; i < more.numbers.size(); ++i) EXPECT_FALSE(parameter(device, more.numbers[i].key));
+  for (std::size_t i = 9; i < parts.numbers.size(); ++i) EXPECT_FALSE(parameter(device, parts.numbers[i].key));
 }
 
 TEST(Rivals, SettingRulesSomeOut) {
@@ -126,9 +107,7 @@ TEST(Rivals, SettingRulesSomeOut) {
   ModelParts parts = numbers_of(device, false);
   std::set<std::string_view> codes;
   for (const AddedRival& rival : add_rivals(setting, parts)) codes.insert(rival.code);
-  further_body().add(setting, parts);
-  EXPECT_FALSE(parts.further_body);
-  for (const char* absent : {"cogging", "ground_spring", "actuator_lag"}) {
+  for (const char* absent : {"ground_spring", "actuator_lag"}) {
     EXPECT_FALSE(codes.contains(absent)) << absent;
   }
   EXPECT_TRUE(parts.has("friction.motor"));
@@ -164,32 +143,6 @@ TEST(Rivals, DeviceDriftsWhileItIsRecorded) {
   set("delay_drift", -0.4e-3);
   EXPECT_DOUBLE_EQ(family.device_at(x, 1.0).loop.delay, 0.0);
   EXPECT_GE(family.device_at(x, 1.0).actuator.time_constant, 0.0);
-}
-
-/// A further body takes its mass from the one it hangs on, and is none for a limit where it is next to none.
-TEST(Rivals, FurtherBodyKeepsTheMass) {
-  const RivalsRecord record(200);
-  const DeviceParameters device = motor_and_handle();
-  ModelParts parts = numbers_of(device, false);
-  further_body().add(setting_of(device, record), parts);
-  const DeviceFamily family(device, parts.numbers, {}, parts.further_body);
-  Eigen::VectorXd x = family.coordinates_of(device);
-  const Eigen::Index ratio =
-      std::ranges::find(parts.numbers, parts.further_body->mass_ratio, &Number::key) - parts.numbers.begin();
-  x(ratio) = 0.25;
-  const DeviceParameters with = family.device_at(x);
-  ASSERT_EQ(with.bodies.size(), 3U);
-  EXPECT_DOUBLE_EQ(with.bodies[1].mass, 0.08);
-  EXPECT_DOUBLE_EQ(with.bodies[2].mass, 0.02);
-  constexpr double frequency = 180.0;  // Hz: three times the highest
-  EXPECT_DOUBLE_EQ(std::sqrt(with.links[1].stiffness / 0.02), 2.0 * std::numbers::pi * frequency);
-  EXPECT_DOUBLE_EQ(with.links[1].damping / (2.0 * std::sqrt(with.links[1].stiffness * 0.02)), 0.01);
-  EXPECT_EQ(with.links[1].first, 1U);
-  x(ratio) = 0.0;
-  EXPECT_EQ(family.device_at(x).bodies.size(), 2U);
-  EXPECT_TRUE(family.has_device_at(x));
-  x(ratio + 2) = -80.0;  // a damping below all bounds: no device, and nothing throws
-  EXPECT_FALSE(family.has_device_at(x));
 }
 
 TEST(Rivals, PriorsAreOfTheRecord) {
@@ -262,7 +215,7 @@ TEST(Rivals, NoneAtTheirNullValue) {
   ModelParts parts = alone;
   RivalSetting setting = setting_of(device, record);
   setting.frees_lag = false;  // a lag is never quite 0 (Number::least_square)
-  add_all(setting, parts);
+  add_rivals(setting, parts);
   const MotionModel linear = model_of(device, alone, record, 1);
   const MotionModel full = model_of(device, parts, record, 4);
   Eigen::VectorXd x = full.family().coordinates_of(device);
@@ -282,11 +235,10 @@ TEST(Rivals, NoneAtTheirNullValue) {
 TEST(Rivals, SlopesOfMotionAreDifferences) {
   const RivalsRecord record(200);
   const DeviceParameters device = motor_and_handle();
-  for (const Rival& rival : all_rivals()) {
+  for (const Rival& rival : rivals()) {
     SCOPED_TRACE(rival.code);
     ModelParts parts = numbers_of(device, true);
-    RivalSetting setting = setting_of(device, record);
-    setting.highest_frequency = 15.0;  // a further body near the lines of the force, which move it
+    const RivalSetting setting = setting_of(device, record);
     if (rival.code == "presliding") coulomb_friction().add(setting, parts);  // which it bends
     const std::size_t before = parts.numbers.size();
     rival.add(setting, parts);

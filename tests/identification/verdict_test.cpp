@@ -68,6 +68,31 @@ TEST(Verdict, DoubtsWhatStandsOut) {
   EXPECT_EQ(outstanding.findings[0].code, FindingCode::residual_stands_out);
 }
 
+// The interval is 0.41 wide by its logarithm.
+TEST(Verdict, DoubtsASearchThatWasStoppedOnItsWay) {
+  FittedLikelihood fit = narrow_fit();
+  fit.last_change = 0.019;
+  EXPECT_TRUE(verdict_of(fit).trust.sound());
+  fit.last_change = 0.022;
+  const Trust stopped = verdict_of(fit).trust;
+  EXPECT_EQ(stopped.verdict, Trust::Verdict::doubtful);
+  ASSERT_EQ(stopped.findings.size(), 1U);
+  EXPECT_EQ(stopped.findings[0].code, FindingCode::search_stopped);
+  EXPECT_EQ(stopped.findings[0].evidence.at(0).name, "moved");
+  EXPECT_NEAR(stopped.findings[0].evidence.at(0).value, 0.0222, 1e-4);
+}
+
+TEST(Verdict, DoubtsLinesWhereTheMotionTellsOfNoLimit) {
+  FittedLikelihood fit = narrow_fit();
+  EXPECT_TRUE(is_explained(fit));
+  fit.motion_tells_none = true;
+  EXPECT_FALSE(is_explained(fit));
+  const Trust doubted = verdict_of(fit).trust;
+  EXPECT_EQ(doubted.verdict, Trust::Verdict::doubtful);
+  ASSERT_EQ(doubted.findings.size(), 1U);
+  EXPECT_EQ(doubted.findings[0].code, FindingCode::motion_tells_no_limit);
+}
+
 TEST(Verdict, RefusesWhatHasNoLimitOrContradictsItself) {
   FittedLikelihood fit = narrow_fit();
   fit.limit.reset();

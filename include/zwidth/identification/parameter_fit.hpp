@@ -68,11 +68,10 @@ struct ParameterFit {
   /// What the structure leaves unexplained beyond the noise, as a share of |P_i|: e in variance_i + e^2 |P_i|^2. 0
   /// where the noise explains the residuals.
   double model_error = 0.0;
-  std::optional<double> stiffness_without_hold{};  ///< always absent: every fit counts all points alike
-  std::vector<double> frequencies{};               ///< of the points used, rad/s
-  std::vector<std::complex<double>> fitted{};      ///< the model there
-  std::vector<std::complex<double>> residuals{};   ///< measured - fitted
-  std::vector<Remark> remarks{};                   ///< of what the data leave open
+  std::vector<double> frequencies{};              ///< of the points used, rad/s
+  std::vector<std::complex<double>> fitted{};     ///< the model there
+  std::vector<std::complex<double>> residuals{};  ///< measured - fitted
+  std::vector<Remark> remarks{};                  ///< of what the data leave open
   bool settled = true;  ///< the search came to rest; false: it was stopped while still improving
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "counted.hpp"
 #include "identification/crossover/band_beginning.hpp"
@@ -31,8 +32,8 @@ std::vector<Evidence> band_evidence(const Interval& band) {
   return {{"from", hertz(band.lower)}, {"to", hertz(band.upper)}};
 }
 
-/// The first few, and how many more.
-std::string bands_text(const std::vector<Interval>& bands) {
+/// The first few bands in words, how many more there are and how far they reach.
+void name_bands(const std::vector<Interval>& bands, Finding& finding) {
   constexpr std::size_t most = 3;
   std::string text;
   double highest = 0.0;
@@ -40,8 +41,10 @@ std::string bands_text(const std::vector<Interval>& bands) {
     highest = std::max(highest, bands[i].upper);
     if (i < most) text += (i == 0 ? "" : ", ") + band_text(bands[i]);
   }
-  if (bands.size() <= most) return text;
-  return fmt::format("{}, and in {} more bands up to {:.4g} Hz", text, bands.size() - most, hertz(highest));
+  finding.subjects.push_back({"where", std::move(text)});
+  if (bands.size() <= most) return;
+  finding.evidence.push_back(counted("more", bands.size() - most));
+  finding.evidence.push_back({"up_to", hertz(highest), "Hz"});
 }
 
 /// A phase farther above 0 than this is no sensor's or noise's lead: it has come from below.
@@ -264,10 +267,11 @@ void judge(MeasuredStiffness& result, const Findings& findings, std::span<const 
   }
   if (result.doubtful_bands.empty()) return;
   result.status = MeasuredStiffnessStatus::undetermined;
-  warn(result,
-       {.code = result.limit ? FindingCode::noise_may_hide_softer_crossover : FindingCode::noise_hides_crossover,
-        .evidence = {counted("bands", result.doubtful_bands.size())},
-        .subjects = {{"where", bands_text(result.doubtful_bands)}}});
+  Finding hidden{
+      .code = result.limit ? FindingCode::noise_may_hide_softer_crossover : FindingCode::noise_hides_crossover,
+      .evidence = {counted("bands", result.doubtful_bands.size())}};
+  name_bands(result.doubtful_bands, hidden);
+  warn(result, std::move(hidden));
 }
 
 /// Resonances that stand between lines too far apart to show them.
@@ -318,12 +322,11 @@ void remark_gaps(MeasuredStiffness& result, std::span<const PhaseLine> lines) {
 
 MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
   if (!response.sampling_period) {
-    throw Error(ErrorCode::invalid_argument,
-                "the critical stiffness of a continuous response; one of the sampled plant (give its sampling period)");
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::response_is_continuous});
   }
   if (response.points.size() < 2) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("the critical stiffness from {} lines; at least 2", response.points.size()));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::response_of_few_lines,
+                                              .evidence = {counted("lines", response.points.size()), {"least", 2.0}}});
   }
   MeasuredStiffness result;
   const std::vector<PhaseLine> all_lines = phase_lines(response);

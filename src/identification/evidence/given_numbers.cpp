@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "identification/evidence/difference_slopes.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 
 GivenNumbers::GivenNumbers(const DeviceFamily& family, const DeviceParameters& file, const Uncertainty& uncertainty)
-    : family_(family), keys_(uncertainty.parameters), values_(values_of(file)) {
+    : SquaresOfNumbers(family), keys_(uncertainty.parameters), values_(values_of(file)) {
   constexpr double no_width = 1e-9;  // of a correlation matrix's eigenvalues
   const Eigen::Index count = values_.size();
   Eigen::MatrixXd covariance(count, count);
@@ -37,28 +36,9 @@ Eigen::VectorXd GivenNumbers::values_of(const DeviceParameters& device) const {
 }
 
 std::optional<Eigen::VectorXd> GivenNumbers::residuals(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd left = whitening_ * (values_of(family_.device_at(x)) - values_);
+  Eigen::VectorXd left = whitening_ * (values_of(family().device_at(x)) - values_);
   if (!left.allFinite()) return std::nullopt;
   return left;
-}
-
-std::optional<double> GivenNumbers::cost(const Eigen::VectorXd& x, const Eigen::VectorXd& /*own*/) const {
-  const auto left = residuals(x);
-  if (!left) return std::nullopt;
-  return 0.5 * left->squaredNorm();
-}
-
-bool GivenNumbers::add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& /*own*/, Eigen::Index /*at*/,
-                               Picture& sum) const {
-  const auto left = residuals(x);
-  if (!left) return false;
-  const auto slopes =
-      difference_slopes(family_, x, *left, [&](const Eigen::VectorXd& moved) { return residuals(moved); });
-  if (!slopes) return false;
-  sum.cost += 0.5 * left->squaredNorm();
-  sum.gradient.head(x.size()) += slopes->transpose() * *left;
-  sum.hessian.topLeftCorner(x.size(), x.size()) += slopes->transpose() * *slopes;
-  return true;
 }
 
 }  // namespace zwidth::internal

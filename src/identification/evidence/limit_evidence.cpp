@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/evidence/difference_slopes.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -31,10 +30,10 @@ std::optional<Crossover> crossover_of(const CriticalStiffness& critical, const M
 }  // namespace
 
 LimitEvidence::LimitEvidence(const DeviceFamily& family, std::vector<MeasuredLimit> limits)
-    : family_(family), limits_(std::move(limits)) {}
+    : SquaresOfNumbers(family), limits_(std::move(limits)) {}
 
 std::optional<Eigen::VectorXd> LimitEvidence::residuals(const Eigen::VectorXd& x) const try {
-  const Device device(family_.device_at(x));
+  const Device device(family().device_at(x));
   const FilteredPlant plant = filtered_plant(device);
   VirtualDamper damper = virtual_damper(device);
   Eigen::VectorXd left = Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(limits_.size()));
@@ -53,25 +52,6 @@ std::optional<Eigen::VectorXd> LimitEvidence::residuals(const Eigen::VectorXd& x
   return left;
 } catch (const Error&) {
   return std::nullopt;
-}
-
-std::optional<double> LimitEvidence::cost(const Eigen::VectorXd& x, const Eigen::VectorXd& /*own*/) const {
-  const auto left = residuals(x);
-  if (!left) return std::nullopt;
-  return 0.5 * left->squaredNorm();
-}
-
-bool LimitEvidence::add_picture(const Eigen::VectorXd& x, const Eigen::VectorXd& /*own*/, Eigen::Index /*at*/,
-                                Picture& sum) const {
-  const auto left = residuals(x);
-  if (!left) return false;
-  const auto slopes =
-      difference_slopes(family_, x, *left, [&](const Eigen::VectorXd& moved) { return residuals(moved); });
-  if (!slopes) return false;
-  sum.cost += 0.5 * left->squaredNorm();
-  sum.gradient.head(x.size()) += slopes->transpose() * *left;
-  sum.hessian.topLeftCorner(x.size(), x.size()) += slopes->transpose() * *slopes;
-  return true;
 }
 
 }  // namespace zwidth::internal

@@ -143,8 +143,8 @@ void add_relay(Excitation& excitation, std::size_t size) {
     excitation.samples[k] = k / half % 2 == 0 ? options.amplitude : -options.amplitude;
   }
   excitation.period = 2 * half;
-  remark_rounding(excitation, "the relay's frequency", options.lowest_hz,
-                  excitation.rate / static_cast<double>(excitation.period), "Hz");
+  remark_rounding(excitation, "frequency", options.lowest_hz, excitation.rate / static_cast<double>(excitation.period),
+                  "Hz");
 }
 
 void scale_to_peak(std::vector<double>& samples, double amplitude) {
@@ -191,7 +191,7 @@ Excitation made(const ExcitationOptions& options, double rate) {
   fade(excitation);
   excitation.crest = crest_factor(excitation.samples);
   const double duration = static_cast<double>(excitation.samples.size()) / rate;
-  remark_rounding(excitation, "the duration", options.duration, duration, "s");
+  remark_rounding(excitation, "duration", options.duration, duration, "s");
   if (duration * options.lowest_hz < 1.0) {
     excitation.remarks.push_back(warning({.code = FindingCode::excitation_shorter_than_cycle,
                                           .evidence = {{"duration", duration}, {"frequency", options.lowest_hz}}}));

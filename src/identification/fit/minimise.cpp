@@ -32,6 +32,7 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
       std::optional<Picture> picture = problem.picture(there);
       if (!picture) return std::nullopt;
       found.z = there;
+      found.last_step = move;
       found.picture = *std::move(picture);
       damping = std::max(1e-10, damping * std::max(0.1, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
       growth = 2.0;

@@ -16,6 +16,7 @@ struct Minimum {
   Eigen::VectorXd z;
   Picture picture;  ///< there
   bool settled = false;
+  Eigen::VectorXd last_step = {};  ///< empty where none was made
 };
 
 /// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.

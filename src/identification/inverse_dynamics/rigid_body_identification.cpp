@@ -14,7 +14,9 @@
 #include "counted.hpp"
 #include "identification/device_file_trust.hpp"
 #include "identification/response/plausibility.hpp"
+#include "identification/verdict/plausible_device.hpp"
 #include "identification/verdict/verdict.hpp"
+#include "model/loop_keys.hpp"
 #include "model/option_beyond.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
@@ -28,8 +30,6 @@
 namespace zwidth {
 using namespace internal;
 namespace {
-
-constexpr const char* loop_delay_key = "loop.delay";
 
 /// What of the fit is the device's, in the order of estimates(): all but the offset; its delay is later than a hold's.
 struct LaterBody {
@@ -80,7 +80,7 @@ DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& opti
   std::vector<Eigen::Index> rows;
   for (const Place& place :
        {Place{"body.body.mass", &body.mass, 0}, Place{"body.body.damping", &body.damping, 1},
-        Place{"body.body.coulomb", &body.coulomb, 2}, Place{loop_delay_key, &parameters.loop.delay, delay_row}}) {
+        Place{"body.body.coulomb", &body.coulomb, 2}, Place{key_of_delay, &parameters.loop.delay, delay_row}}) {
     const double value = found.values(place.row);
     if (value < 0.0) {
       remarks.push_back(warning({.code = FindingCode::taken_as_zero,
@@ -171,8 +171,8 @@ void judge_delay(RigidBodyIdentification& identified, double recorded_period) {
   const double later = delay.value - 0.5 * recorded_period;
   constexpr double clear = 4.0;
   if (later <= clear * *delay.standard_deviation) return;
-  identified.remarks.push_back(note(
-      {.code = FindingCode::force_acts_later, .evidence = {{"milliseconds", 1e3 * later}}, .key = loop_delay_key}));
+  identified.remarks.push_back(
+      note({.code = FindingCode::force_acts_later, .evidence = {{"milliseconds", 1e3 * later}}, .key = key_of_delay}));
 }
 
 /// The interval must be narrow, and what limits excited: no number of a rigid body stands for what lies beyond.

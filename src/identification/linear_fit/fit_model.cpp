@@ -11,6 +11,7 @@
 #include "identification/linear_fit/response_features.hpp"
 #include "identification/linear_fit/response_slopes.hpp"
 #include "model/key_members.hpp"
+#include "model/loop_keys.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -94,7 +95,7 @@ FitModel::FitModel(const Device& structure, const FrequencyResponse& response, c
       throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::free_twice, .subjects = {{"key", key}}});
     }
     Coordinate coordinate{key, Coordinate::kind_of(key), unit_of(measure_of(key), response.points)};
-    if (key == "loop.delay") {
+    if (key == key_of_delay) {
       const double longest = max_delay_samples * sampling_period_.value_or(std::numeric_limits<double>::infinity());
       coordinate.bound = std::min(longest_resolved_delay(response.points), longest) / coordinate.unit;
     }
@@ -155,8 +156,8 @@ ResponseWithSlopes FitModel::slopes_at(const Eigen::VectorXd& x, const std::vect
   ResponseWithSlopes result{response_of(device, frequencies), {}};
   std::vector<ResponseChange> changes;
   for (const Coordinate& each : coordinates_) {
-    const bool is_lag = each.key == "actuator.time_constant";
-    if (each.key == "loop.delay" || (is_lag && device.parameters().actuator.time_constant == 0.0)) {
+    const bool is_lag = each.key == key_of_lag;
+    if (each.key == key_of_delay || (is_lag && device.parameters().actuator.time_constant == 0.0)) {
       changes.push_back({{}, 1.0});  // a short lag is a short delay
     } else {
       changes.push_back(

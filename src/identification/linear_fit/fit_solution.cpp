@@ -14,6 +14,7 @@
 #include "identification/linear_fit/initial_values.hpp"
 #include "identification/linear_fit/link_mode.hpp"
 #include "identification/linear_fit/response_features.hpp"
+#include "model/loop_keys.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -145,8 +146,8 @@ std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x, 
   if (const auto springs = with_springs(model.parameters_at(x), keys, above * highest)) {
     positions.push_back(model.position_of(*springs));
   }
-  const Eigen::Index delay = std::ranges::find(keys, "loop.delay") - keys.begin();
-  const Eigen::Index lag = std::ranges::find(keys, "actuator.time_constant") - keys.begin();
+  const Eigen::Index delay = std::ranges::find(keys, key_of_delay) - keys.begin();
+  const Eigen::Index lag = std::ranges::find(keys, key_of_lag) - keys.begin();
   std::vector<Start> starts;
   for (const Eigen::VectorXd& each : positions) {
     starts.push_back(start_at(model, each));

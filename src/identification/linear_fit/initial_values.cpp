@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "identification/linear_fit/link_mode.hpp"
+#include "model/loop_keys.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -76,13 +77,13 @@ class Candidates {
     set_springs(device, picked);
     set_dampings(device);
     const double total = choices_[delay_choice_][picked[delay_choice_]];
-    if (is_free("loop.delay") && is_free("actuator.time_constant")) {
+    if (is_free(key_of_delay) && is_free(key_of_lag)) {
       const double share = choices_[split_choice_][picked[split_choice_]];
       device.loop.delay = share * total;
       device.actuator.time_constant = (1.0 - share) * total;
-    } else if (is_free("loop.delay")) {
+    } else if (is_free(key_of_delay)) {
       device.loop.delay = total;
-    } else if (is_free("actuator.time_constant")) {
+    } else if (is_free(key_of_lag)) {
       device.actuator.time_constant = total;
     }
     return device;
@@ -163,12 +164,12 @@ class Candidates {
     delay_choice_ = choices_.size();
     double known = model_.sampling_period().value_or(0.0) / 2.0;
     const DeviceParameters& structure = model_.structure().parameters();
-    if (!is_free("loop.delay")) known += structure.loop.delay;
-    if (!is_free("actuator.time_constant")) known += structure.actuator.time_constant;
-    const bool any = is_free("loop.delay") || is_free("actuator.time_constant");
+    if (!is_free(key_of_delay)) known += structure.loop.delay;
+    if (!is_free(key_of_lag)) known += structure.actuator.time_constant;
+    const bool any = is_free(key_of_delay) || is_free(key_of_lag);
     choices_.push_back(any ? Choices{std::max(0.0, features_.delay - known), 0.0} : Choices{0.0});
     split_choice_ = choices_.size();
-    const bool both = is_free("loop.delay") && is_free("actuator.time_constant");
+    const bool both = is_free(key_of_delay) && is_free(key_of_lag);
     choices_.push_back(both ? Choices{0.1, 0.5, 0.9} : Choices{1.0});
   }
 

@@ -13,6 +13,7 @@
 #include "identification/linear_fit/fit_weights.hpp"
 #include "identification/linear_fit/identifiability.hpp"
 #include "identification/linear_fit/missed_mode.hpp"
+#include "model/loop_keys.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
@@ -115,7 +116,7 @@ Eigen::MatrixXd widened(const FitModel& model, const Eigen::VectorXd& x, const I
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Coordinate& coordinate = model.coordinates()[k];
-    const bool is_time = coordinate.key == "loop.delay" || coordinate.key == "actuator.time_constant";
+    const bool is_time = coordinate.key == key_of_delay || coordinate.key == key_of_lag;
     if (!is_time && known.shows(k)) scale(i) = coordinate.kind == Coordinate::Kind::logarithmic ? 1.0 : x(i);
   }
   return covariance + open_scale * open_scale * scale * scale.transpose();
@@ -194,8 +195,8 @@ std::vector<std::string> fittable_parameters(const Device& structure, const std:
     const std::string key = "link." + std::to_string(i);
     keys.insert(keys.end(), {key + ".stiffness", key + ".damping"});
   }
-  if (parameters.loop.delay > 0.0) keys.emplace_back("loop.delay");
-  if (parameters.actuator.time_constant > 0.0) keys.emplace_back("actuator.time_constant");
+  if (parameters.loop.delay > 0.0) keys.emplace_back(key_of_delay);
+  if (parameters.actuator.time_constant > 0.0) keys.emplace_back(key_of_lag);
   return keys;
 }
 

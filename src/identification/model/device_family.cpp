@@ -1,39 +1,21 @@
 #include "identification/model/device_family.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "model/loop_keys.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
-namespace {
+namespace {}  // namespace
 
-constexpr const char* delay_of_loop = "loop.delay";
-constexpr const char* lag_of_actuator = "actuator.time_constant";
-constexpr const char* further_name = "further body";
-/// Of its mass to that of what it hangs on: no further body, in a record and for a limit.
-constexpr double no_mass_ratio = 1e-15;
-constexpr double least_mass_ratio = 1e-9;
-
-bool is_of(const FurtherBody& body, const std::string& key) {
-  return key == body.mass_ratio || key == body.frequency || key == body.damping_ratio;
-}
-
-}  // namespace
-
-DeviceFamily::DeviceFamily(DeviceParameters structure, std::vector<Number> numbers, std::vector<std::string> locked,
-                           std::optional<FurtherBody> further_body)
-    : structure_(std::move(structure)),
-      numbers_(std::move(numbers)),
-      locked_(std::move(locked)),
-      further_body_(std::move(further_body)) {
+DeviceFamily::DeviceFamily(DeviceParameters structure, std::vector<Number> numbers, std::vector<std::string> locked)
+    : structure_(std::move(structure)), numbers_(std::move(numbers)), locked_(std::move(locked)) {
   structure_.uncertainty.reset();
   for (const Number& each : numbers_) {
-    if (parameter(structure_, each.key) || (further_body_ && is_of(*further_body_, each.key))) ++of_device_;
-    has_lag_ = has_lag_ || each.key == lag_of_actuator;
+    if (parameter(structure_, each.key)) ++of_device_;
+    has_lag_ = has_lag_ || each.key == key_of_lag;
     has_damping_drift_ = has_damping_drift_ || each.key == key_of_damping_drift;
     has_delay_drift_ = has_delay_drift_ || each.key == key_of_delay_drift;
   }
@@ -48,7 +30,7 @@ DeviceParameters DeviceFamily::values_at(const Eigen::VectorXd& x) const {
   DeviceParameters values = structure_;
   for (Eigen::Index i = 0; i < of_device_; ++i) {
     const Number& number = numbers_[static_cast<std::size_t>(i)];
-    if (!further_body_ || !is_of(*further_body_, number.key)) set_parameter(values, number.key, number.value(x(i)));
+    set_parameter(values, number.key, number.value(x(i)));
   }
   return values;
 }
@@ -58,19 +40,7 @@ double DeviceFamily::value_of(const std::string& key, const Eigen::VectorXd& x) 
   return numbers_[static_cast<std::size_t>(place)].value(x(place));
 }
 
-void DeviceFamily::add_further_body(DeviceParameters& values, const Eigen::VectorXd& x) const {
-  const auto behind = std::ranges::find(values.bodies, further_body_->behind, &Body::name);
-  const double ratio = std::max(value_of(further_body_->mass_ratio, x), no_mass_ratio);
-  const double rate = 2.0 * std::numbers::pi * value_of(further_body_->frequency, x);
-  const double mass = behind->mass * ratio / (1.0 + ratio);
-  const auto first = static_cast<std::size_t>(behind - values.bodies.begin());
-  behind->mass /= 1.0 + ratio;
-  values.links.push_back(
-      {first, values.bodies.size(), mass * rate * rate, 2.0 * value_of(further_body_->damping_ratio, x) * mass * rate});
-  values.bodies.push_back({further_name, mass});
-}
-
-DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x) const { return finished(values_at(x), x); }
+DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x) const { return finished(values_at(x)); }
 
 DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, double share) const {
   constexpr double middle = 0.5;
@@ -83,11 +53,10 @@ DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, double share)
     }
   }
   if (has_delay_drift_) values.loop.delay = std::max(0.0, values.loop.delay + value_of(key_of_delay_drift, x) * share);
-  return finished(std::move(values), x);
+  return finished(std::move(values));
 }
 
-DeviceParameters DeviceFamily::finished(DeviceParameters values, const Eigen::VectorXd& x) const {
-  if (further_body_ && value_of(further_body_->mass_ratio, x) >= least_mass_ratio) add_further_body(values, x);
+DeviceParameters DeviceFamily::finished(DeviceParameters values) const {
   if (!has_lag_) return values;
   double& lag = values.actuator.time_constant;
   lag = std::min(lag, values.loop.delay);
@@ -100,7 +69,6 @@ bool DeviceFamily::has_device_at(const Eigen::VectorXd& x) const {
   if (find_problem(values)) return false;
   values = values_at(x);
   values.loop.delay = 0.0;
-  if (further_body_) add_further_body(values, x);
   return !find_problem(values);
 }
 
@@ -111,7 +79,6 @@ double DeviceFamily::played_delay(const Eigen::VectorXd& x) const {
 
 Device DeviceFamily::recorded_device(const Eigen::VectorXd& x) const {
   DeviceParameters values = values_at(x);
-  if (further_body_) add_further_body(values, x);
   values.loop.delay = 0.0;
   const Device device(std::move(values));
   std::vector<std::size_t> still;
@@ -126,7 +93,7 @@ Eigen::VectorXd DeviceFamily::coordinates_of(const DeviceParameters& device) con
     x(i) = number.start;
     std::optional<double> value = parameter(device, number.key);
     if (!value) continue;
-    if (has_lag_ && number.key == delay_of_loop) *value += device.actuator.time_constant;
+    if (has_lag_ && number.key == key_of_delay) *value += device.actuator.time_constant;
     x(i) = number.coordinate(*value);
   }
   return x;

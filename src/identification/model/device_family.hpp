@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,18 +8,6 @@
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::internal {
-
-/// A body on a link behind another one, by the keys of its numbers, none of which is a key of the structure.
-///
-///     m' = m r / (1 + r),  m <- m / (1 + r),  k' = m' (2 pi f)^2,  c' = 2 zeta sqrt(k' m')
-///
-/// The mass m of both stays, so that slow motion knows nothing of r. No such body at r = 0: it moves along and acts on nothing.
-struct FurtherBody {
-  std::string behind;         ///< name of a body
-  std::string mass_ratio;     ///< key of r: its mass to what is left of the body it hangs on
-  std::string frequency;      ///< key of f, Hz, that it swings at where the other body stands still
-  std::string damping_ratio;  ///< key of zeta
-};
 
 /// Keys of numbers by which a device changes while it is recorded; they move nothing but what device_at() says of a moment.
 inline constexpr const char* key_of_damping_drift = "damping_drift";  ///< share of all free dampings to the ground
@@ -32,25 +19,21 @@ inline constexpr const char* key_of_delay_drift = "delay_drift";      ///< s
 /// of both, which is what a record tells.
 class DeviceFamily {
  public:
-  /// `numbers`: those of the device come first, its keys and a further body's. `locked`: bodies held still while the record
-  /// was made.
-  DeviceFamily(DeviceParameters structure, std::vector<Number> numbers, std::vector<std::string> locked,
-               std::optional<FurtherBody> further_body = {});
+  /// `numbers`: those of the device come first. `locked`: bodies held still while the record was made.
+  DeviceFamily(DeviceParameters structure, std::vector<Number> numbers, std::vector<std::string> locked);
 
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return numbers_; }
   /// How many are the device's.
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
   /// How many of the first numbers device_at() hangs on, at any moment.
   [[nodiscard]] Eigen::Index of_limit() const noexcept { return of_limit_; }
-  /// It is the last body of recorded_device().
-  [[nodiscard]] bool has_further_body() const noexcept { return further_body_.has_value(); }
-  /// As a device file has it, nothing locked: no delay below 0, no further body that is next to none.
+  /// As a device file has it, nothing locked: no delay below 0.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;
   /// As it is when `share` of a record is over, 0 to 1:
   ///
   ///     b_i <- b_i max(0, 1 + damping_drift (share - 1/2)),  delay <- max(0, delay + delay_drift share)
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x, double share) const;
-  /// Whether the numbers make a device, with its further body too: recorded_device() throws where not.
+  /// Whether the numbers make a device: recorded_device() throws where not.
   [[nodiscard]] bool has_device_at(const Eigen::VectorXd& x) const;
   /// As it was recorded: bodies locked, the delay left out (played_delay()).
   [[nodiscard]] Device recorded_device(const Eigen::VectorXd& x) const;
@@ -62,14 +45,12 @@ class DeviceFamily {
  private:
   [[nodiscard]] DeviceParameters values_at(const Eigen::VectorXd& x) const;
   /// Of values before the lag is taken from the delay.
-  [[nodiscard]] DeviceParameters finished(DeviceParameters values, const Eigen::VectorXd& x) const;
+  [[nodiscard]] DeviceParameters finished(DeviceParameters values) const;
   [[nodiscard]] double value_of(const std::string& key, const Eigen::VectorXd& x) const;
-  void add_further_body(DeviceParameters& values, const Eigen::VectorXd& x) const;
 
   DeviceParameters structure_;
   std::vector<Number> numbers_;
   std::vector<std::string> locked_;
-  std::optional<FurtherBody> further_body_;
   Eigen::Index of_device_ = 0;
   Eigen::Index of_limit_ = 0;
   bool has_damping_drift_ = false;

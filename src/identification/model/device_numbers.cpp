@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "model/loop_keys.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -17,7 +18,7 @@ Number device_number(const std::string& key, const DeviceParameters& start, cons
   if (key.ends_with(".mass") || (is_of_link && key.ends_with(".stiffness"))) {
     return {key, Number::Scale::logarithmic, value, 0.0, deviation_of_logarithm};
   }
-  if (key == "loop.delay") return {.key = key, .unit = typical.time};
+  if (key == key_of_delay) return {.key = key, .unit = typical.time};
   if (key.ends_with(".damping") && !is_of_link) return {.key = key, .unit = typical.damping};
   if (key.ends_with(".damping")) {
     const Link& link = start.links[static_cast<std::size_t>(std::stoul(key.substr(std::string_view("link.").size())))];

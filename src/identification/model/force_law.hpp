@@ -15,7 +15,7 @@ struct LawForce {
   std::array<double, most_numbers_of_law> by_number = {};
 };
 
-/// Where a law is asked: the position and velocity of its body, or of the one end of its link against the other.
+/// Where a law is asked: the position and velocity of its body.
 struct LawState {
   double position = 0.0;  ///< m or rad
   double velocity = 0.0;  ///< m/s or rad/s

@@ -14,7 +14,6 @@ namespace zwidth::internal {
 struct ForceTerm {
   std::shared_ptr<const ForceLaw> law;
   std::string body;
-  std::string against = {};                ///< another body, which feels the opposite; empty: the ground
   std::vector<std::string> numbers = {};   ///< of the law, by their keys, in its order
   std::optional<std::size_t> record = {};  ///< it acts in; absent: all
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/loop_keys.hpp"
+
 namespace zwidth::internal {
 
 PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
@@ -19,13 +21,12 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Number& number = numbers[static_cast<std::size_t>(i)];
     number_slopes(i) = number.slope(x(i));
-    if (number.key == "loop.delay") instants.emplace_back(i, number_slopes(i));
-    if (number.key == "actuator.time_constant") instants.emplace_back(i, -number_slopes(i));  // the sum stays
+    if (number.key == key_of_delay) instants.emplace_back(i, number_slopes(i));
+    if (number.key == key_of_lag) instants.emplace_back(i, -number_slopes(i));  // the sum stays
   }
   for (const ForceTerm& term : terms.forces) {
     if (term.record && *term.record != record) continue;
     Force force{.law = term.law.get(), .body = index(term.body)};
-    if (!term.against.empty()) force.against = index(term.against);
     for (std::size_t i = 0; i < term.numbers.size(); ++i) {
       force.numbers[i] = place(term.numbers[i]);
       force.values[i] = value(force.numbers[i]);
@@ -58,13 +59,9 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   constexpr double least = 1e-9;
   delay_samples = static_cast<std::ptrdiff_t>(std::floor(samples + least));
   const double share = std::max(0.0, samples - static_cast<double>(delay_samples));
-  Eigen::MatrixXd columns = motion_columns(family.recorded_device(x));
+  const Eigen::MatrixXd columns = motion_columns(family.recorded_device(x));
   input = columns.col(columns.rows());
-  std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
-  if (family.has_further_body()) {  // no term acts on it: 1 / mass, which has no bound, stays out of the exponential
-    columns.rightCols(1).setZero();
-    for (Eigen::MatrixXd& each : slopes) each.rightCols(1).setZero();
-  }
+  const std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
   const int wanted = forces.empty() && frictions.empty() ? 1 : parts;
   const auto step = [&](double length) {
     if (length < least) return LinearStep{};

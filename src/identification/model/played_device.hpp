@@ -25,7 +25,6 @@ struct PlayedDevice {
   struct Force {
     const ForceLaw* law = nullptr;
     Eigen::Index body = 0;
-    Eigen::Index against = -1;
     std::array<Eigen::Index, most_numbers_of_law> numbers = {};  // behind the law's own: not used
     std::array<double, most_numbers_of_law> values = {};
   };

@@ -137,14 +137,8 @@ void SegmentPlayer::add_forces(double share) {
   const auto middle = [&](Eigen::Index i) { return 0.5 * (before_(i) + x(i)); };
   const auto position_of = [&](Eigen::Index body) { return body == 0 ? middle(0) : middle(0) + middle(body); };
   for (const PlayedDevice::Force& force : device_.forces) {
-    LawState state{position_of(force.body), middle(bodies_ + force.body), share};
-    if (force.against >= 0) {
-      state.position -= position_of(force.against);
-      state.velocity -= middle(bodies_ + force.against);
-    }
-    const LawForce now = force.law->at(state, force.values.data());
-    add_force(force, now, force.body, 1.0);
-    if (force.against >= 0) add_force(force, now, force.against, -1.0);
+    const LawState state{position_of(force.body), middle(bodies_ + force.body), share};
+    add_force(force, force.law->at(state, force.values.data()));
   }
   if (!with_slopes_) return;
   force_slopes_.setZero();
@@ -160,20 +154,17 @@ void SegmentPlayer::add_forces(double share) {
   }
 }
 
-void SegmentPlayer::add_force(const PlayedDevice::Force& force, const LawForce& now, Eigen::Index on, double sign) {
-  forces_(on) += sign * now.force;
+void SegmentPlayer::add_force(const PlayedDevice::Force& force, const LawForce& now) {
+  const Eigen::Index on = force.body;
+  forces_(on) += now.force;
   if (!with_slopes_) return;
-  const auto hang_on = [&](Eigen::Index body, double factor) {
-    gradients_(on, body) += factor * now.by_position;
-    if (body != 0) gradients_(on, 0) += factor * now.by_position;
-    gradients_(on, bodies_ + body) += factor * now.by_velocity;
-  };
-  hang_on(force.body, sign);
-  if (force.against >= 0) hang_on(force.against, -sign);
+  gradients_(on, on) += now.by_position;
+  if (on != 0) gradients_(on, 0) += now.by_position;
+  gradients_(on, bodies_ + on) += now.by_velocity;
   for (std::size_t i = 0; i < most_numbers_of_law; ++i) {
     const Eigen::Index number = force.numbers[i];
     if (now.by_number[i] != 0.0)
-      own_slopes_.push_back({number, forces_at_ + on, sign * now.by_number[i] * device_.number_slopes(number)});
+      own_slopes_.push_back({number, forces_at_ + on, now.by_number[i] * device_.number_slopes(number)});
   }
 }
 

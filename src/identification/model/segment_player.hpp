@@ -69,7 +69,7 @@ class SegmentPlayer {
 
   void begin_slopes(const LinearStep& step, double command);
   void add_forces(double share);
-  void add_force(const PlayedDevice::Force& force, const LawForce& now, Eigen::Index on, double sign);
+  void add_force(const PlayedDevice::Force& force, const LawForce& now);
   void add_frictions(const LinearStep& step);
   void rub(const LinearStep& step, Eigen::Index i, bool with_slopes);
   void add_friction_slopes(const LinearStep& step);

@@ -1,7 +1,5 @@
 #include "zwidth/identification/frequency_response.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,49 +23,55 @@ using Excited = FrequencyResponseOptions::Excitation;
 
 constexpr std::size_t fewest_samples = 16;
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
+[[noreturn]] void refuse(const Problem& problem) { throw Error(ErrorCode::invalid_argument, problem); }
 
 void check_samples(std::span<const double> signal, const char* name) {
   const auto bad = std::find_if_not(signal.begin(), signal.end(), [](double value) { return std::isfinite(value); });
-  if (bad != signal.end()) refuse(fmt::format("sample {} of the {} is {}; a number", bad - signal.begin(), name, *bad));
+  if (bad != signal.end())
+    refuse({.code = ProblemCode::sample_not_a_number,
+            .evidence = {counted("sample", static_cast<std::size_t>(bad - signal.begin())), {"value", *bad}},
+            .subjects = {{"signal", name}}});
 }
 
 void check(std::span<const double> force, std::span<const double> output, double sampling_period,
            const FrequencyResponseOptions& options) {
   if (force.size() != output.size()) {
-    refuse(fmt::format("{} samples of force, {} of the motion; equally many", force.size(), output.size()));
+    refuse({.code = ProblemCode::force_and_motion_of_two_lengths,
+            .evidence = {counted("force", force.size()), counted("motion", output.size())}});
   }
   if (force.size() < fewest_samples) {
-    refuse(fmt::format("the record has {} samples; at least {}", force.size(), fewest_samples));
+    refuse({.code = ProblemCode::record_of_few_samples,
+            .evidence = {counted("samples", force.size()), counted("least", fewest_samples)}});
   }
   if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    refuse(fmt::format("sampling period of {} s; above 0", sampling_period));
+    refuse({.code = ProblemCode::period_not_above_zero, .evidence = {{"value", sampling_period}}});
   }
   check_samples(force, "force");
   check_samples(output, "motion");
   const auto constant = [](std::span<const double> signal) {
     return std::all_of(signal.begin(), signal.end(), [&](double value) { return value == signal.front(); });
   };
-  if (constant(force)) refuse("the force is constant: it excites nothing; a force that varies");
-  if (constant(output)) refuse("the motion is constant: nothing to measure; another column, or a stronger force");
+  if (constant(force)) refuse({.code = ProblemCode::signal_is_constant, .subjects = {{"signal", "force"}}});
+  if (constant(output)) refuse({.code = ProblemCode::signal_is_constant, .subjects = {{"signal", "motion"}}});
   if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
-    refuse_member("overlap", fmt::format("overlap of {}", options.overlap), "0 up to, but not including, 1");
+    refuse_member("overlap", {.code = ProblemCode::no_overlap, .evidence = {{"value", options.overlap}}});
   }
   const double lowest = options.lowest.value_or(0.0);
   const double highest = options.highest.value_or(std::numeric_limits<double>::infinity());
   if (!(lowest >= 0.0 && highest > lowest)) {
-    refuse_member("highest", fmt::format("band from {:.6g} to {:.6g} rad/s", lowest, highest), "rising, from 0 on");
+    refuse_member("highest",
+                  {.code = ProblemCode::no_rising_band, .evidence = {{"lowest", lowest}, {"highest", highest}}});
   }
 }
 
 void check_period(std::size_t samples, std::size_t period, std::size_t skipped) {
   if (period < 2 || period > samples / 2) {
-    refuse_member("period", fmt::format("period of {} samples in a record of {}", period, samples),
-                  "2 up to half the record");
+    refuse_member("period", {.code = ProblemCode::period_not_in_record,
+                             .evidence = {counted("value", period), counted("samples", samples)}});
   }
   if (samples / period < skipped + 2) {
-    refuse_member("skip_periods", fmt::format("{} of {} whole periods skipped", skipped, samples / period),
-                  "at least two must remain");
+    refuse_member("skip_periods", {.code = ProblemCode::periods_all_skipped,
+                                   .evidence = {counted("value", skipped), counted("periods", samples / period)}});
   }
 }
 
@@ -76,19 +80,19 @@ std::vector<double> angles_of(const FrequencyResponseOptions& options, double sa
   std::vector<double> angles;
   for (const double line : options.lines) {
     if (!(std::isfinite(line) && line > 0.0))
-      refuse_member("lines", fmt::format("line at {} rad/s", line), "a frequency above 0");
+      refuse_member("lines", {.code = ProblemCode::line_not_possible, .evidence = {{"value", line}}});
     if (!(line * sampling_period < std::numbers::pi)) {
-      refuse_member("lines", fmt::format("line at {:.6g} Hz", line / (2.0 * std::numbers::pi)),
-                    fmt::format("below half the sampling rate, {:.6g} Hz", 0.5 / sampling_period));
+      refuse_member("lines",
+                    {.code = ProblemCode::line_beyond_nyquist,
+                     .evidence = {{"hertz", line / (2.0 * std::numbers::pi)}, {"nyquist", 0.5 / sampling_period}}});
     }
     angles.push_back(line * sampling_period);
   }
   std::ranges::sort(angles);
   const auto twice = std::ranges::adjacent_find(angles);
   if (twice != angles.end()) {
-    refuse_member("lines",
-                  fmt::format("line at {:.6g} Hz comes twice", *twice / (2.0 * std::numbers::pi * sampling_period)),
-                  "each once");
+    refuse_member("lines", {.code = ProblemCode::line_twice,
+                            .evidence = {{"hertz", *twice / (2.0 * std::numbers::pi * sampling_period)}}});
   }
   return angles;
 }
@@ -120,7 +124,7 @@ FrequencyResponse estimate(std::span<const double> force, std::span<const double
     return response;
   }
   if (options.excitation == Excited::periodic) {
-    refuse("the force does not repeat itself, within half the record; give the period, or take it as aperiodic");
+    refuse({.code = ProblemCode::force_does_not_repeat});
   }
   return welch_response(force, output, sampling_period, options, progress);
 }

@@ -1,7 +1,5 @@
 #include "identification/response/line_response.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
@@ -42,10 +40,9 @@ std::size_t block_length(std::size_t samples, const std::vector<double>& angles,
   const double least = std::ceil(least_beats * turn / least_spacing(angles));
   const double needed = std::max(least, static_cast<double>(2 * angles.size() + 4));
   if (2.0 * needed > static_cast<double>(samples)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("the record of {:.4g} s is too short to tell the lines apart; at least {:.4g} s, or fewer "
-                            "lines",
-                            static_cast<double>(samples) * sampling_period, 2.0 * needed * sampling_period));
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::lines_too_close_for_record,
+                                              .evidence = {{"duration", static_cast<double>(samples) * sampling_period},
+                                                           {"least", 2.0 * needed * sampling_period}}});
   }
   return std::max(static_cast<std::size_t>(needed), samples / most_blocks);
 }

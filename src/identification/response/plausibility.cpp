@@ -8,7 +8,6 @@
 #include "counted.hpp"
 #include "model/implausible_numbers.hpp"
 #include "zwidth/identification/identification.hpp"
-#include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -51,46 +50,6 @@ Finding counts_finding(const Channel& channel, std::size_t place) {
                        {"counts", is_whole ? "whole" : "half"}}};
 }
 
-/// "ms" for a ratio of about 1000, "us" for a million, ...; nothing for a ratio that no unit explains.
-std::string prefix_of(double ratio) {
-  struct Prefix {
-    double ratio;
-    const char* name;
-  };
-  constexpr double close = 0.3;  // decades
-  for (const Prefix& each : {Prefix{1e3, "milli"}, Prefix{1e6, "micro"}, Prefix{1e9, "nano"}, Prefix{1e-3, "kilo"}}) {
-    if (std::abs(std::log10(ratio / each.ratio)) < close) return each.name;
-  }
-  return "";
-}
-
-/// A fitted mass beside the structure's.
-struct OddMass {
-  std::string key;
-  double ratio;  ///< fitted over given
-};
-
-/// Those that are a power of ten off; a fit finds it a little less than ten.
-std::vector<OddMass> odd_masses(const Device& fitted, const Device& known) {
-  constexpr double far = 9.0;
-  std::vector<OddMass> found;
-  for (const std::string& key : parameter_keys(known.parameters())) {
-    if (!key.starts_with("body.") || !key.ends_with(".mass")) continue;
-    const double ratio =
-        parameter(fitted.parameters(), key).value_or(1.0) / parameter(known.parameters(), key).value_or(1.0);
-    if (ratio >= far || ratio <= 1.0 / far) found.push_back({key, ratio});
-  }
-  return found;
-}
-
-Finding odd_mass_finding(const OddMass& odd) {
-  Finding found{.code = FindingCode::mass_far_from_structure, .evidence = {{"ratio", odd.ratio}}, .key = odd.key};
-  if (const std::string prefix = prefix_of(1.0 / odd.ratio); !prefix.empty()) {
-    found.subjects.push_back({"prefix", prefix});
-  }
-  return found;
-}
-
 }  // namespace
 
 std::vector<Remark> implausible_recording(const Recording& recording) {
@@ -104,7 +63,7 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
     remarks.push_back(
         note({.code = FindingCode::force_of_two_values, .subjects = {{"channel", recording.channels.front().name}}}));
   }
-  if (auto remark = implausible_period(recording.sampling_period, "the sampling period of the recording")) {
+  if (auto remark = implausible_period(recording.sampling_period, "recording")) {
     remarks.push_back(*std::move(remark));
   }
   return remarks;
@@ -218,61 +177,6 @@ std::vector<Finding> doubts_of_recording(const Recording& recording, std::span<c
     if (doubt) doubts.push_back(*doubt);
   }
   return doubts;
-}
-
-std::optional<Finding> doubt_of_weight(const Device& fitted) {
-  const double heaviest = fitted.parameters().motion == Motion::rotary ? 10.0 : 100.0;
-  const std::vector<Remark> heavy = implausible_masses(fitted, heaviest);
-  if (heavy.empty()) return std::nullopt;
-  Finding found = heavy.front().finding.value();
-  found.code = FindingCode::fitted_body_too_heavy;
-  return found;
-}
-
-std::optional<Finding> doubt_of_lag(const std::vector<ParameterEstimate>& estimates, double recorded_period) {
-  const auto lag = std::ranges::find(estimates, "actuator.time_constant", &ParameterEstimate::key);
-  if (lag == estimates.end() || lag->value <= many_periods * recorded_period) return std::nullopt;
-  return Finding{
-      .code = FindingCode::lag_beyond_drives,
-      .evidence = {{"lag", lag->value}, {"periods", lag->value / recorded_period}, {"threshold", many_periods}},
-      .key = lag->key};
-}
-
-std::vector<Remark> implausible_device(const Device& fitted, const Device* known,
-                                       std::optional<double> recorded_period) {
-  std::vector<Remark> remarks;
-  const double period = fitted.loop().sampling_period;
-  if (auto remark = implausible_period(period, "the sampling period of the structure")) {
-    remarks.push_back(*std::move(remark));
-  } else if (recorded_period) {
-    const double ratio = period / *recorded_period;
-    if (ratio > 100.0 || ratio < 0.01) {
-      Finding found{.code = FindingCode::period_far_from_record,
-                    .evidence = {{"period", period}, {"ratio", ratio}},
-                    .key = "loop.sampling_period"};
-      if (const std::string prefix = prefix_of(ratio); !prefix.empty()) found.subjects.push_back({"prefix", prefix});
-      remarks.push_back(warning(std::move(found)));
-    }
-  }
-  if (const auto remark = implausible_actuation_delay(fitted, recorded_period.value_or(period))) {
-    Finding found = remark->finding.value();
-    found.code = FindingCode::fitted_late_beyond_drives;
-    remarks.push_back(warning(std::move(found)));
-  }
-  if (!known) return remarks;
-  for (const OddMass& each : odd_masses(fitted, *known)) {
-    remarks.push_back(warning(odd_mass_finding(each)));
-  }
-  return remarks;
-}
-
-std::optional<Finding> doubt_of_masses(const Device& fitted, const Device& known) {
-  constexpr double beyond_belief = 90.0;
-  for (const OddMass& each : odd_masses(fitted, known)) {
-    if (each.ratio < beyond_belief && each.ratio > 1.0 / beyond_belief) continue;
-    return odd_mass_finding(each);
-  }
-  return std::nullopt;
 }
 
 }  // namespace zwidth::internal

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "zwidth/identification/frequency_response.hpp"
-#include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/signal/recording.hpp"
@@ -26,22 +25,5 @@ namespace zwidth::internal {
 /// out, so is the force between, and delay is missing from the fit.
 [[nodiscard]] std::vector<Finding> doubts_of_recording(const Recording& recording, std::span<const Recording> all,
                                                        OutputQuantity output, const Device& fitted);
-
-/// Why the masses of a device of which nothing was known are not in SI units: no haptic device has such.
-[[nodiscard]] std::optional<Finding> doubt_of_weight(const Device& fitted);
-
-/// Why a fitted lag of the actuator cannot be believed: longer than any drive's, beside the record's period. A body's own
-/// m/b and such a lag can be exchanged in its response.
-[[nodiscard]] std::optional<Finding> doubt_of_lag(const std::vector<ParameterEstimate>& estimates,
-                                                  double recorded_period);
-
-/// Numbers of the fitted device that are powers of ten from those of the structure (where its values are known) or from
-/// what the record allows.
-[[nodiscard]] std::vector<Remark> implausible_device(const Device& fitted, const Device* known,
-                                                     std::optional<double> recorded_period);
-
-/// Why no answer is one in SI units where a fitted mass or inertia is about a hundred times the structure's or more, or a
-/// hundredth or less.
-[[nodiscard]] std::optional<Finding> doubt_of_masses(const Device& fitted, const Device& known);
 
 }  // namespace zwidth::internal

@@ -1,12 +1,12 @@
 #include "identification/response/response_choice.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "identification/response/line_response.hpp"
 #include "identification/response/period_detection.hpp"
 #include "require_valid.hpp"
@@ -59,19 +59,18 @@ MeasuredResponse response_with_enough_lines(std::span<const Recording> recording
 void refuse_nothing_left(const Recording& recording, const FrequencyResponseOptions& options) {
   const std::size_t samples = recording.channels[0].samples.size();
   if (options.lowest || options.highest) {
-    refuse_member(options.lowest ? "lowest" : "highest", "no line is left in the band asked for", "widen it");
+    refuse_member(options.lowest ? "lowest" : "highest", {.code = ProblemCode::band_leaves_no_line});
   }
   if (options.period) {
-    const auto detected = detect_period(recording.channels[0].samples);
-    refuse_member("period", fmt::format("the force excites no line of a period of {} samples", *options.period),
-                  fmt::format("leave the period out, or give the force's own{}",
-                              detected ? fmt::format(": it repeats every {} samples", *detected) : ""));
+    Problem problem{.code = ProblemCode::period_without_line, .evidence = {counted("value", *options.period)}};
+    if (const auto detected = detect_period(recording.channels[0].samples))
+      problem.evidence.push_back(counted("repeats", *detected));
+    refuse_member("period", std::move(problem));
   }
-  throw Error(
-      ErrorCode::invalid_argument,
-      fmt::format("the force excites no line that {} samples ({:.3g} s) tell apart: the record is too short, or the "
-                  "force hardly changes; record for longer, several periods of the lowest frequency at least",
-                  samples, static_cast<double>(samples) * recording.sampling_period));
+  throw Error(ErrorCode::invalid_argument,
+              {.code = ProblemCode::no_line_excited,
+               .evidence = {counted("samples", samples),
+                            {"duration", static_cast<double>(samples) * recording.sampling_period}}});
 }
 
 }  // namespace zwidth::internal

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "counted.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -75,10 +76,11 @@ std::optional<OptionProblem> find_problem(const std::string& force_unit, const s
     const bool is_plain =
         given.size() <= longest_unit && std::ranges::none_of(given, [](unsigned char c) { return c < ' '; });
     if (!is_plain)
-      return OptionProblem{member, "is no unit", fmt::format("at most {} characters, on one line", longest_unit)};
+      return option_problem(member,
+                            {.code = ProblemCode::no_unit_text, .evidence = {internal::counted("most", longest_unit)}});
     if (given.empty() || stated.empty() || given == stated) return std::nullopt;
-    return OptionProblem{member, fmt::format("is {}, but the column is read in {} by its name", given, stated),
-                         "leave it out, or give the scale too"};
+    return option_problem(
+        member, {.code = ProblemCode::unit_of_other_column, .subjects = {{"given", given}, {"stated", stated}}});
   };
   auto problem = check("force_unit", force_unit, measured.force_unit);
   return problem ? problem : check("length_unit", length_unit, measured.length_unit);

@@ -1,13 +1,12 @@
 #include "identification/response/welch.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "counted.hpp"
@@ -250,9 +249,11 @@ FrequencyResponse welch_response(std::span<const double> force, std::span<const 
   Cut cut{force, output, {}, form_of(options)};
   const std::size_t samples = samples_left(force.size(), cut.form);
   if (options.segment_length && (*options.segment_length < shortest_segment || *options.segment_length > samples)) {
-    refuse_member("segment_length", fmt::format("segments of {} samples", *options.segment_length),
-                  fmt::format("{} to {}, the record's length{}", shortest_segment, samples,
-                              samples < force.size() ? " less what differences take" : ""));
+    Problem problem{.code = ProblemCode::segment_not_in_record,
+                    .evidence = {counted("value", *options.segment_length), counted("least", shortest_segment),
+                                 counted("most", samples)}};
+    if (samples < force.size()) problem.subjects.push_back({"shortened", "differences"});
+    refuse_member("segment_length", std::move(problem));
   }
   cut.segments = options.segment_length ? segments_of(samples, *options.segment_length, options.window, options.overlap)
                                         : chosen_segments(samples, options);

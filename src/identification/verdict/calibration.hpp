@@ -17,9 +17,12 @@ struct Calibration {
   static constexpr double least_p = 1e-4;
   /// Of the upper end of the critical stiffness's interval to the lower: above, the interval is too wide.
   static constexpr double widest_interval = 1.5;
-  /// Lags of the force whose correlation with the residuals is tested, samples; below 0 the force follows the motion. Dense
-  /// where a response begins, a factor of about 1.4 apart later: neighbours there tell the same of a smooth force.
-  static constexpr std::array<int, 16> force_lags = {-5, -2, -1, 0, 1, 2, 3, 5, 7, 10, 14, 20, 30, 45, 70, 100};
+  /// Of the interval, by logarithms: a search that was stopped after a step which moved the limit by more has not come to its end.
+  static constexpr double most_change = 0.05;
+  /// Lags of the force whose correlation with the residuals is tested, samples: forces that came before. Those of the same sample
+  /// and later hang on the position's noise where a controller makes them (Ljung 1999, 13.4). Dense where a response begins, a
+  /// factor of about 1.4 apart later: neighbours there tell the same of a smooth force.
+  static constexpr std::array<int, 12> force_lags = {1, 2, 3, 5, 7, 10, 14, 20, 30, 45, 70, 100};
   /// Rounding is noise where the record moves by so many encoder steps within so many samples.
   static constexpr double least_steps = 3.5;
   static constexpr Eigen::Index moving_within = 64;

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <string>
 
+#include "identification/model/number_keys.hpp"
 #include "identification/verdict/calibration.hpp"
+#include "model/loop_keys.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-constexpr const char* delay_key_of_loop = "loop.delay";
 
 const char* name_of_left(Omnibus::Kind kind) {
   return kind == Omnibus::Kind::nonlinear ? "nonlinear" : "follows_force";
@@ -50,6 +50,17 @@ Finding open_interval(const FittedLikelihood& fit) {
   return found;
 }
 
+bool was_stopped(const FittedLikelihood& fit) {
+  return fit.last_change > Calibration::most_change * std::log(fit.limit->upper / fit.limit->lower);
+}
+
+Finding stopped_search(const FittedLikelihood& fit) {
+  return {.code = FindingCode::search_stopped,
+          .evidence = {{"moved", std::expm1(fit.last_change)},
+                       {"share", fit.last_change / std::log(fit.limit->upper / fit.limit->lower)},
+                       {"threshold", Calibration::most_change}}};
+}
+
 bool stands_out(const Omnibus& left) { return !(left.p >= Calibration::least_p); }
 
 Finding outstanding(const Omnibus& left, const std::vector<NamedRecord>& records) {
@@ -75,7 +86,7 @@ bool contradicts(const GivenDelay& delay) {
 Finding contradicted(const GivenDelay& delay) {
   return {.code = FindingCode::delay_contradicts_structure,
           .evidence = {{"shown", delay.shown}, {"given", delay.given}, {"deviation", delay.deviation}},
-          .key = delay_key_of_loop,
+          .key = key_of_delay,
           .effect = {{"critical_stiffness", delay.stiffness}}};
 }
 
@@ -88,15 +99,16 @@ std::optional<Finding> shown_rival(const RivalEstimate& rival, const FittedLikel
   Finding found{.code = is_friction ? FindingCode::dry_friction_fitted : FindingCode::constant_force,
                 .evidence = {{"force", rival.value}, {"deviation", *rival.standard_deviation}},
                 .subjects = {{"unit", rival.unit}}};
-  const std::string number = rival.parameter.substr(rival.parameter.find('.') + 1);
-  if (is_friction) {
-    found.subjects.push_back({"body", number});
-  } else {
-    const auto record = static_cast<std::size_t>(std::stoul(number));
-    if (record >= fit.records.size()) return std::nullopt;
-    found.subjects.push_back({"source", fit.records[record].source});
+  if (const auto body = body_of_friction(rival.parameter)) {
+    found.subjects.push_back({"body", *body});
+    return found;
   }
-  return found;
+  for (std::size_t record = 0; record < fit.records.size(); ++record) {
+    if (rival.parameter != constant_force_key(record)) continue;
+    found.subjects.push_back({"source", fit.records[record].source});
+    return found;
+  }
+  return std::nullopt;
 }
 
 Finding outside_band(const LimitPlace& place) {

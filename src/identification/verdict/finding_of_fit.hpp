@@ -15,6 +15,10 @@ namespace zwidth::internal {
 /// With the rival that leaves most of the interval open, and the limit within what the records allow of it.
 [[nodiscard]] Finding open_interval(const FittedLikelihood& fit);
 
+/// A last step of the search, or of an end of the interval, that moved the limit by a notable share of the interval.
+[[nodiscard]] bool was_stopped(const FittedLikelihood& fit);
+[[nodiscard]] Finding stopped_search(const FittedLikelihood& fit);
+
 /// The test fails.
 [[nodiscard]] bool stands_out(const Omnibus& left);
 /// What that is, and where. The limit with it is not known: no effect.

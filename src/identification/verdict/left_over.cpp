@@ -102,11 +102,10 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
     const auto counted = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
       return counts.asDiagonal() * columns;
     };
-    left.push_back({segment.record, segment.first + static_cast<std::size_t>(order), repeat_of(record.force), order,
+    left.push_back({segment.record, segment.first + static_cast<std::size_t>(order), repeat_of(record.force),
                     counted(whitened(noise, position - recorded)), counted(slopes.leftCols(numbers)),
                     counted(slopes.rightCols(model.states())), counted(whitened(noise, lagged)),
-                    counted(whitened(noise, positions_under(device, record.sampling_period, forces))),
-                    counted(whitened(noise, (recorded.array() - recorded.mean()).matrix())), counts});
+                    counted(whitened(noise, positions_under(device, record.sampling_period, forces))), counts});
   }
   return left;
 }

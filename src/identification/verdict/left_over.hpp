@@ -14,13 +14,11 @@ struct LeftOver {
   std::size_t record = 0;
   std::size_t first = 0;      ///< sample of the record of the first row
   std::size_t period = 0;     ///< samples after which the force repeats; 0: it does not
-  Eigen::Index order = 0;     ///< of the noise's filter
   Eigen::VectorXd residuals;  ///< of deviation 1
   Eigen::MatrixXd shared;     ///< how they change with the numbers of the fit
   Eigen::MatrixXd own;        ///< how they change with the segment's state
   Eigen::MatrixXd lagged;     ///< the force at the lags of Calibration::force_lags
   Eigen::MatrixXd forces;     ///< what nonlinear forces would add to the position
-  Eigen::VectorXd motion;     ///< the recorded position about its mean
   /// 1, and 0 where the encoder hardly moves: rounding is no noise there (Widrow & Kollar 2008, ch. 5). All else is 0 there too.
   Eigen::VectorXd counts;
 };

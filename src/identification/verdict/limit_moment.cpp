@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "identification/verdict/confidence.hpp"
+
 namespace zwidth::internal {
 
 std::optional<double> limit_moment(
@@ -10,7 +12,6 @@ std::optional<double> limit_moment(
     Eigen::Index first, Eigen::Index last) {
   constexpr double half = 0.5;
   constexpr double step = 1e-3;
-  constexpr double chance = 3.84;  // 95 %: the quantile of chi-squared with one degree of freedom
   const std::optional<double> begin = log_limit(minimum.z, 0.0);
   const std::optional<double> middle = log_limit(minimum.z, half);
   const std::optional<double> end = log_limit(minimum.z, 1.0);
@@ -28,7 +29,7 @@ std::optional<double> limit_moment(
     by(i) = (fall_at(step) - fall_at(-step)) / (2.0 * step);
   }
   const double variance = by.dot(minimum.picture.hessian.ldlt().solve(by));
-  return half + std::max(0.0, 1.0 - chance * variance / (fall * fall)) * (softer - half);
+  return half + std::max(0.0, 1.0 - chi_squared_of_95 * variance / (fall * fall)) * (softer - half);
 }
 
 }  // namespace zwidth::internal

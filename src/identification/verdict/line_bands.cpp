@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstddef>
 
@@ -56,6 +57,13 @@ SumOfSquares squares_of_bands(const DeviceFamily& family, const ResponseEvidence
   }
   result.sum /= shared_noise(response);
   return result;
+}
+
+Omnibus omnibus_of_lines(const SumOfSquares& squares) {
+  Omnibus left;
+  if (!(squares.freedom > 0.0) || !std::isfinite(squares.sum)) return left;
+  left.p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(squares.freedom), squares.sum));
+  return left;
 }
 
 }  // namespace zwidth::internal

@@ -4,6 +4,7 @@
 
 #include "identification/evidence/response_evidence.hpp"
 #include "identification/model/device_family.hpp"
+#include "identification/verdict/omnibus.hpp"
 #include "zwidth/signal/frequency_response.hpp"
 
 namespace zwidth::internal {
@@ -26,5 +27,8 @@ struct SumOfSquares {
 [[nodiscard]] SumOfSquares squares_of_bands(const DeviceFamily& family, const ResponseEvidence& evidence,
                                             const FrequencyResponse& response, const Eigen::VectorXd& z,
                                             const Eigen::MatrixXd& covariance);
+
+/// The test of them: what is left follows the force.
+[[nodiscard]] Omnibus omnibus_of_lines(const SumOfSquares& squares);
 
 }  // namespace zwidth::internal

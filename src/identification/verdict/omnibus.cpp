@@ -114,7 +114,6 @@ Score score_of(const Eigen::VectorXd& residuals, const Columns& candidates, cons
 struct Tested {
   Omnibus::Part part;
   Eigen::VectorXd terms;
-  double explained = 0.0;  ///< squares of the residuals that the candidates take away
 };
 
 std::optional<Tested> tested(Omnibus::Kind kind, const Eigen::VectorXd& residuals, const Columns& candidates,
@@ -127,7 +126,7 @@ std::optional<Tested> tested(Omnibus::Kind kind, const Eigen::VectorXd& residual
   if (!std::isfinite(statistic)) return std::nullopt;
   const boost::math::chi_squared law(freedom);
   const double p = boost::math::cdf(boost::math::complement(law, std::max(statistic, 0.0)));
-  return Tested{{kind, statistic, freedom, p}, residuals.cwiseProduct(candidates * direction), score.sum.squaredNorm()};
+  return Tested{{kind, statistic, freedom, p}, residuals.cwiseProduct(candidates * direction)};
 }
 
 /// Of tenths of each segment the one whose terms add most.
@@ -172,25 +171,20 @@ Omnibus omnibus(const std::vector<LeftOver>& left) {
   const Fitted fitted(left);
   Eigen::VectorXd residuals(rows_of(left));
   double counts = 0.0;
-  double motion = 0.0;
   Eigen::Index at = 0;
   for (const LeftOver& each : left) {
     residuals.segment(at, each.residuals.size()) = each.residuals;
     counts += each.counts.sum();
-    motion += each.motion.squaredNorm();
     at += each.residuals.size();
   }
   if (counts < 1.0) return found;
   residuals = fitted.without(residuals);
   std::optional<Tested> clearest;
-  double explained = 0.0;
   const auto add = [&](Omnibus::Kind kind, const Columns& candidates) {
     const Columns basis = basis_of(fitted.without(candidates), candidates.colwise().norm(), Calibration::least_share);
     std::optional<Tested> test = tested(kind, residuals, basis, left);
     if (!test) return;
     found.parts.push_back(test->part);
-    const double by_chance = static_cast<double>(test->part.freedom) * residuals.squaredNorm() / counts;
-    explained = std::max(explained, test->explained - by_chance);
     const double excess = (test->part.statistic - test->part.freedom) / std::sqrt(2.0 * test->part.freedom);
     if (clearest && excess <= found.excess) return;
     found.excess = excess;
@@ -200,7 +194,6 @@ Omnibus omnibus(const std::vector<LeftOver>& left) {
   add(Omnibus::Kind::nonlinear, stacked(left, &LeftOver::forces));
   if (!clearest) return found;
   found.clearest = clearest->part.kind;
-  found.share = motion > 0.0 ? std::sqrt(explained / motion) : 0.0;
   found.p = combined(found.parts);
   place_of(clearest->terms, left, found);
   return found;

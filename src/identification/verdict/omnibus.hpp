@@ -22,8 +22,6 @@ struct Omnibus {
   };
   double p = 1.0;       ///< of all: Cauchy combination (Liu & Xie 2020), valid however they hang together
   double excess = 0.0;  ///< largest (statistic - freedom) / sqrt(2 freedom)
-  /// Root of what they explain over the motion, both by their noise: at most this much of what was recorded is not understood.
-  double share = 0.0;
   Kind clearest = Kind::follows_force;
   std::size_t record = 0;  ///< where the clearest stands out most, of tenths of each segment
   std::size_t first = 0;   ///< sample

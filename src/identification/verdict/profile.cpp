@@ -43,7 +43,7 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   constexpr double most_damping = 10;  // of the curvature
   const Eigen::VectorXd lowest = problem.lowest();
   const double middle = number(minimum.z).value_or(0.0);
-  ProfileEnd end{middle, minimum.z, false, false};
+  ProfileEnd end{middle, minimum.z, 0.0, false};
   Eigen::VectorXd z = minimum.z;
   Picture here = minimum.picture;
   double before = middle;
@@ -75,10 +75,10 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
       end.value = *value;
       end.z = z;
     }
-    const bool stands_still = std::abs(*value - before) < still + 0.01 * std::abs(*value - middle);
+    end.last_change = std::abs(*value - before);
     before = *value;
-    if (is_within && stands_still) {
-      end.settled = true;
+    if (is_within && end.last_change < still + 0.01 * std::abs(*value - middle)) {
+      end.last_change = 0.0;
       break;
     }
     damping *= 0.1;
@@ -101,6 +101,11 @@ Eigen::VectorXd slope_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::I
     if (high && low) gradient(i) = (*high - *low) / (above(i) - below(i));
   }
   return gradient;
+}
+
+double last_change(const Minimum& minimum, const Eigen::VectorXd& slope) {
+  if (minimum.settled || minimum.last_step.size() == 0) return 0.0;
+  return std::abs(slope.dot(minimum.last_step));
 }
 
 Eigen::VectorXd covariance_times(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& vector) {

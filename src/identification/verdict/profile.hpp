@@ -16,7 +16,7 @@ using LogOf = std::function<std::optional<double>(const Eigen::VectorXd& z)>;
 struct ProfileEnd {
   double value = 0.0;  ///< the logarithm there
   Eigen::VectorXd z;
-  bool settled = false;
+  double last_change = 0.0;  ///< of the logarithm, by the last step; 0 where it stood still
   /// The cost fell below the minimum's: that was none.
   bool found_better = false;
 };
@@ -31,6 +31,9 @@ struct ProfileEnd {
 /// How the number changes with each of the first `varied` elements of z; by differences.
 [[nodiscard]] Eigen::VectorXd slope_of(const LogOf& number, const Eigen::VectorXd& z, Eigen::Index varied,
                                        const Eigen::VectorXd& lowest);
+
+/// How much a number that hangs on z by `slope` changed with the last step of a search that was stopped; 0 where it came to rest.
+[[nodiscard]] double last_change(const Minimum& minimum, const Eigen::VectorXd& slope);
 
 /// H^-1 v and H^-1, in units in which the diagonal of H is 1: what the data hardly tell stays apart from rounding.
 [[nodiscard]] Eigen::VectorXd covariance_times(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& vector);

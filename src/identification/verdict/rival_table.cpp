@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "identification/verdict/confidence.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -29,7 +31,6 @@ std::optional<double> none_of(const Number& number) {
 }
 
 MovingRival estimate_of(const BestNumbers& best, Eigen::Index at) {
-  constexpr double of_95_percent = 1.96;
   constexpr double as_believed = 0.9;
   constexpr double most_gain = 1e9;
   const Number& number = best.numbers[static_cast<std::size_t>(at)];
@@ -47,8 +48,8 @@ MovingRival estimate_of(const BestNumbers& best, Eigen::Index at) {
   }
   const double shared = best.covariance.row(at).dot(best.stiffness_slope);
   const double slope = variance > 0.0 ? shared / variance : 0.0;
-  const double down = slope * std::max(-of_95_percent * deviation, std::min(0.0, number.lowest() - best.x(at)));
-  const double up = slope * of_95_percent * deviation;
+  const double down = slope * std::max(-deviations_of_95 * deviation, std::min(0.0, number.lowest() - best.x(at)));
+  const double up = slope * deviations_of_95 * deviation;
   if (!std::isfinite(down) || !std::isfinite(up)) return made;
   made.moves = std::abs(up - down);
   const auto cut = [&](double log_shift) {

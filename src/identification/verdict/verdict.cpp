@@ -5,15 +5,21 @@
 
 namespace zwidth::internal {
 
+bool is_explained(const FittedLikelihood& fit) {
+  return !fit.motion_tells_none && !(fit.left && stands_out(*fit.left));
+}
+
 Verdict verdict_of(const FittedLikelihood& fit) {
   Verdict verdict;
   Trust& trust = verdict.trust;
   for (const Finding& each : fit.contradictions) trust.refuse(each);
   if (!fit.limit || !(fit.limit->upper > 0.0)) trust.refuse(undetermined(fit));
   for (const Finding& each : fit.doubts_of_data) trust.doubt(each);
+  if (fit.motion_tells_none) trust.doubt({.code = FindingCode::motion_tells_no_limit});
   if (trust.refused()) return verdict;
   const bool is_narrow = fit.limit->upper <= Calibration::widest_interval * fit.limit->lower;
   if (!is_narrow) trust.doubt(open_interval(fit));
+  if (was_stopped(fit)) trust.doubt(stopped_search(fit));
   if (fit.left && stands_out(*fit.left)) trust.doubt(outstanding(*fit.left, fit.records));
   if (fit.delay && contradicts(*fit.delay)) {
     const bool matters = fit.delay->stiffness < fit.limit->lower || fit.delay->stiffness > fit.limit->upper;

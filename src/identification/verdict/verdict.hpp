@@ -39,6 +39,7 @@ struct GivenDelay {
 struct FittedLikelihood {
   Motion motion = Motion::linear;
   std::optional<Interval> limit = {};        ///< all within 1.92 of the best log-likelihood; absent: none was found
+  double last_change = 0.0;                  ///< FoundDevice::last_change
   std::optional<Omnibus> left = {};          ///< of what it leaves in time; absent: nothing was fitted
   std::vector<NamedRecord> records = {};     ///< those that `left` counts
   std::vector<RivalEstimate> rivals = {};    ///< rival_table()
@@ -46,6 +47,7 @@ struct FittedLikelihood {
   std::optional<GivenDelay> delay = {};      ///< where one was given
   std::vector<Finding> contradictions = {};  ///< refusals: data or given numbers that contradict each other
   std::vector<Finding> doubts_of_data = {};  ///< a clipped signal
+  bool motion_tells_none = false;            ///< the lines of the response answer in its place
 };
 
 /// The trust in the limit, and what is to be noted beside it.
@@ -54,8 +56,11 @@ struct Verdict {
   std::vector<Remark> remarks;
 };
 
+/// Whether the structure leaves nothing but noise of what was recorded.
+[[nodiscard]] bool is_explained(const FittedLikelihood& fit);
+
 /// Sound where the interval is within Calibration::widest_interval and what is left does not stand out; doubtful where it is
-/// wider, or stands out, or the data are not whole; refused where no limit is determined, or the data contradict themselves.
+/// wider, or stands out, or the data are not whole, or the motion tells of no limit; refused where no limit is determined, or the data contradict themselves.
 /// An interval that is too wide names the rival that leaves most of it open.
 [[nodiscard]] Verdict verdict_of(const FittedLikelihood& fit);
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "identification/verdict/calibration.hpp"
+#include "identification/verdict/confidence.hpp"
 #include "signal/fourier.hpp"
 
 namespace zwidth::internal {
@@ -113,8 +114,7 @@ double widening(const std::vector<LeftOver>& left, const LimitSlope& limit) {
 }
 
 Interval widened(const OpenLimit& limit, double by) {
-  constexpr double of_95_percent = 1.96;
-  const double least = of_95_percent * limit.deviation;
+  const double least = deviations_of_95 * limit.deviation;
   by *= Calibration::more_than_noise;
   const double down = by * std::max(limit.best - limit.lower, least);
   const double up = by * std::max(limit.upper - limit.best, least);

@@ -1,4 +1,5 @@
 #include "identification/model/rivals/catalogue.hpp"
+#include "model/loop_keys.hpp"
 namespace zwidth::internal {
 namespace {
 
@@ -7,8 +8,8 @@ constexpr double lag_deviation = 1.0;  // of (lag / 2 ms)^2
 
 /// 1 / (tau s + 1) beside the delay, where that is free: the record tells delay + lag in the first order, each in the second.
 void add_actuator_lag(const RivalSetting& setting, ModelParts& parts) {
-  constexpr const char* key = "actuator.time_constant";
-  if (setting.frees_lag && !parts.has(key)) parts.add({key, Number::Scale::square, lag_typical, 0.0, lag_deviation});
+  if (setting.frees_lag && !parts.has(key_of_lag))
+    parts.add({key_of_lag, Number::Scale::square, lag_typical, 0.0, lag_deviation});
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 namespace zwidth::internal {
 
 std::span<const Rival> rivals() {
-  static const std::array all = {constant_force(),    coulomb_friction(), presliding(),      drag(),
-                                 damping_drift(),     delay_drift(),      actuator_lag(),    ground_spring(),
-                                 stiffening_spring(), drive_saturation(), drive_dead_band(), cogging()};
+  static const std::array all = {constant_force(),    coulomb_friction(), presliding(),     drag(),
+                                 damping_drift(),     delay_drift(),      actuator_lag(),   ground_spring(),
+                                 stiffening_spring(), drive_saturation(), drive_dead_band()};
   return all;
 }
 
@@ -24,12 +24,8 @@ std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& part
     for (std::size_t i = before; i < parts.numbers.size(); ++i) each.keys.push_back(parts.numbers[i].key);
     if (!each.keys.empty()) added.push_back(std::move(each));
   }
-  const auto others = std::ranges::stable_partition(parts.numbers, [&](const Number& number) {
-    const std::optional<FurtherBody>& further = parts.further_body;
-    const bool of_further = further && (number.key == further->mass_ratio || number.key == further->frequency ||
-                                        number.key == further->damping_ratio);
-    return of_further || parameter(setting.device, number.key).has_value();
-  });
+  const auto others = std::ranges::stable_partition(
+      parts.numbers, [&](const Number& number) { return parameter(setting.device, number.key).has_value(); });
   std::ranges::stable_partition(others, [](const Number& number) {
     return number.key == key_of_damping_drift || number.key == key_of_delay_drift;
   });

@@ -19,12 +19,10 @@ namespace zwidth::internal {
 [[nodiscard]] Rival actuator_lag();
 [[nodiscard]] Rival ground_spring();
 [[nodiscard]] Rival stiffening_spring();
-[[nodiscard]] Rival further_body();
 [[nodiscard]] Rival drive_saturation();
 [[nodiscard]] Rival drive_dead_band();
-[[nodiscard]] Rival cogging();
 
-/// All that a fit has, in the order in which they are added. further_body() is not among them: the search does not settle with it.
+/// All that a fit has, in the order in which they are added.
 [[nodiscard]] std::span<const Rival> rivals();
 
 /// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them,

@@ -1,3 +1,4 @@
+#include "identification/model/number_keys.hpp"
 #include "identification/model/rivals/catalogue.hpp"
 
 namespace zwidth::internal {
@@ -17,9 +18,9 @@ constexpr double constant_deviation = 0.3;
 
 void add_constant_forces(const RivalSetting& setting, ModelParts& parts) {
   for (std::size_t record = 0; record < setting.records; ++record) {
-    const std::string key = parts.add(
-        {"constant_force." + std::to_string(record), Number::Scale::any, setting.rms_force, 0.0, constant_deviation});
-    parts.terms.forces.push_back({std::make_shared<ConstantForceLaw>(), actuated_body(setting), "", {key}, record});
+    const std::string key =
+        parts.add({constant_force_key(record), Number::Scale::any, setting.rms_force, 0.0, constant_deviation});
+    parts.terms.forces.push_back({std::make_shared<ConstantForceLaw>(), actuated_body(setting), {key}, record});
   }
 }
 

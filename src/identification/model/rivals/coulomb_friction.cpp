@@ -1,3 +1,4 @@
+#include "identification/model/number_keys.hpp"
 #include "identification/model/rivals/catalogue.hpp"
 
 namespace zwidth::internal {
@@ -10,7 +11,7 @@ constexpr double friction_deviation = 0.1;
 void add_coulomb_friction(const RivalSetting& setting, ModelParts& parts) {
   for (const std::string& body : moving_bodies_of(setting)) {
     const std::string key =
-        parts.add({"friction." + body, Number::Scale::not_negative, setting.rms_force, 0.0, friction_deviation});
+        parts.add({friction_key(body), Number::Scale::not_negative, setting.rms_force, 0.0, friction_deviation});
     parts.terms.frictions.push_back({body, key});
   }
 }

@@ -30,7 +30,7 @@ void add_damping_drift(const RivalSetting& setting, ModelParts& parts) {
   if (bodies.empty()) return;
   const std::string drift = parts.add({key_of_damping_drift, Number::Scale::any, 1.0, 0.0, drift_deviation});
   for (const auto& [body, damping] : bodies)
-    parts.terms.forces.push_back({std::make_shared<DampingDriftLaw>(), body, "", {drift, damping}});
+    parts.terms.forces.push_back({std::make_shared<DampingDriftLaw>(), body, {drift, damping}});
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "identification/model/number_keys.hpp"
 #include "identification/model/rivals/catalogue.hpp"
 
 namespace zwidth::internal {
@@ -20,8 +21,8 @@ constexpr double drag_deviation = 1.0;
 void add_drag(const RivalSetting& setting, ModelParts& parts) {
   const double unit = typical_damping(setting) / setting.largest_speed;
   for (const std::string& body : moving_bodies_of(setting)) {
-    const std::string key = parts.add({"drag." + body, Number::Scale::any, unit, 0.0, drag_deviation});
-    parts.terms.forces.push_back({std::make_shared<DragLaw>(), body, "", {key}});
+    const std::string key = parts.add({drag_key(body), Number::Scale::any, unit, 0.0, drag_deviation});
+    parts.terms.forces.push_back({std::make_shared<DragLaw>(), body, {key}});
   }
 }
 

@@ -9,17 +9,13 @@
 namespace zwidth::internal {
 
 RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std::string>& locked,
-                           std::span<const ForceMotionRecord> records, double highest_frequency) {
+                           std::span<const ForceMotionRecord> records) {
   constexpr std::size_t reach = 5;
-  RivalSetting setting{
-      .device = device, .locked = locked, .highest_frequency = highest_frequency, .records = records.size()};
+  RivalSetting setting{.device = device, .locked = locked, .records = records.size()};
   const auto rms = [](double squares, std::size_t count) { return std::sqrt(squares / static_cast<double>(count)); };
   for (const ForceMotionRecord& record : records) {
     double force_squares = 0.0;
-    for (const double force : record.force) {
-      force_squares += force * force;
-      setting.largest_force = std::max(setting.largest_force, std::abs(force));
-    }
+    for (const double force : record.force) force_squares += force * force;
     const std::size_t count = record.position.size();
     double mean = 0.0;
     for (const double position : record.position) mean += position / static_cast<double>(count);

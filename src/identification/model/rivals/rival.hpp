@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,22 +20,19 @@ struct RivalSetting {
   DeviceParameters device;          ///< of bodies
   std::vector<std::string> locked;  ///< bodies held still while the records were made
   double rms_force = 0.0;           ///< N or N m; > 0
-  double largest_force = 0.0;       ///< N or N m; > 0
   double rms_speed = 0.0;           ///< m/s or rad/s, of the sensed body; > 0
   double largest_speed = 0.0;       ///< m/s or rad/s; > 0
   double rms_position = 0.0;        ///< m or rad, about the mean; > 0
   double duration = 0.0;            ///< s, of the longest record
   double sampling_period = 0.0;     ///< s
-  double highest_frequency = 0.0;   ///< Hz, that the records tell of; > 0
   std::size_t records = 1;
-  bool frees_lag = false;                       ///< a lag may hide beside the delay
-  std::optional<double> cogging_per_turn = {};  ///< slots that a turn of a rotary device passes, where they are known
+  bool frees_lag = false;  ///< a lag may hide beside the delay
 };
 
 /// Of records of such a device. Speeds are differences over 5 periods, which an encoder's steps hardly touch.
 /// Requires a force and a motion in each.
 [[nodiscard]] RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std::string>& locked,
-                                         std::span<const ForceMotionRecord> records, double highest_frequency);
+                                         std::span<const ForceMotionRecord> records);
 
 /// N s/m or N m s/rad: what all bodies' dampings come to, at least 2 % of the rms force over the rms speed.
 [[nodiscard]] double typical_damping(const RivalSetting& setting);
@@ -47,11 +43,10 @@ struct RivalSetting {
 /// Name of the body that the actuator pushes.
 [[nodiscard]] const std::string& actuated_body(const RivalSetting& setting);
 
-/// What a fit is made of: DeviceFamily takes the numbers and the further body, MotionModel the terms.
+/// What a fit is made of: DeviceFamily takes the numbers, MotionModel the terms.
 struct ModelParts {
   std::vector<Number> numbers = {};
   MotionTerms terms = {};
-  std::optional<FurtherBody> further_body = {};
 
   [[nodiscard]] bool has(std::string_view key) const;
   /// The key of the number that is added.

@@ -31,7 +31,7 @@ void add_stiffening_spring(const RivalSetting& setting, ModelParts& parts) {
   };
   const std::string square = add("stiffening.square", stiffness / setting.rms_position);
   const std::string cube = add("stiffening.cube", stiffness / (setting.rms_position * setting.rms_position));
-  parts.terms.forces.push_back({std::make_shared<StiffeningSpringLaw>(), held, "", {square, cube}});
+  parts.terms.forces.push_back({std::make_shared<StiffeningSpringLaw>(), held, {square, cube}});
 }
 
 }  // namespace

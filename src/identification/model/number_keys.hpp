@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace zwidth::internal {
+
+// Keys of the numbers of rivals, which are none of a device: each says what it is of.
+
+inline std::string friction_key(const std::string& body) { return "friction." + body; }
+inline std::string drag_key(const std::string& body) { return "drag." + body; }
+inline std::string constant_force_key(std::size_t record) { return "constant_force." + std::to_string(record); }
+
+/// The body whose dry friction that is; nothing of another number.
+inline std::optional<std::string> body_of_friction(std::string_view key) {
+  constexpr std::string_view friction = "friction.";
+  if (!key.starts_with(friction)) return std::nullopt;
+  return std::string(key.substr(friction.size()));
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,56 @@
+#include "identification/verdict/plausible_device.hpp"
+
+#include <gtest/gtest.h>
+
+namespace zwidth::internal {
+namespace {
+
+Device body_of(double mass, Motion motion) {
+  DeviceParameters device;
+  device.name = "body";
+  device.motion = motion;
+  device.bodies = {{"body", mass, 1.0, 0.0, 0.0}};
+  device.loop.sampling_period = 1e-3;
+  return Device(device);
+}
+
+// A force in mN taken for N: 300 kg, and 1000 times too high.
+TEST(PlausibleDevice, NoHapticDeviceIsAsHeavyAsThat) {
+  const auto heavy = doubt_of_masses(body_of(300.0, Motion::linear), nullptr);
+  ASSERT_TRUE(heavy);
+  EXPECT_EQ(heavy->code, FindingCode::fitted_body_too_heavy);
+  EXPECT_EQ(heavy->evidence[0], (Evidence{"mass", 300.0}));
+  EXPECT_EQ(heavy->evidence[1], (Evidence{"threshold", 100.0}));
+  EXPECT_FALSE(doubt_of_masses(body_of(90.0, Motion::linear), nullptr));
+  EXPECT_TRUE(doubt_of_masses(body_of(11.0, Motion::rotary), nullptr));
+  EXPECT_FALSE(doubt_of_masses(body_of(9.0, Motion::rotary), nullptr));
+}
+
+TEST(PlausibleDevice, MassesFarFromAKnownStructureAreDoubtedOrWarnedOf) {
+  const Device known = body_of(0.2, Motion::linear);
+  const Device thousand = body_of(200.0, Motion::linear);
+  const auto doubt = doubt_of_masses(thousand, &known);
+  ASSERT_TRUE(doubt);
+  EXPECT_EQ(doubt->code, FindingCode::mass_far_from_structure);
+  EXPECT_EQ(doubt->key, "body.body.mass");
+  EXPECT_NEAR(doubt->evidence[0].value, 1000.0, 1e-9);
+  EXPECT_TRUE(implausible_device(thousand, &known, 1e-3).empty());
+
+  const Device ten = body_of(2.0, Motion::linear);
+  EXPECT_FALSE(doubt_of_masses(ten, &known));
+  const auto warned = implausible_device(ten, &known, 1e-3);
+  ASSERT_EQ(warned.size(), 1U);
+  EXPECT_EQ(warned[0].finding.value().code, FindingCode::mass_far_from_structure);
+  EXPECT_TRUE(implausible_device(body_of(0.3, Motion::linear), &known, 1e-3).empty());
+}
+
+// Rows of 1 ms whose times are read as 1 s.
+TEST(PlausibleDevice, APeriodFarFromTheRecordsIsWarnedOf) {
+  const auto remarks = implausible_device(body_of(0.2, Motion::linear), nullptr, 1.0);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].finding.value().code, FindingCode::period_far_from_record);
+  EXPECT_TRUE(implausible_device(body_of(0.2, Motion::linear), nullptr, 1e-3).empty());
+}
+
+}  // namespace
+}  // namespace zwidth::internal
