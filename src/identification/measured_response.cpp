@@ -13,6 +13,7 @@
 
 #include "counted.hpp"
 #include "identification/response/hidden_friction.hpp"
+#include "identification/response/local_polynomial.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/response/pooled_response.hpp"
 #include "identification/response/response_choice.hpp"
@@ -327,10 +328,9 @@ MeasuredResponse frequency_response(const Recording& recording, const FrequencyR
 
 namespace {
 
-/// The response in segments as these options say, judged.
-MeasuredResponse judged(std::span<const Recording> recordings, const FrequencyResponseOptions& decided,
-                        const Progress& progress) {
-  std::vector<FrequencyResponse> each = responses(recordings, decided, progress);
+/// The response of each recording, pooled and judged.
+MeasuredResponse judged(std::span<const Recording> recordings, std::span<const FrequencyResponse> each,
+                        const FrequencyResponseOptions& decided) {
   std::vector<Remark> remarks;
   std::vector<Finding> doubts;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
@@ -370,23 +370,24 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
                                     const Progress& progress) {
   FrequencyResponseOptions decided = options;
   decided.excitation = excitation_of(options);
-  MeasuredResponse best = judged(recordings, decided, progress);
+  MeasuredResponse best = judged(recordings, responses(recordings, decided, progress), decided);
   if (options.segment_length || best.response.points.size() < 2 || is_of_lines(recordings, decided)) return best;
-  // Longer segments have closer lines, and fewer averages: where the shorter ones leave the critical stiffness open.
-  constexpr std::size_t least_segments = 4;
-  const double period = recordings.front().sampling_period;
-  double shortest = std::numeric_limits<double>::infinity();
+  if (width_of(best) <= Calibration::widest_interval) return best;
+  // The whole record has closer lines than its segments, which leave the critical stiffness open.
+  double shortest = std::numeric_limits<double>::infinity();  // s
   for (const Recording& each : recordings)
-    shortest = std::min(shortest, static_cast<double>(each.channels[0].samples.size()) * each.sampling_period / period);
-  auto length = static_cast<std::size_t>(std::lround(segment_duration(best.response) / period));
-  while (width_of(best) > Calibration::widest_interval) {
-    length *= 2;
-    if (static_cast<double>(length * least_segments) > shortest) break;
-    decided.segment_length = length;
-    MeasuredResponse longer = judged(recordings, decided, {});
-    if (width_of(longer) < width_of(best)) best = std::move(longer);
+    shortest = std::min(shortest, static_cast<double>(each.channels[0].samples.size()) * each.sampling_period);
+  constexpr double most_lines = 600.0;
+  const double spacing = std::max(fewest_local_lines * 2.0 * std::numbers::pi / shortest,
+                                  best.response.points.back().frequency / most_lines);
+  std::vector<FrequencyResponse> whole;
+  for (const Recording& each : recordings) {
+    whole.push_back(response_of_whole_record(each.channels[0].samples, each.channels[1].samples, each.sampling_period,
+                                             spacing, decided));
+    if (whole.back().points.empty()) return best;
   }
-  return best;
+  MeasuredResponse closer = judged(recordings, whole, decided);
+  return width_of(closer) < width_of(best) ? closer : best;
 }
 
 }  // namespace zwidth
