@@ -99,7 +99,8 @@ class Crossing {
 
   [[nodiscard]] std::optional<MeasuredCrossover> by_curve() const {
     if (!stiffness_curve_) return std::nullopt;
-    return crossing_of(*stiffness_curve_, 0.5 * (lines_[meeting_.before].frequency + lines_[meeting_.after].frequency), below_.sign);
+    return crossing_of(*stiffness_curve_, 0.5 * (lines_[meeting_.before].frequency + lines_[meeting_.after].frequency),
+                       below_.sign);
   }
 
   /// One curve through the phases around the crossing. Its bound passes -180 degrees at the interval's ends: of many

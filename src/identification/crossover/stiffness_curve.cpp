@@ -59,10 +59,9 @@ std::optional<Fit> fitted(std::span<const PhaseLine> lines, std::size_t first, s
       if (!std::isfinite(line.sigma) || !(line.sigma > 0.0)) continue;
       const Half powers = powers_at(fit.curve, line.frequency);
       const double odd = line.frequency / fit.curve.highest;
-      const double size = round == 0
-                              ? 1.0 / std::abs(line.value)
-                              : std::hypot(fit.curve.numbers.head<3>().dot(powers),
-                                           odd * fit.curve.numbers.tail<3>().dot(powers));
+      const double size = round == 0 ? 1.0 / std::abs(line.value)
+                                     : std::hypot(fit.curve.numbers.head<3>().dot(powers),
+                                                  odd * fit.curve.numbers.tail<3>().dot(powers));
       const double weight = 1.0 / (line.sigma * size);
       Eigen::Matrix<double, 2, 6> rows;
       rows.row(0) << line.value.real() * powers.transpose(), -odd * line.value.imag() * powers.transpose();

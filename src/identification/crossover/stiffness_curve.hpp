@@ -17,12 +17,12 @@ namespace zwidth::internal {
 ///
 /// so that a free body, its delay and a resonance are smooth in it.
 struct StiffnessCurve {
-  using Numbers = Eigen::Matrix<double, 6, 1>;      ///< of a, then of w0 b
+  using Numbers = Eigen::Matrix<double, 6, 1>;  ///< of a, then of w0 b
   using Covariance = Eigen::Matrix<double, 6, 6>;
 
   std::size_t first = 0;  ///< line
   std::size_t last = 0;
-  double lowest = 0.0;    ///< rad/s, of these lines
+  double lowest = 0.0;  ///< rad/s, of these lines
   double highest = 0.0;
   Numbers numbers = Numbers::Zero();
   Covariance covariance = Covariance::Zero();
