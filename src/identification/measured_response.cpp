@@ -215,7 +215,14 @@ void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recor
     return found.status == MeasuredStiffnessStatus::found && found.limit ? found.limit->stiffness : 0.0;
   };
   const double remaining = std::min(without(friction.most(), drag.size), without(friction.size, drag.most()));
-  const double least = std::min(before->lower, remaining);
+  // What shows is taken off; beyond it, noise and what is left open of the two are independent.
+  const double shown = std::min(without(friction.size, drag.size), measured.stiffness->limit->stiffness);
+  const double least =
+      remaining > 0.0 && before->lower > 0.0
+          ? std::min(before->lower,
+                     shown * std::exp(-std::hypot(std::log(measured.stiffness->limit->stiffness / before->lower),
+                                                  std::log(std::max(1.0, shown / remaining)))))
+          : 0.0;
   MeasuredCrossover& limit = *measured.stiffness->limit;
   for (MeasuredCrossover& crossover : measured.stiffness->crossovers) {
     if (crossover.frequency == limit.frequency) crossover.stiffness_interval.lower = least;
@@ -387,7 +394,8 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     if (whole.back().points.empty()) return best;
   }
   MeasuredResponse closer = judged(recordings, whole, decided);
-  return width_of(closer) < width_of(best) ? closer : best;
+  const bool is_better = width_of(closer) < width_of(best) || (best.trust.refused() && !closer.trust.refused());
+  return is_better ? closer : best;
 }
 
 }  // namespace zwidth

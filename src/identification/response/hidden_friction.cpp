@@ -107,6 +107,12 @@ std::optional<Examined> examined(const Recording& recording, double highest, con
 /// Of friction, as it opposes and a quarter of a turn on, and of drag: a delay turns them.
 using Effects = Eigen::MatrixX4d;
 
+/// The noise leaves the line's value known.
+bool is_known(const ResponsePoint& point) {
+  constexpr double most_noise = 0.05;
+  return point.variance < most_noise * std::norm(point.value);
+}
+
 /// What a block of lines says of the two: motion = effects c + rest, both beside the smooth response; real parts of all lines,
 /// then imaginary ones.
 struct Block {
@@ -200,8 +206,12 @@ std::optional<Equation> of_record(const Examined& lines, std::span<const std::si
 }
 
 void add_blocks(std::vector<Block>& blocks, const Examined& lines, const FrequencyResponse& response) {
-  const auto first = static_cast<std::size_t>(std::ceil(response.points.front().frequency / lines.spacing - 1e-6));
-  const auto last = static_cast<std::size_t>(std::floor(response.points.back().frequency / lines.spacing + 1e-6));
+  // Beyond the lines that are known, what the force makes is not told from what leaks.
+  const auto lowest = std::ranges::find_if(response.points, is_known);
+  const auto highest = std::find_if(response.points.rbegin(), response.points.rend(), is_known);
+  if (lowest == response.points.end()) return;
+  const auto first = static_cast<std::size_t>(std::ceil(lowest->frequency / lines.spacing - 1e-6));
+  const auto last = static_cast<std::size_t>(std::floor(highest->frequency / lines.spacing + 1e-6));
   std::vector<std::size_t> excited;
   double largest = 0.0;
   const std::size_t end = std::min(last + 1, lines.force.size());
@@ -317,7 +327,7 @@ FrequencyResponse without_forces(const FrequencyResponse& response, const Hidden
       sum += gain.power * gain.value;
       power += gain.power;
     }
-    if (!(power > 0.0)) continue;
+    if (!(power > 0.0) || !is_known(point)) continue;
     const std::complex<double> rate =
         std::polar(point.frequency, 0.5 * (std::numbers::pi + point.frequency * *response.sampling_period));
     const std::complex<double> factor = 1.0 / (1.0 - sum / power * rate * point.value);
