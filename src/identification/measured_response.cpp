@@ -13,6 +13,7 @@
 
 #include "counted.hpp"
 #include "identification/response/hidden_friction.hpp"
+#include "identification/response/local_polynomial.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/response/pooled_response.hpp"
 #include "identification/response/response_choice.hpp"
@@ -216,7 +217,14 @@ void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recor
     return found.status == MeasuredStiffnessStatus::found && found.limit ? found.limit->stiffness : 0.0;
   };
   const double remaining = std::min(without(friction.most(), drag.size), without(friction.size, drag.most()));
-  const double least = std::min(before->lower, remaining);
+  // What shows is taken off; beyond it, noise and what is left open of the two are independent.
+  const double shown = std::min(without(friction.size, drag.size), measured.stiffness->limit->stiffness);
+  const double least =
+      remaining > 0.0 && before->lower > 0.0
+          ? std::min(before->lower,
+                     shown * std::exp(-std::hypot(std::log(measured.stiffness->limit->stiffness / before->lower),
+                                                  std::log(std::max(1.0, shown / remaining)))))
+          : 0.0;
   MeasuredCrossover& limit = *measured.stiffness->limit;
   for (MeasuredCrossover& crossover : measured.stiffness->crossovers) {
     if (crossover.frequency == limit.frequency) crossover.stiffness_interval.lower = least;
@@ -329,10 +337,9 @@ MeasuredResponse frequency_response(const Recording& recording, const FrequencyR
 
 namespace {
 
-/// The response in segments as these options say, judged.
-MeasuredResponse judged(std::span<const Recording> recordings, const FrequencyResponseOptions& decided,
-                        const Progress& progress) {
-  std::vector<FrequencyResponse> each = responses(recordings, decided, progress);
+/// The response of each recording, pooled and judged.
+MeasuredResponse judged(std::span<const Recording> recordings, std::span<const FrequencyResponse> each,
+                        const FrequencyResponseOptions& decided) {
   std::vector<Remark> remarks;
   std::vector<Finding> doubts;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
@@ -372,23 +379,25 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
                                     const Progress& progress) {
   FrequencyResponseOptions decided = options;
   decided.excitation = excitation_of(options);
-  MeasuredResponse best = judged(recordings, decided, progress);
+  MeasuredResponse best = judged(recordings, responses(recordings, decided, progress), decided);
   if (options.segment_length || best.response.points.size() < 2 || is_of_lines(recordings, decided)) return best;
-  // Longer segments have closer lines, and fewer averages: where the shorter ones leave the critical stiffness open.
-  constexpr std::size_t least_segments = 4;
-  const double period = recordings.front().sampling_period;
-  double shortest = std::numeric_limits<double>::infinity();
+  if (width_of(best) <= Calibration::widest_interval) return best;
+  // The whole record has closer lines than its segments, which leave the critical stiffness open.
+  double shortest = std::numeric_limits<double>::infinity();  // s
   for (const Recording& each : recordings)
-    shortest = std::min(shortest, static_cast<double>(each.channels[0].samples.size()) * each.sampling_period / period);
-  auto length = static_cast<std::size_t>(std::lround(segment_duration(best.response) / period));
-  while (width_of(best) > Calibration::widest_interval) {
-    length *= 2;
-    if (static_cast<double>(length * least_segments) > shortest) break;
-    decided.segment_length = length;
-    MeasuredResponse longer = judged(recordings, decided, {});
-    if (width_of(longer) < width_of(best)) best = std::move(longer);
+    shortest = std::min(shortest, static_cast<double>(each.channels[0].samples.size()) * each.sampling_period);
+  constexpr double most_lines = 600.0;
+  const double spacing = std::max(fewest_local_lines * 2.0 * std::numbers::pi / shortest,
+                                  best.response.points.back().frequency / most_lines);
+  std::vector<FrequencyResponse> whole;
+  for (const Recording& each : recordings) {
+    whole.push_back(response_of_whole_record(each.channels[0].samples, each.channels[1].samples, each.sampling_period,
+                                             spacing, decided));
+    if (whole.back().points.empty()) return best;
   }
-  return best;
+  MeasuredResponse closer = judged(recordings, whole, decided);
+  const bool is_better = width_of(closer) < width_of(best) || (best.trust.refused() && !closer.trust.refused());
+  return is_better ? closer : best;
 }
 
 }  // namespace zwidth

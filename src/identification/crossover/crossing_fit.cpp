@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "identification/crossover/stiffness_curve.hpp"
 #include "identification/crossover/student_t.hpp"
 
 namespace zwidth::internal {
@@ -53,6 +54,10 @@ class Crossing {
     result.end_open = end_open_;
     crossover.poles_leaving = below_.sign > 0 ? 2 : -2;
     const std::optional<Point> sparse = between_sparse_lines();
+    if (const auto crossing = sparse ? std::nullopt : by_curve()) {
+      crossover = *crossing;
+      return result;
+    }
     const auto [frequency, log_magnitude] = sparse ? *sparse : passes_once() ? interpolated() : smoothed();
     crossover.frequency = frequency;
     crossover.stiffness = std::exp(-log_magnitude);
@@ -92,6 +97,12 @@ class Crossing {
     return surest;
   }
 
+  [[nodiscard]] std::optional<MeasuredCrossover> by_curve() const {
+    if (!stiffness_curve_) return std::nullopt;
+    return crossing_of(*stiffness_curve_, 0.5 * (lines_[meeting_.before].frequency + lines_[meeting_.after].frequency),
+                       below_.sign);
+  }
+
   /// One curve through the phases around the crossing. Its bound passes -180 degrees at the interval's ends: of many
   /// lines, each proven by a fit of its own with 95 %, some are so by chance, and the innermost of them is too near.
   void fit_curve(double line_correlation) {
@@ -103,6 +114,7 @@ class Crossing {
     for (std::size_t i = first_sample_; i <= above_.last && !(i > centre && is_far(lines_[i])); ++i) {
       phases.push_back(phase_sample(lines_[i]));
     }
+    stiffness_curve_ = stiffness_curve(lines_, centre, below_.first, above_.last, line_correlation);
     if (lines_[centre].measured) curve_ = local_curve(phases, centre - first_sample_, line_correlation);
   }
 
@@ -292,6 +304,7 @@ class Crossing {
   std::size_t end_open_ = 0;
   std::size_t first_sample_ = 0;  // of the curve: its line
   std::optional<LocalCurve> curve_;
+  std::optional<StiffnessCurve> stiffness_curve_;
   double phase_sag_ = 0.0;
   double magnitude_sag_ = 0.0;
 };

@@ -9,6 +9,7 @@
 
 #include "counted.hpp"
 #include "identification/response/line_response.hpp"
+#include "identification/response/local_polynomial.hpp"
 #include "identification/response/period_detection.hpp"
 #include "identification/response/periodic_response.hpp"
 #include "identification/response/welch.hpp"
@@ -144,7 +145,24 @@ void to_position(FrequencyResponse& response, OutputQuantity output, double samp
                                                                               : FindingCode::acceleration_integrated}));
 }
 
+void to_position_in_band(FrequencyResponse& response, const FrequencyResponseOptions& options, double sampling_period) {
+  to_position(response, options.output, sampling_period);
+  std::erase_if(response.points, [&](const ResponsePoint& point) {
+    return point.frequency < options.lowest.value_or(0.0) ||
+           point.frequency > options.highest.value_or(std::numeric_limits<double>::infinity());
+  });
+}
+
 }  // namespace
+
+FrequencyResponse internal::response_of_whole_record(std::span<const double> force, std::span<const double> output,
+                                                     double sampling_period, double spacing,
+                                                     const FrequencyResponseOptions& options) {
+  check(force, output, sampling_period, options);
+  FrequencyResponse response = local_polynomial_response(force, output, sampling_period, spacing, options);
+  to_position_in_band(response, options, sampling_period);
+  return response;
+}
 
 FrequencyResponseOptions::Excitation excitation_of(const FrequencyResponseOptions& options) {
   if (options.excitation != Excited::detect) return options.excitation;
@@ -157,11 +175,7 @@ FrequencyResponse frequency_response(std::span<const double> force, std::span<co
                                      const Progress& progress) {
   check(force, output, sampling_period, options);
   FrequencyResponse response = estimate(force, output, sampling_period, options, progress);
-  to_position(response, options.output, sampling_period);
-  std::erase_if(response.points, [&](const ResponsePoint& point) {
-    return point.frequency < options.lowest.value_or(0.0) ||
-           point.frequency > options.highest.value_or(std::numeric_limits<double>::infinity());
-  });
+  to_position_in_band(response, options, sampling_period);
   if (progress) progress(1.0);
   return response;
 }

@@ -24,7 +24,8 @@ using Lines = std::vector<std::complex<double>>;
 constexpr std::size_t most_examined_samples = std::size_t{1} << 17U;
 constexpr std::size_t block = 20;  // lines, for 6 numbers of a smooth response and a transient
 constexpr std::size_t fewest_lines = 2 * block;
-constexpr std::size_t reach = 12;  // lines to either side
+constexpr std::size_t period_block = 16;  // lines, for 10 real numbers
+constexpr std::size_t reach = 12;         // lines to either side
 
 /// The recorded velocity, over as many samples as keep the phase of the highest line.
 Signal velocity_of(std::span<const double> output, OutputQuantity quantity, double period, double highest) {
@@ -67,6 +68,7 @@ Signal averaged(const Signal& signal, std::size_t period) {
 /// The lines of a recording.
 struct Examined {
   double spacing = 0.0;  ///< rad/s
+  bool repeats = false;
   Lines force;
   Lines output;
   Lines velocity;
@@ -94,6 +96,7 @@ std::optional<Examined> examined(const Recording& recording, double highest, con
   }
   const std::size_t length = period == 0 ? n : period;
   return Examined{2.0 * std::numbers::pi / (recording.sampling_period * static_cast<double>(length)),
+                  period != 0 && n / period > 1,
                   spectrum(averaged(force, period)),
                   spectrum(averaged(output, period)),
                   spectrum(averaged(velocity, period)),
@@ -101,18 +104,114 @@ std::optional<Examined> examined(const Recording& recording, double highest, con
                   spectrum(averaged(square, period))};
 }
 
-using Effects = Eigen::MatrixX2cd;  // of friction and drag
+/// Of friction, as it opposes and a quarter of a turn on, and of drag: a delay turns them.
+using Effects = Eigen::MatrixX4d;
 
-/// What a block of lines says of the two: motion = effects c + rest, both beside the smooth response.
+/// The noise leaves the line's value known.
+bool is_known(const ResponsePoint& point) {
+  constexpr double most_noise = 0.05;
+  return point.variance < most_noise * std::norm(point.value);
+}
+
+/// What a block of lines says of the two: motion = effects c + rest, both beside the smooth response; real parts of all lines,
+/// then imaginary ones.
 struct Block {
-  Eigen::VectorXcd motion;
+  Eigen::VectorXd motion;
   Effects effects;
   double freedom = 0.0;
 };
 
+Eigen::VectorXd parts_of(const Eigen::VectorXcd& lines) {
+  Eigen::VectorXd parts(2 * lines.size());
+  parts << lines.real(), lines.imag();
+  return parts;
+}
+
+/// Smooth beside a force F, with what acts like it.
+struct Equation {
+  Eigen::MatrixXd basis;
+  Eigen::VectorXd left;
+  Eigen::VectorXcd friction;
+  Eigen::VectorXcd drag;
+};
+
+/// Of a force that repeats, in which nothing leaks: F = (a(w^2) + j w b(w^2)) X + F_c S + D Q.
+Equation of_period(const Examined& lines, std::span<const std::size_t> ks) {
+  constexpr Eigen::Index smooth = 10;
+  const auto count = static_cast<Eigen::Index>(ks.size());
+  Equation equation{Eigen::MatrixXd(2 * count, smooth), {}, Eigen::VectorXcd(count), Eigen::VectorXcd(count)};
+  Eigen::VectorXcd force(count);
+  Eigen::MatrixXcd columns(count, smooth);
+  const auto square_of = [](std::size_t k) { return std::pow(static_cast<double>(k), 2); };
+  const double low = square_of(ks.front());
+  const double high = square_of(ks.back());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::size_t k = ks[static_cast<std::size_t>(i)];
+    const double t = (2.0 * square_of(k) - low - high) / (high - low);
+    const std::complex<double> even = lines.output[k];
+    const std::complex<double> rate(0.0, static_cast<double>(k) / static_cast<double>(ks.back()));
+    columns.row(i) << even, t * even, t * t * even, rate * even, t * rate * even, t * t * rate * even, 1.0, t, rate,
+        t * rate;
+    force(i) = lines.force[k];
+    equation.friction(i) = lines.sign[k];
+    equation.drag(i) = lines.square[k];
+  }
+  for (Eigen::Index i = 0; i < smooth; ++i) equation.basis.col(i) = parts_of(columns.col(i));
+  equation.left = parts_of(force);
+  return equation;
+}
+
+/// Of any other: X = (p F + t) / w^2 - p (F_c S + D Q) / w^2, p and t parabolas of complex numbers. Nothing near a resonance,
+/// which no parabola follows.
+std::optional<Equation> of_record(const Examined& lines, std::span<const std::size_t> ks) {
+  constexpr Eigen::Index smooth = 6;
+  constexpr double resonant = 4.0;
+  const auto count = static_cast<Eigen::Index>(ks.size());
+  const auto middle = static_cast<double>(ks[ks.size() / 2]);
+  const auto square_of = [&](std::size_t k) { return std::pow(static_cast<double>(k) / middle, 2); };
+  const auto place_of = [&](Eigen::Index i) {
+    return 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
+  };
+  double largest = 0.0;
+  for (const std::size_t k : ks) largest = std::max(largest, std::abs(lines.force[k]));
+  Eigen::MatrixXcd columns(count, smooth);
+  Eigen::VectorXcd motion(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::size_t k = ks[static_cast<std::size_t>(i)];
+    const double t = place_of(i);
+    const std::complex<double> f = lines.force[k] / (largest * square_of(k));
+    columns.row(i) << f, t * f, t * t * f, 1.0, t, t * t;
+    motion(i) = lines.output[k];
+  }
+  const Eigen::VectorXcd numbers = columns.colPivHouseholderQr().solve(motion);
+  Equation equation{Eigen::MatrixXd(2 * count, 2 * smooth), parts_of(motion), Eigen::VectorXcd(count),
+                    Eigen::VectorXcd(count)};
+  for (Eigen::Index i = 0; i < smooth; ++i) {
+    equation.basis.col(2 * i) = parts_of(columns.col(i));
+    equation.basis.col(2 * i + 1) = parts_of(std::complex<double>(0.0, 1.0) * columns.col(i));
+  }
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::size_t k = ks[static_cast<std::size_t>(i)];
+    const double t = place_of(i);
+    const std::complex<double> rigid = (numbers(0) + t * numbers(1) + t * t * numbers(2)) / largest;
+    least = std::min(least, std::abs(rigid));
+    most = std::max(most, std::abs(rigid));
+    equation.friction(i) = -rigid / square_of(k) * lines.sign[k];
+    equation.drag(i) = -rigid / square_of(k) * lines.square[k];
+  }
+  if (most > resonant * least) return std::nullopt;
+  return equation;
+}
+
 void add_blocks(std::vector<Block>& blocks, const Examined& lines, const FrequencyResponse& response) {
-  const auto first = static_cast<std::size_t>(std::ceil(response.points.front().frequency / lines.spacing - 1e-6));
-  const auto last = static_cast<std::size_t>(std::floor(response.points.back().frequency / lines.spacing + 1e-6));
+  // Beyond the lines that are known, what the force makes is not told from what leaks.
+  const auto lowest = std::ranges::find_if(response.points, is_known);
+  const auto highest = std::find_if(response.points.rbegin(), response.points.rend(), is_known);
+  if (lowest == response.points.end()) return;
+  const auto first = static_cast<std::size_t>(std::ceil(lowest->frequency / lines.spacing - 1e-6));
+  const auto last = static_cast<std::size_t>(std::floor(highest->frequency / lines.spacing + 1e-6));
   std::vector<std::size_t> excited;
   double largest = 0.0;
   const std::size_t end = std::min(last + 1, lines.force.size());
@@ -122,38 +221,19 @@ void add_blocks(std::vector<Block>& blocks, const Examined& lines, const Frequen
   for (std::size_t k = std::max<std::size_t>(first, 1); k < end; ++k) {
     if (std::abs(lines.force[k]) > notable * largest) excited.push_back(k);
   }
-  for (std::size_t begin = 0; begin + block <= excited.size(); begin += block) {
-    constexpr Eigen::Index smooth = 6;
-    const auto count = static_cast<Eigen::Index>(block);
-    Eigen::MatrixXcd basis(count, smooth);
-    Eigen::VectorXcd motion(count);
-    const auto middle = static_cast<double>(excited[begin + block / 2]);
-    const auto square_of = [&](std::size_t k) { return std::pow(static_cast<double>(k) / middle, 2); };
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const std::size_t k = excited[begin + static_cast<std::size_t>(i)];
-      const double t = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
-      const std::complex<double> f = lines.force[k] / (largest * square_of(k));
-      basis.row(i) << f, t * f, t * t * f, 1.0, t, t * t;
-      motion(i) = lines.output[k];
-    }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> smoothed(basis);
-    const Eigen::VectorXcd numbers = smoothed.solve(motion);
-    Effects effects(count, 2);
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0.0;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const std::size_t k = excited[begin + static_cast<std::size_t>(i)];
-      const double t = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
-      const std::complex<double> rigid = (numbers(0) + t * numbers(1) + t * t * numbers(2)) / largest;
-      least = std::min(least, std::abs(rigid));
-      most = std::max(most, std::abs(rigid));
-      const std::complex<double> gain = rigid / square_of(k);
-      effects.row(i) << gain * lines.sign[k], gain * lines.square[k];
-    }
-    constexpr double resonant = 4.0;
-    if (most > resonant * least) continue;  // no second degree follows it
-    blocks.push_back({motion - basis * numbers, effects - basis * smoothed.solve(effects),
-                      static_cast<double>(count - smoothed.rank())});
+  const std::size_t size = lines.repeats ? period_block : block;
+  for (std::size_t begin = 0; begin + size <= excited.size(); begin += size) {
+    const std::span ks(excited.begin() + static_cast<std::ptrdiff_t>(begin), size);
+    const auto equation = lines.repeats ? of_period(lines, ks) : of_record(lines, ks);
+    if (!equation) continue;
+    const std::complex<double> quarter(0.0, 1.0);
+    Effects effects(equation->left.size(), 4);
+    effects << parts_of(equation->friction), parts_of(quarter * equation->friction), parts_of(equation->drag),
+        parts_of(quarter * equation->drag);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> smooth(equation->basis);
+    blocks.push_back({equation->left - equation->basis * smooth.solve(equation->left),
+                      effects - equation->basis * smooth.solve(effects),
+                      static_cast<double>(equation->left.size() - smooth.rank())});
   }
 }
 
@@ -168,32 +248,32 @@ double turned_back(std::complex<double> c) {
 /// Both at once, by least squares.
 std::optional<HiddenForces> solved(std::span<const Block> blocks) {
   // In units of what they make of the motion, so that neither is small.
-  Eigen::Vector2d scale = Eigen::Vector2d::Zero();
+  Eigen::Vector4d scale = Eigen::Vector4d::Zero();
   for (const Block& each : blocks) scale += each.effects.colwise().squaredNorm().transpose();
   scale = scale.cwiseSqrt();
   if (!(scale.minCoeff() > 0.0)) return std::nullopt;
-  Eigen::Vector2cd c = Eigen::Vector2cd::Zero();
-  Eigen::Matrix2cd known = Eigen::Matrix2cd::Zero();
+  Eigen::Vector4d c = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d known = Eigen::Matrix4d::Zero();
   constexpr int rounds = 3;
   for (int round = 0; round < rounds; ++round) {
-    Eigen::Vector2cd sum = Eigen::Vector2cd::Zero();
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     known.setZero();
     for (const Block& each : blocks) {
       const Effects effects = each.effects * scale.cwiseInverse().asDiagonal();
       const double variance = (each.motion - effects * c).squaredNorm() / each.freedom;
       if (!(variance > 0.0) || !std::isfinite(variance)) continue;
-      sum += effects.adjoint() * each.motion / variance;
-      known += effects.adjoint() * effects / variance;
+      sum += effects.transpose() * each.motion / variance;
+      known += effects.transpose() * effects / variance;
     }
-    const Eigen::LDLT<Eigen::Matrix2cd> solver(known);
-    if (solver.info() != Eigen::Success || !(solver.vectorD().real().minCoeff() > 0.0)) return std::nullopt;
+    const Eigen::LDLT<Eigen::Matrix4d> solver(known);
+    if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0.0)) return std::nullopt;
     c = solver.solve(sum);
   }
-  const Eigen::Matrix2cd covariance = known.inverse();
+  const Eigen::Matrix4d covariance = known.inverse();
   const auto force = [&](Eigen::Index i) {
-    return HiddenForce{turned_back(-c(i)) / scale(i), std::sqrt(0.5 * covariance(i, i).real()) / scale(i)};
+    return HiddenForce{turned_back({c(i) / scale(i), c(i + 1) / scale(i + 1)}), std::sqrt(covariance(i, i)) / scale(i)};
   };
-  return HiddenForces{force(0), force(1)};
+  return HiddenForces{force(0), force(2)};
 }
 
 /// Re sum S conj(V) / sum |V|^2 of the opposing force S and the force's mean power over the lines around this frequency.
@@ -247,7 +327,7 @@ FrequencyResponse without_forces(const FrequencyResponse& response, const Hidden
       sum += gain.power * gain.value;
       power += gain.power;
     }
-    if (!(power > 0.0)) continue;
+    if (!(power > 0.0) || !is_known(point)) continue;
     const std::complex<double> rate =
         std::polar(point.frequency, 0.5 * (std::numbers::pi + point.frequency * *response.sampling_period));
     const std::complex<double> factor = 1.0 / (1.0 - sum / power * rate * point.value);

@@ -12,7 +12,10 @@ struct HiddenForce {
   double size = 0.0;       ///< >= 0
   double deviation = 0.0;  ///< one standard deviation of it
 
-  [[nodiscard]] double most() const { return size + deviation; }
+  /// What is found of it falls short: the sign of a sampled velocity turns late, and a body that sticks has none. Of 30 records
+  /// of the identification campaign with 1 to 10 % of friction it was 5 to 30 % too little.
+  static constexpr double most_found = 1.3;
+  [[nodiscard]] double most() const { return most_found * size + deviation; }
 };
 
 /// F_c sign v + D v|v|.
