@@ -9,7 +9,7 @@
 namespace zwidth {
 namespace {
 
-constexpr double period = 1e-3;
+constexpr double damper_period = 1e-3;
 
 ControllerOptions wall() {
   ControllerOptions options;
@@ -23,9 +23,9 @@ ControllerOptions wall() {
 
 // At one rate spring and damper are the whole wall.
 TEST(SampledDamper, AndTheSpringAreTheWall) {
-  SampledController whole(wall(), period);
-  SampledController spring(without_damper(wall()), period);
-  SampledDamper damper(wall(), period);
+  SampledController whole(wall(), damper_period);
+  SampledController spring(without_damper(wall()), damper_period);
+  SampledDamper damper(wall(), damper_period);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> anywhere(-1e-3, 1e-3);
   for (int k = 0; k < 1000; ++k) {
@@ -43,7 +43,7 @@ TEST(SampledDamper, OfAUnilateralWallActsInsideAndNeverPulls) {
   options.velocity_filter_hz = 0.0;
   options.contact = ControllerOptions::Contact::unilateral;
   ASSERT_TRUE(is_unilateral_wall(options));
-  SampledDamper damper(options, period);
+  SampledDamper damper(options, damper_period);
   EXPECT_EQ(damper.update(0.0), 0.0);
   EXPECT_DOUBLE_EQ(damper.update(5e-4), -3.5);  // moves in
   EXPECT_DOUBLE_EQ(damper.update(3e-4), 1.4);   // moves out, inside
@@ -59,7 +59,7 @@ TEST(SampledDamper, RefusesWhatIsNoDamper) {
   ControllerOptions options = wall();
   EXPECT_THROW(SampledDamper(options, 0.0), Error);
   options.damping = -1.0;
-  EXPECT_THROW(SampledDamper(options, period), Error);
+  EXPECT_THROW(SampledDamper(options, damper_period), Error);
 }
 
 }  // namespace
