@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace zwidth::internal {
@@ -82,21 +83,30 @@ class Search {
   [[nodiscard]] std::shared_ptr<TimeEvidence> take_evidence() { return std::move(evidence_); }
   void set_noise(std::vector<Noise> noise) { evidence_->set_noise(std::move(noise)); }
 
-  /// A minimum, then others under the noise of its residuals, `rounds` at most, until that stands still.
-  [[nodiscard]] std::optional<Minimum> from(Eigen::VectorXd z, int rounds, const MinimiseOptions& options) {
+  /// A minimum, then others under the noise of its residuals, `rounds` at most, until that stands still, or the minimum is
+  /// one that is known.
+  [[nodiscard]] std::optional<Minimum> from(
+      Eigen::VectorXd z, int rounds, const MinimiseOptions& options,
+      const std::function<bool(const Minimum&)>& is_known = [](const Minimum&) { return false; }) {
     constexpr double still = 2e-3;  // of the noise, and of its effect on the limit less
     std::optional<Minimum> found;
     for (int round = 0; round < rounds; ++round) {
       found = minimise(*all_, std::move(z), options);
       if (!found) return std::nullopt;
       z = found->z;
-      if (round + 1 == rounds) break;
+      if (round + 1 == rounds || is_known(*found)) break;
       const double before = innovations();
       if (!take_noise(z)) return std::nullopt;
       const bool is_still = std::abs(innovations() - before) < still * rows();
       if (round > 1 && is_still && found->settled) break;
     }
     return found;
+  }
+  /// Segments' states that fit these numbers: the records' own make a start that no number mends.
+  [[nodiscard]] Eigen::VectorXd with_states(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd z = all_->start(x);
+    const auto fitted = minimise(*all_, z, {.most_steps = 3, .least_gain = 2.0, .held = x.size()});
+    return fitted ? fitted->z : z;
   }
   /// That of the residuals at z.
   [[nodiscard]] bool take_noise(const Eigen::VectorXd& z) {
@@ -197,6 +207,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   constexpr double frictions[] = {0.0, 0.05, 0.2};  // of the force
   constexpr int most_rounds = 6;
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
+  constexpr MinimiseOptions between{.most_steps = 25, .least_gain = 0.5};  // the noise is not the last
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked, parts.further_body);
@@ -219,7 +230,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   for (const double share : frictions) {
     near.set_noise(first_noise(start));
     const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, coarse_model, rubbing, share) : linear;
-    const auto end = near.from(near.likelihood().start(x), 2, coarse);
+    const auto end = near.from(near.with_states(x), 2, coarse);
     if (!end || !near.take_noise(end->z)) continue;
     begins.push_back(
         {near.innovations(), near.evidence().noise(), carried_over(near, end->z, *whole.search, coarse_model)});
@@ -232,8 +243,12 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   for (const Beginning& each : begins) {
     if (best && !rubs(*whole.model, best->z)) break;
     whole.search->set_noise(each.noise);
-    auto end = whole.search->from(each.z, most_rounds, fine);
-    if (!end || !whole.search->take_noise(end->z) || (best && whole.search->innovations() >= least)) continue;
+    bool joined = false;
+    auto end = whole.search->from(each.z, most_rounds, between, [&](const Minimum& here) {
+      joined = best && !has_moved(*whole.model, *best, here);
+      return joined;
+    });
+    if (!end || joined || !whole.search->take_noise(end->z) || (best && whole.search->innovations() >= least)) continue;
     least = whole.search->innovations();
     noise = whole.search->evidence().noise();
     best = std::move(end);
