@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "identification/verdict/profile.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -166,25 +168,26 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
   return x;
 }
 
-bool rubs(const MotionModel& model, const Eigen::VectorXd& z) {
+/// Whether a body rubs as the record tells: friction within its noise makes no stops and starts that a fit could miss.
+bool rubs(const MotionModel& model, const Minimum& found) {
   constexpr double least = 1e-3;  // of the force: less moves no limit
+  constexpr double clear = 4.0;   // of chi squared, of all frictions at once: one may stand for another
+  std::vector<Eigen::Index> places;
   for (std::size_t i = 0; i < model.numbers().size(); ++i) {
-    if (model.numbers()[i].key.starts_with("friction.") && z(static_cast<Eigen::Index>(i)) > least) return true;
+    if (model.numbers()[i].key.starts_with("friction.")) places.push_back(static_cast<Eigen::Index>(i));
   }
-  return false;
+  const Eigen::VectorXd frictions = found.z(places);
+  if (!(frictions.array() > least).any()) return false;
+  const Eigen::MatrixXd covariance = covariance_of(found.picture.hessian)(places, places);
+  return frictions.dot(covariance.ldlt().solve(frictions)) > clear;
 }
 
 /// Whether numbers of the device differ by more than a quarter of a deviation.
 bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to) {
   constexpr double notable = 0.25;
-  const Eigen::MatrixXd hessian = from.picture.hessian;
-  const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
-  const Eigen::MatrixXd covariance = scaled.ldlt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()));
-  for (Eigen::Index i = 0; i < model.family().of_device(); ++i) {
-    if (std::abs(to.z(i) - from.z(i)) > notable * unit(i) * std::sqrt(std::max(0.0, covariance(i, i)))) return true;
-  }
-  return false;
+  const Eigen::Index count = model.family().of_device();
+  const Eigen::VectorXd deviations = covariance_of(from.picture.hessian).diagonal().cwiseMax(0.0).cwiseSqrt();
+  return ((to.z - from.z).head(count).array().abs() > notable * deviations.head(count).array()).any();
 }
 
 /// Where the records whole may begin.
@@ -241,7 +244,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   std::vector<Noise> noise;
   double least = 0.0;
   for (const Beginning& each : begins) {
-    if (best && !rubs(*whole.model, best->z)) break;
+    if (best && !rubs(*whole.model, *best)) break;
     whole.search->set_noise(each.noise);
     bool joined = false;
     auto end = whole.search->from(each.z, most_rounds, between, [&](const Minimum& here) {
@@ -257,12 +260,14 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   whole.search->set_noise(noise);
   best = minimise(whole.search->likelihood(), best->z, fine);
   if (!best) return std::nullopt;
-  for (int finer = 2 * fine_parts; finer <= most_parts && rubs(*whole.model, best->z); finer *= 2) {
+  for (int finer = 2 * fine_parts; finer <= most_parts && rubs(*whole.model, *best); finer *= 2) {
     Whole next = whole_at(finer);
     next.search->set_noise(whole.search->evidence().noise());
-    auto again = next.search->from(best->z, 2, fine);
+    auto again = next.search->from(best->z, 1, fine);
     if (!again) break;
     const bool stands_still = !has_moved(*next.model, *best, *again);
+    if (!stands_still && next.search->take_noise(again->z)) again = next.search->from(again->z, 1, fine);
+    if (!again) break;
     best = std::move(again);
     whole = std::move(next);
     if (stands_still) break;
