@@ -225,7 +225,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   const std::vector<Segment> short_ones =
       thinned(segments_of(start.records, short_segment), most_samples_near, long_ones);
   Search near(coarse_model, short_ones, start, options);
-  Whole whole = whole_at(fine_parts);
+  Whole whole = whole_at(coarse_parts);
 
   const Eigen::VectorXd linear = family.coordinates_of(start.device);
   const std::string& rubbing = start.device.bodies[start.device.loop.actuated].name;
@@ -258,9 +258,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   }
   if (!best) return std::nullopt;
   whole.search->set_noise(noise);
-  best = minimise(whole.search->likelihood(), best->z, fine);
-  if (!best) return std::nullopt;
-  for (int finer = 2 * fine_parts; finer <= most_parts && rubs(*whole.model, *best); finer *= 2) {
+  for (int finer = fine_parts; finer <= most_parts && (finer == fine_parts || rubs(*whole.model, *best)); finer *= 2) {
     Whole next = whole_at(finer);
     next.search->set_noise(whole.search->evidence().noise());
     auto again = next.search->from(best->z, 1, fine);
@@ -270,7 +268,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
     if (!again) break;
     best = std::move(again);
     whole = std::move(next);
-    if (stands_still) break;
+    if (stands_still && finer > fine_parts) break;
   }
   return FoundMotion{std::move(whole.model), whole.search->take_evidence(), whole.search->take_likelihood(),
                      *std::move(best)};
