@@ -6,12 +6,12 @@
 #include <numbers>
 #include <utility>
 
-#include "require_valid.hpp"
 #include "rig/action_steps.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/rig/wall_verdict.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -273,7 +273,7 @@ RigIdentification identify_on_rig(const Device& device, Driver& driver, const Ri
 }
 
 RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options, const WallOptions& wall) {
-  internal::require_valid(find_problem(wall, device));
+  require_valid(find_problem(wall, device));
   RigWall result;
   result.controller = wall.controller;
   result.damper_on_drive = wall.damper_on_drive;
@@ -321,7 +321,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
 
 RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options, const LimitOptions& limit,
                        const Progress& progress) {
-  internal::require_valid(find_problem(limit, device));
+  require_valid(find_problem(limit, device));
   RigLimit result;
   result.predicted = critical_stiffness(device);
   result.any_user = any_user_limit(device);

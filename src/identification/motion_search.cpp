@@ -1,5 +1,6 @@
 #include "identification/motion_search.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>

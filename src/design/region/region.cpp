@@ -9,13 +9,13 @@
 
 #include "design/region/region_check.hpp"
 #include "design/region/region_structure.hpp"
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {

@@ -109,7 +109,7 @@ FrequencyResponse local_polynomial_response(std::span<const double> force, std::
                                             double sampling_period, double spacing,
                                             const FrequencyResponseOptions& options) {
   // The share of the strongest window's power below which the force excites nothing (-50 dB).
-  constexpr double excited_share = 1e-5;
+  constexpr double excited_power_share = 1e-5;
   const WholeRecord record(force, output, power_of_falling(options.output));
   const double line = 2.0 * std::numbers::pi / (static_cast<double>(force.size()) * sampling_period);
   const double reach = spacing / line;  // lines
@@ -128,7 +128,7 @@ FrequencyResponse local_polynomial_response(std::span<const double> force, std::
   response.sampling_period = sampling_period;
   for (const LocalWindow& window : windows) {
     const double power = record.mean_power(window);
-    if (power < excited_share * strongest) continue;
+    if (power < excited_power_share * strongest) continue;
     auto point = record.estimated(window);
     if (!point) continue;
     point->frequency = window.middle * line;
