@@ -34,7 +34,8 @@ constexpr double beside_nyquist = 1e-5;
 // Of the curve of z = -1.
 constexpr int most_halvings = 40;
 constexpr double straight = 1e-3;
-constexpr int most_depth = 12;
+constexpr double beyond_gains = 0.2;
+constexpr int most_depth = 16;
 constexpr std::uintmax_t most_steps_to_end = 60;
 
 [[noreturn]] void lose() { throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::outline_not_closed}); }
@@ -66,15 +67,8 @@ class ChainTracer {
         tell(progress_, static_cast<double>(i) / static_cast<double>(slices_.slices.size()));
       }
     }
-    for (const Node& seed : ends_on_lines()) {
-      const auto has_it = [&](const TwoRateChain& chain) {
-        return std::ranges::any_of(std::array{chain.nodes.front(), chain.nodes.back()},
-                                   [&](const Node& end) { return (share(end) - share(seed)).norm() < same_crossing; });
-      };
-      if (std::ranges::any_of(chains, has_it)) continue;
-      chains.push_back(through(seed));
-      cover(chains.back());
-    }
+    add_from(ends_with_nothing_outside(), chains);
+    add_from(ends_at_nyquist(chains), chains);
     add_nyquist(chains);
     if (const auto drift = curve_.drift_stiffness(); drift && *drift < highest_(1)) {
       chains.push_back({BoundaryKind::drift, {{0.0, {*drift, 0.0}}, {0.0, {*drift, highest_(2)}}}, false});
@@ -93,36 +87,66 @@ class ChainTracer {
   static Node node_at(const Vector3d& place) { return {place(0), {place(1), place(2)}}; }
   [[nodiscard]] Vector3d share(const Node& node) const { return place(node).cwiseQuotient(curve_.scales); }
 
-  // Where the curve begins with nothing outside, and where it ends at z = -1: between two slices there may be no more of it.
-  [[nodiscard]] std::vector<Node> ends_on_lines() const {
-    std::vector<Node> seeds;
-    const auto add = [&](double angle, double outside, double inside) {
-      if (angle > lowest_(0) && angle <= highest_(0) && outside < slices_.most_outside) {
-        seeds.push_back({angle, curve_.wall(outside, inside)});
-      }
-    };
-    for (const GainCrossing& each : curve_.crossings_alone().crossings) {
-      if (each.gain < slices_.most_inside && each.poles_leaving != 0)
-        add(curve_.seen_angle(each.angle), 0.0, each.gain);
+  // Those of the seeds that no chain has.
+  void add_from(const std::vector<Node>& seeds, std::vector<TwoRateChain>& chains) {
+    for (const Node& seed : seeds) {
+      const auto ends_here = [&](const TwoRateChain& chain) {
+        return std::ranges::any_of(std::array{chain.nodes.front(), chain.nodes.back()},
+                                   [&](const Node& end) { return (share(end) - share(seed)).norm() < same_crossing; });
+      };
+      if (std::ranges::any_of(chains, ends_here)) continue;
+      chains.push_back(through(seed));
+      cover(chains.back());
     }
+  }
+
+  // Where curves end between two slices, and there may be no more of them: with nothing outside, and at z = -1.
+  [[nodiscard]] std::vector<Node> ends_with_nothing_outside() const {
+    std::vector<Node> seeds;
+    for (const GainCrossing& each : curve_.crossings_alone().crossings) {
+      const double angle = curve_.seen_angle(each.angle);
+      if (each.poles_leaving == 0 || each.gain >= slices_.most_inside) continue;
+      if (angle > lowest_(0) && angle < highest_(0)) seeds.push_back({angle, curve_.wall(0.0, each.gain)});
+    }
+    return seeds;
+  }
+
+  [[nodiscard]] std::vector<Node> ends_at_nyquist(const std::vector<TwoRateChain>& chains) const {
+    std::vector<Node> seeds;
     const double angle = highest_(0);
     const auto phase = [&](double inside) { return curve_.phase(angle, inside); };
+    const std::vector<double> places = places_inside(chains);
     double before = 0.0;
-    for (std::size_t i = 0; i < slices_.slices.size(); ++i) {
-      const double inside = slices_.slices[i].inside;
-      if (inside > slices_.most_inside) break;
-      const double here = phase(inside);
-      if (i > 0 && before * here < 0.0) {
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const double here = phase(places[i]);
+      if (before * here < 0.0) {
         std::uintmax_t steps = most_steps_to_end;
-        const auto [low, high] =
-            boost::math::tools::toms748_solve(phase, slices_.slices[i - 1].inside, inside, before, here,
-                                              boost::math::tools::eps_tolerance<double>(45), steps);
-        const double middle = 0.5 * (low + high);
-        if (const double gain = curve_.gain(angle, middle); gain > 0.0) add(angle, gain, middle);
+        const auto [low, high] = boost::math::tools::toms748_solve(
+            phase, places[i - 1], places[i], before, here, boost::math::tools::eps_tolerance<double>(45), steps);
+        const double inside = 0.5 * (low + high);
+        const double gain = curve_.gain(angle, inside);
+        if (gain > 0.0 && gain < slices_.most_outside) seeds.push_back({angle, curve_.wall(gain, inside)});
       }
       before = here;
     }
     return seeds;
+  }
+
+  // Gains inside from 0, with those at which something happens.
+  [[nodiscard]] std::vector<double> places_inside(const std::vector<TwoRateChain>& chains) const {
+    std::vector<double> places{0.0, slices_.most_inside};
+    const auto add = [&](double inside) {
+      if (inside < slices_.most_inside) places.push_back(inside);
+    };
+    for (const RegionSlice& slice : slices_.slices) add(slice.inside);
+    for (const GainCrossing& each : curve_.crossings_alone().crossings) add(each.gain);
+    for (const TwoRateChain& chain : chains) {
+      for (const Node& end : {chain.nodes.front(), chain.nodes.back()}) {
+        if (end.angle == std::numbers::pi) add(curve_.inside(end.wall));
+      }
+    }
+    std::ranges::sort(places);
+    return places;
   }
 
   [[nodiscard]] TwoRateChain through(const Node& seed) const {
@@ -262,55 +286,46 @@ class ChainTracer {
     if (nearest < crossings.size()) covered_[slice][nearest] = true;
   }
 
-  // The curve of z = -1, whose gain outside is a function of the one inside.
+  // The curve of z = -1, whose gain outside is a function of the one inside, with poles.
   void add_nyquist(std::vector<TwoRateChain>& chains) const {
-    std::vector<double> places{0.0};
-    for (const RegionSlice& slice : slices_.slices) {
-      if (slice.inside < slices_.most_inside) places.push_back(slice.inside);
-    }
-    places.push_back(slices_.most_inside);
-    const auto is_within = [&](double gain) { return gain > 0.0 && gain < slices_.most_outside; };
+    const std::vector<double> places = places_inside(chains);
+    std::vector<Node> all{nyquist_at(places.front())};
+    for (std::size_t i = 1; i < places.size(); ++i) refine_nyquist(all, nyquist_at(places[i]), 0);
     std::vector<Node> nodes;
-    const auto node = [&](double inside) {
-      return Node{std::numbers::pi, curve_.wall(curve_.nyquist_gain(inside), inside)};
-    };
-    const auto finish = [&] {
-      if (nodes.size() > 1) chains.push_back({BoundaryKind::nyquist, nodes, false});
-      nodes.clear();
-    };
-    // The last place within, from one that is to one that is not.
-    const auto end_between = [&](double in, double out) {
-      for (int i = 0; i < most_halvings; ++i) {
-        const double middle = 0.5 * (in + out);
-        (is_within(curve_.nyquist_gain(middle)) ? in : out) = middle;
-      }
-      return node(in);
-    };
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const Node here = node(places[i]);
-      const bool within = is_within(curve_.outside(here.wall));
-      if (within && nodes.empty() && i > 0) nodes.push_back(end_between(places[i], places[i - 1]));
-      if (within) {
-        if (!nodes.empty())
-          refine_nyquist(nodes, here, 0);
-        else
-          nodes.push_back(here);
-      } else if (!nodes.empty()) {
-        const Node end = end_between(places[i - 1], places[i]);
-        refine_nyquist(nodes, end, 0);
-        finish();
-      }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool within = is_within(all[i]);
+      if (within && nodes.empty() && i > 0) nodes.push_back(last_within(all[i], all[i - 1]));
+      if (within) nodes.push_back(all[i]);
+      if (!within && !nodes.empty()) nodes.push_back(last_within(all[i - 1], all[i]));
+      if (nodes.size() > 1 && (!within || i + 1 == all.size())) chains.push_back({BoundaryKind::nyquist, nodes, false});
+      if (!within) nodes.clear();
     }
-    finish();
+  }
+
+  [[nodiscard]] Node nyquist_at(double inside) const {
+    return {std::numbers::pi, curve_.wall(curve_.nyquist_gain(inside), inside)};
+  }
+  [[nodiscard]] bool is_within(const Node& node) const {
+    const double gain = curve_.outside(node.wall);
+    return gain > 0.0 && gain < slices_.most_outside;
+  }
+
+  [[nodiscard]] Node last_within(Node in, Node out) const {
+    for (int i = 0; i < most_halvings; ++i) {
+      const Node middle = nyquist_at(0.5 * (curve_.inside(in.wall) + curve_.inside(out.wall)));
+      (is_within(middle) ? in : out) = middle;
+    }
+    return in;
   }
 
   void refine_nyquist(std::vector<Node>& nodes, const Node& to, int depth) const {
     const Node from = nodes.back();
-    const double inside = 0.5 * (curve_.inside(from.wall) + curve_.inside(to.wall));
-    const double gain = curve_.nyquist_gain(inside);
-    const double chord = 0.5 * (curve_.outside(from.wall) + curve_.outside(to.wall));
-    if (depth < most_depth && std::abs(gain - chord) > straight * slices_.most_outside) {
-      refine_nyquist(nodes, {std::numbers::pi, curve_.wall(gain, inside)}, depth + 1);
+    const Node middle = nyquist_at(0.5 * (curve_.inside(from.wall) + curve_.inside(to.wall)));
+    const auto cut = [&](const Node& node) {
+      return std::clamp(curve_.outside(node.wall) / slices_.most_outside, -beyond_gains, 1.0 + beyond_gains);
+    };
+    if (depth < most_depth && std::abs(cut(middle) - 0.5 * (cut(from) + cut(to))) > straight) {
+      refine_nyquist(nodes, middle, depth + 1);
       refine_nyquist(nodes, to, depth + 1);
       return;
     }
