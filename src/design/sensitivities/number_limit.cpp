@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "zwidth/model/damper_timing.hpp"
-#include "zwidth/sampling/sampled_plant.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::internal {
@@ -38,10 +37,8 @@ NumberLimit number_limit(const Device& device, WallNumber number) {
 }
 
 NumberLimit unchecked_number_limit(const Device& device, WallNumber number) {
-  require_one_rate(device);
-  return number == WallNumber::stiffness
-             ? of_stiffness(critical_stiffness(filtered_plant(device), virtual_damper(device)))
-             : of_damping(critical_damping(device));
+  return number == WallNumber::stiffness ? of_stiffness(unguarded_stiffness(device))
+                                         : of_damping(critical_damping(device));
 }
 
 bool is_position_free(const DeviceParameters& parameters) {
