@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
-#include "design/region/region_structure.hpp"
 #include "infinity.hpp"
 #include "require_argument.hpp"
 #include "stability/users/absolute_stability_search.hpp"
-#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/error.hpp"
-#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -28,17 +23,11 @@ constexpr double rounding = 1e-6;  // relative, of limits
 class Sampler {
  public:
   Sampler(const Device& device, const StableWalls& walls, double deviation, const Progress& progress)
-      : device_(device),
-        search_(with_one_rate(device), progress),
-        walls_(walls),
-        deviation_(deviation),
-        progress_(progress) {}
+      : search_(device, progress), walls_(walls), deviation_(deviation), progress_(progress) {}
 
   [[nodiscard]] AbsoluteStabilityPoint at(double damping) {
     tell(progress_, 0.0);
-    const AbsoluteStabilityLimit limit = damping > 0.0 && has_damper_loop(device_.loop())
-                                             ? limit_beside_damper_loop(damping)
-                                             : search_.limit({damping, walls_.velocity_filter_hz()}, progress_);
+    const AbsoluteStabilityLimit limit = search_.limit({damping, walls_.velocity_filter_hz()}, progress_);
     const double taken_off = limit.stiffness > 0.0 ? limit.stiffness / (1.0 - limit.truncation) - limit.stiffness : 0.0;
     if (!limit.trust.sound() && taken_off > most_taken_off_) {
       most_taken_off_ = taken_off;
@@ -98,30 +87,7 @@ class Sampler {
     return intervals.empty() || intervals.front().lower > 0.0 ? 0.0 : intervals.front().upper.value_or(infinity);
   }
 
-  [[nodiscard]] AbsoluteStabilityLimit limit_beside_damper_loop(double damping) const {
-    CriticalStiffness nobody;
-    nobody.stiffness = limit_of_nobody(damping);
-    const RegionStructure& structure = walls_.structure();
-    const auto slab =
-        std::ranges::partition_point(structure.slabs, [&](const RegionSlab& each) { return each.upper <= damping; });
-    if (slab != structure.slabs.end()) {
-      for (const RegionCell& cell : slab->cells) {
-        if (!cell.right) continue;
-        const RegionStructure::EdgePoint edge = structure.edge_at(*cell.right, damping);
-        const BoundaryPoint seen = structure.seen_at({edge.stiffness, damping}, edge.angle);
-        nobody.crossovers.push_back({*seen.frequency, seen.stiffness, *seen.limited_by, 1});
-      }
-    }
-    if (!nobody.crossovers.empty()) nobody.limit = nobody.crossovers.front();
-    DeviceParameters parameters = device_.parameters();
-    parameters.wall.damping = damping;
-    const auto limit = two_rate_absolute_stability(Device(std::move(parameters)), nobody);
-    if (!limit) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::damper_loop_not_known});
-    return *limit;
-  }
-
-  const Device& device_;
-  AbsoluteStabilitySearch search_;  // of one rate, or of the spring alone
+  AbsoluteStabilitySearch search_;
   const StableWalls& walls_;
   double deviation_;
   const Progress& progress_;

@@ -10,7 +10,6 @@
 #include "design/region/region_check.hpp"
 #include "design/region/region_structure.hpp"
 #include "require_valid.hpp"
-#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -154,7 +153,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   }
   if (options.any_user && device.has_bodies() && result.region.most_damped &&
       result.region.most_damped->damping > 0.0) {
-    if (!is_any_user_known(device)) {
+    if (has_damper_loop(device.loop())) {
       result.remarks.push_back(
           note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user"}}}));
     } else if (device.bodies().size() <= most_bodies_for_absolute_stability) {

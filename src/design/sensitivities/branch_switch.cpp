@@ -64,7 +64,7 @@ class Way {
     DeviceParameters moved = parameters_;
     set_with_ratio(moved, key_, value);
     if (find_problem(moved)) return std::nullopt;
-    if (has_damper_loop(moved.loop)) return FollowedPoint{value, unguarded_stiffness(Device(std::move(moved)))};
+    if (has_damper_loop(moved.loop)) return at_two_rates(value, Device(std::move(moved)));
     const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
     return FollowedPoint{value, limit_of(filtered_plant(Device(std::move(moved))), damper, may_grow * near)};
   }
@@ -104,6 +104,16 @@ class Way {
   }
 
  private:
+  /// Nothing where its plant is beyond all digits.
+  [[nodiscard]] static std::optional<FollowedPoint> at_two_rates(double value, const Device& device) {
+    try {
+      return FollowedPoint{value, unguarded_stiffness(device)};
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::did_not_converge) throw;
+      return std::nullopt;
+    }
+  }
+
   /// What holds beyond a switch. Where no crossover limits there, rounding decides at its very edge between no wall and
   /// every wall: then the first answer on the way onward that the second route confirms. Nothing where there is none.
   [[nodiscard]] std::optional<CriticalStiffness> beyond(const FollowedPoint& far, double direction) const {

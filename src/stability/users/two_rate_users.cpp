@@ -152,25 +152,14 @@ std::vector<double> frequencies_to_look_at(const TwoRateDiscs& discs, const Devi
   return frequencies;
 }
 
-// In periods of the damper.
-double delays_apart(const Loop& loop) {
-  const auto [period, delay] = damper_timing(loop);
-  return (loop.delay - delay) / period;
-}
-
 }  // namespace
-
-bool is_any_user_known(const Device& device) {
-  if (!has_damper_loop(device.loop())) return true;
-  if (rate_ratio(device.loop().sampling_period, damper_timing(device.loop()).sampling_period) < 1.0) return false;
-  const double apart = delays_apart(device.loop());
-  return std::abs(apart - std::round(apart)) <= whole_within;
-}
 
 std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                   const CriticalStiffness& nobody) {
-  if (!is_any_user_known(device)) return std::nullopt;
-  const double apart = delays_apart(device.loop());
+  const auto [period, delay] = damper_timing(device.loop());
+  const double apart = (device.loop().delay - delay) / period;
+  if (rate_ratio(device.loop().sampling_period, period) < 1.0) return std::nullopt;
+  if (!(std::abs(apart - std::round(apart)) <= whole_within)) return std::nullopt;
   AbsoluteStabilityLimit limit;
   limit.trust = nobody.trust;
   const Device free = device_without_user(device);

@@ -14,10 +14,9 @@ namespace zwidth::internal {
 //
 // and the N aliases of the spring's rate, at each of which a user may be another, add up. Source: theory, section 8.
 //
-// Nothing where is_any_user_known() is false: where the damper is the slower one, and where the delays of the two differ by no whole number of the damper's periods:
+// Nothing where the damper is the slower one, and where the delays of the two differ by no whole number of the damper's periods:
 // their paths would see the aliases with different phases. The least over all frequencies is found by a scan, and not shown
 // to be the least in between. Throws as absolute_stability_limit().
-[[nodiscard]] bool is_any_user_known(const Device& device);
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                                 const CriticalStiffness& nobody);
 
