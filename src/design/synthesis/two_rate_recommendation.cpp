@@ -29,8 +29,8 @@ namespace zwidth::internal {
 namespace {
 
 constexpr double worth_a_filter_of_drive = 0.02;
-constexpr double fastest_drive_filter = 0.2;    // of the damper's rate
-constexpr double slowest_drive_filter = 0.005;  // of the spring's rate
+constexpr double fastest_filter_of_drive = 0.2;    // of the damper's rate
+constexpr double slowest_filter_of_drive = 0.005;  // of the spring's rate
 constexpr double filter_step = 2.5;
 constexpr double finest_filter_step = 1.1;
 constexpr std::array shares_of_damper{1.0, 0.7, 0.5};
@@ -108,8 +108,8 @@ class TwoRateRecommendation {
       if (value_of(candidate) > value_of(best) * (1.0 + worth_a_filter_of_drive)) best = candidate;
     };
     if (std::isfinite(value_of(best))) {
-      const double fastest = fastest_drive_filter / damper_timing(device_.loop()).sampling_period;
-      const double slowest = slowest_drive_filter / device_.loop().sampling_period;
+      const double fastest = fastest_filter_of_drive / damper_timing(device_.loop()).sampling_period;
+      const double slowest = slowest_filter_of_drive / device_.loop().sampling_period;
       for (double cutoff = fastest; cutoff >= slowest; cutoff /= filter_step) take(cutoff);
       if (best.damper.velocity_filter_hz > 0.0) {
         for (double step = std::sqrt(filter_step); step > finest_filter_step; step = std::sqrt(step)) {
