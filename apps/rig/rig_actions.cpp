@@ -59,8 +59,7 @@ void doubt_estimator(const Driver& driver, Trust& trust) {
   if (driver.facts().estimates_velocity) trust.doubt({.code = FindingCode::damper_estimator_not_modelled});
 }
 
-/// The device as theory of one rate or two knows it with any passive user; nothing where nobody can hold it or two rates
-/// leave it to analyze().
+/// With any passive user, of one rate; nothing where nobody can hold it. That of two rates stands among the holding limits.
 std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device) {
   if (!device.has_bodies() || device.bodies().size() > most_bodies_for_absolute_stability) return std::nullopt;
   if (has_damper_loop(device.loop())) return std::nullopt;
@@ -131,9 +130,10 @@ void inherit(const Trust& trust, Identification& identified) {
   identified.fit.device = Device(std::move(parameters));
 }
 
-/// The limit with any passive user is that which stands beside, computed once.
+/// The limit with any passive user is that which stands beside, computed once; of two rates it is computed here.
 HoldingLimits limits_beside(const Device& device, const RigLimit& limit) {
-  HoldingLimits limits = holding_limits(device, {.any_user = false, .critical_damping = false});
+  const bool of_two_rates = has_damper_loop(device.loop());
+  HoldingLimits limits = holding_limits(device, {.any_user = of_two_rates, .critical_damping = false});
   if (!limit.any_user) return limits;
   HolderLimit& any_user = limits.any_user.emplace();
   any_user.critical_stiffness = limit.any_user->stiffness;
