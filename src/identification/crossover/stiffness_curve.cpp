@@ -45,7 +45,9 @@ std::optional<CurveFit> fitted_curve(std::span<const PhaseLine> lines, std::size
   fit.curve.lowest = lines[first].frequency;
   fit.curve.highest = lines[last].frequency;
   std::size_t count = 0;
-  for (std::size_t i = first; i <= last; ++i) count += std::isfinite(lines[i].sigma) && lines[i].sigma > 0.0 ? 1 : 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    if (std::isfinite(lines[i].sigma) && lines[i].sigma > 0.0) ++count;
+  }
   constexpr std::size_t fewest = 6;
   if (count < fewest) return std::nullopt;
   fit.freedom = 2.0 * static_cast<double>(count) - 6.0;
