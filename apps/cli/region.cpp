@@ -35,9 +35,9 @@ WallRegion found_region(const CLI::App& command, const Device& device, const std
   return region(device, {.progress = line.progress()});
 }
 
-/// The wall to mark in the figure; none where there is none, or the search would take seconds.
+/// The wall to mark in the figure; none where there is none, or the search would take seconds, and at two rates.
 std::optional<Wall> recommended_wall(const Device& device) {
-  if (device.bodies().size() > most_bodies_for_wall_summary) return std::nullopt;
+  if (device.bodies().size() > most_bodies_for_wall_summary || has_damper_loop(device.loop())) return std::nullopt;
   const WallRecommendation found = recommend_wall(device, {.alternatives = false});
   return found.wall && !found.trust.refused() ? std::optional(found.wall->wall) : std::nullopt;
 }
