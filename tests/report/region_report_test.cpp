@@ -160,6 +160,20 @@ TEST(RegionCsv, OfARasterIsTheGrid) {
   EXPECT_NEAR(static_cast<double>(stable) / 400.0, share, 0.02);
 }
 
+TEST(RegionFigure, OfTwoRatesShowsBothAtTheSlowerRate) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.loop.damper = LoopDamper{1e-4, 2e-4};
+  const WallRegion& walls = lhifam_region().walls;
+  const auto drawn = [&](const StableRegion* slower) {
+    return report::draw_region(Device(parameters), walls, FigureFormat::svg, std::nullopt, slower);
+  };
+  const std::string svg = drawn(&walls.region);
+  EXPECT_THAT(svg, HasSubstr("Spring every 1 ms, 0 s of delay; damper every 100 µs, 200 µs of delay."));
+  EXPECT_THAT(svg, HasSubstr("both at 1 kHz: up to 188.3 kN/m"));
+  EXPECT_THAT(drawn(nullptr), Not(HasSubstr("both at")));
+  EXPECT_THAT(draw_region(lhifam_region()), Not(HasSubstr("damper every")));
+}
+
 TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
   const std::string svg = draw_region(lhifam_region());
   for (const char* text : {"Stable walls of LHIfAM", "stable for anyone", "Colgate &amp; Schenkel", "Gil, Hulin",

@@ -12,6 +12,7 @@
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/design/region.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -26,6 +27,7 @@ constexpr LineStyle boundary_style{"#0b4f9e", 2.0, "1"};
 constexpr std::string_view recommended_marker = "pt 7 ps 1.3 lc rgb '#1a1a1a'";
 constexpr LineStyle held_style{"#0b4f9e", 2.0, "(6,4)"};
 constexpr LineStyle any_user_style{"#15803d", 1.6, "1"};
+constexpr LineStyle slower_style{"#6b7280", 1.6, "(8,4)"};
 
 LineStyle style_of(Formula formula) {
   switch (formula) {
@@ -79,20 +81,18 @@ std::vector<Place> within(const std::vector<Place>& outline, const Extent& exten
 
 class RegionFigure {
  public:
-  RegionFigure(const Device& device, const WallRegion& walls, const std::optional<Wall>& recommended)
-      : device_(device), walls_(walls), recommended_(recommended), units_(units_of(device.parameters().motion)) {}
+  RegionFigure(const Device& device, const WallRegion& walls, const std::optional<Wall>& recommended,
+               const StableRegion* slower)
+      : device_(device),
+        walls_(walls),
+        recommended_(recommended),
+        slower_(slower),
+        units_(units_of(device.parameters().motion)) {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     constexpr double gap = 100.0;
     const std::vector<Extent> shown = extents();
-    const Loop& loop = device_.loop();
-    Figure figure{
-        .title = title(),
-        .subtitle = fmt::format("Sampled every {}, {} of delay. In brackets: how far a formula lies above the "
-                                "exact limit. White: {}.",
-                                quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"),
-                                words_of(WallStability::unstable)),
-        .legend = legend()};
+    Figure figure{.title = title(), .subtitle = subtitle(), .legend = legend()};
     const auto count = static_cast<double>(shown.size());
     const double width = (frame_right - frame_left - gap * (count - 1.0)) / count;
     double left = frame_left;
@@ -128,6 +128,21 @@ class RegionFigure {
                        filters ? ", through " + *filters : std::string(), trust_mark(walls_.trust));
   }
 
+  [[nodiscard]] std::string subtitle() const {
+    const Loop& loop = device_.loop();
+    const std::string_view white = words_of(WallStability::unstable);
+    const auto timing = [](double period, double delay) {
+      return fmt::format("every {}, {} of delay", quantity(period, "s"), quantity(delay, "s"));
+    };
+    if (has_damper_loop(loop)) {
+      const DamperTiming damper = damper_timing(loop);
+      return fmt::format("Spring {}; damper {}. White: {}.", timing(loop.sampling_period, loop.delay),
+                         timing(damper.sampling_period, damper.delay), white);
+    }
+    return fmt::format("Sampled {}. In brackets: how far a formula lies above the exact limit. White: {}.",
+                       timing(loop.sampling_period, loop.delay), white);
+  }
+
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries;
     const auto up_to = [&](std::string_view what, const BoundaryPoint& stiffest) {
@@ -160,6 +175,11 @@ class RegionFigure {
       entries.push_back({fmt::format("{}: up to {}", words_of(WallStability::anyone),
                                      quantity(walls_.any_user->stiffest->stiffness, units_.stiffness)),
                          any_user_style, any_user_colour});
+    }
+    if (slower_ != nullptr && slower_->stiffest) {
+      const double period = std::max(device_.loop().sampling_period, damper_timing(device_.loop()).sampling_period);
+      entries.push_back(
+          {up_to(fmt::format("both at {}", quantity(1.0 / period, "Hz")), *slower_->stiffest), slower_style, {}});
     }
     if (recommended_) {
       const double filter = recommended_->velocity_filter_hz;
@@ -302,6 +322,7 @@ class RegionFigure {
     }
     add(edge_rows(walls_.region), as_lines(walls_.nobody ? held_style : boundary_style));
     if (walls_.nobody) add(edge_rows(walls_.nobody->region), as_lines(boundary_style));
+    if (slower_ != nullptr) add(edge_rows(*slower_), as_lines(slower_style));
     if (recommended_) add(row(recommended_->damping, *recommended_->stiffness), as_points(recommended_marker));
     for (const ComparedApproximation& each : walls_.approximations) {
       const Formula formula = each.formula.formula;
@@ -314,14 +335,15 @@ class RegionFigure {
   const Device& device_;
   const WallRegion& walls_;
   const std::optional<Wall>& recommended_;
+  const StableRegion* slower_;
   Units units_;
 };
 
 }  // namespace
 
 std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format,
-                        const std::optional<Wall>& recommended) {
-  return RegionFigure(device, walls, recommended).draw(format);
+                        const std::optional<Wall>& recommended, const StableRegion* slower) {
+  return RegionFigure(device, walls, recommended, slower).draw(format);
 }
 
 }  // namespace zwidth::report
