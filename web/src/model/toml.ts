@@ -229,10 +229,15 @@ export function set(text: string, path: string[], raw: string): string {
   if (entry) return text.slice(0, entry.start) + raw + text.slice(entry.end)
   const parent = path.slice(0, -1)
   const key = path[path.length - 1]!
-  const table = scanned.tables.findLast((each) => samePath(each.path, parent))
+  // No header may stand for a table within an inline one.
+  const isAround = ({ kind, path: own }: Table): boolean => kind === 'inline' && own.every((part, i) => part === parent[i])
+  const table = scanned.tables.findLast((each) => samePath(each.path, parent)) ?? scanned.tables.findLast(isAround)
   if (!table) return `${text.replace(/\n*$/, '\n')}\n[${parent.join('.')}]\n${key} = ${raw}\n`
   const insert = (what: string): string => text.slice(0, table.insertAt) + what + text.slice(table.insertAt)
-  if (table.kind === 'inline') return insert(table.empty ? ` ${key} = ${raw} ` : `, ${key} = ${raw}`)
+  if (table.kind === 'inline') {
+    const line = `${path.slice(table.path.length).join('.')} = ${raw}`
+    return insert(table.empty ? ` ${line} ` : `, ${line}`)
+  }
   const at = lineEnd(text, table.insertAt)
   const name = table.kind === 'dotted' ? path.join('.') : key
   return `${text.slice(0, at)}\n${name} = ${raw}${text.slice(at)}`
