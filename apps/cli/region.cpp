@@ -18,6 +18,7 @@
 #include "results/region_json.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/design/wall_summary.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -34,9 +35,15 @@ WallRegion found_region(const CLI::App& command, const Device& device, const std
   return region(device, {.progress = line.progress()});
 }
 
-/// The wall to mark in the figure; none where there is none, or the search would take seconds.
+/// The same device with one loop for spring and damper, to draw beside it; none where they run in one.
+std::optional<WallRegion> region_of_one_rate(const Device& device) {
+  if (!has_damper_loop(device.loop())) return std::nullopt;
+  return region(with_one_rate(device), {.any_user = false, .approximations = false});
+}
+
+/// The wall to mark in the figure; none where there is none, the search would take seconds, or the damper runs apart.
 std::optional<Wall> recommended_wall(const Device& device) {
-  if (device.bodies().size() > most_bodies_for_wall_summary) return std::nullopt;
+  if (device.bodies().size() > most_bodies_for_wall_summary || has_damper_loop(device.loop())) return std::nullopt;
   const WallRecommendation found = recommend_wall(device, {.alternatives = false});
   return found.wall && !found.trust.refused() ? std::optional(found.wall->wall) : std::nullopt;
 }
@@ -58,7 +65,8 @@ void run_region(const RegionArguments& arguments) {
                             : results::region_csv(walls);
   });
   outputs.draw("--output", [&](report::FigureFormat format) {
-    return report::draw_region(device, walls, format, recommended_wall(device));
+    const std::optional<WallRegion> one_rate = region_of_one_rate(device);
+    return report::draw_region(device, walls, format, recommended_wall(device), one_rate ? &*one_rate : nullptr);
   });
   outputs.commit();
   outputs.print(arguments.output.json ? results::line(results::region_json(device, walls))

@@ -168,6 +168,16 @@ TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
   }
 }
 
+TEST(RegionFigure, DrawsOneLoopForBothBesideADampersOwn) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.loop.damper.emplace().sampling_period = 1e-4;
+  const WallRegion& walls = lhifam_region().walls;
+  const std::string svg = report::draw_region(Device(parameters), walls, FigureFormat::svg, std::nullopt, &walls);
+  EXPECT_THAT(svg, HasSubstr("damper every 100 µs"));
+  EXPECT_THAT(svg, HasSubstr("one loop for spring and damper: up to"));
+  EXPECT_THAT(draw_region(lhifam_region()), Not(HasSubstr("one loop for spring and damper")));
+}
+
 TEST(RegionFigure, OfNothingIsStillAFigure) {
   const std::string svg = draw_region(hopeless_region());
   EXPECT_THAT(svg, HasSubstr("no wall is stable"));
