@@ -49,10 +49,9 @@ export const newDevice = (motion: 'linear' | 'rotary', name = 'body 1', mass = m
 /** The text whose damper runs with its spring, in one loop. */
 export function removeDamper(text: string): string {
   const own = scan(text).entries.filter(({ path }) => path[0] === 'loop' && path[1] === 'damper')
-  return removeTable(
-    own.reduce((out, { path }) => unset(confirm(out, path.join('.')), path), text),
-    ['loop', 'damper'],
-  )
+  if (own.length === 0) return text
+  const without = own.reduce((out, { path }) => unset(confirm(out, path.join('.')), path), text)
+  return removeTable(without, ['loop', 'damper']).replace(/\n+$/, '\n')
 }
 
 const shape = (text: string): Shape => shapeOf(scan(text))
