@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::rig {
 namespace {
@@ -42,10 +42,9 @@ DampedDevice::Grid DampedDevice::grid_of(const Device& device) {
   const Loop& loop = device.loop();
   const DamperTiming damper = damper_timing(loop);
   if (!(damper.sampling_period < loop.sampling_period)) {
-    internal::require_valid(
-        option_problem("loop.damper.sampling_period",
-                       {.code = ProblemCode::damper_not_faster,
-                        .evidence = {{"value", damper.sampling_period}, {"bound", loop.sampling_period}}}));
+    require_valid(option_problem("loop.damper.sampling_period",
+                                 {.code = ProblemCode::damper_not_faster,
+                                  .evidence = {{"value", damper.sampling_period}, {"bound", loop.sampling_period}}}));
   }
   const auto ratio = static_cast<std::size_t>(std::llround(loop.sampling_period / damper.sampling_period));
   const double apart = (loop.delay - damper.delay) / damper.sampling_period;
@@ -65,11 +64,10 @@ DampedDevice::Grid DampedDevice::grid_of(const Device& device) {
     grid.later_of_damper = later + (steps < 0.0 ? difference : 0);
     return grid;
   }
-  internal::require_valid(
-      option_problem("loop.damper.delay", {.code = ProblemCode::delays_apart,
-                                           .evidence = {{"value", std::abs(loop.delay - damper.delay)},
-                                                        {"period", damper.sampling_period},
-                                                        {"most", static_cast<double>(finest)}}}));
+  require_valid(option_problem("loop.damper.delay", {.code = ProblemCode::delays_apart,
+                                                     .evidence = {{"value", std::abs(loop.delay - damper.delay)},
+                                                                  {"period", damper.sampling_period},
+                                                                  {"most", static_cast<double>(finest)}}}));
   return {};
 }
 

@@ -1,6 +1,6 @@
 #include "rig/driver.hpp"
 
-#include "require_valid.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::rig {
 
@@ -11,7 +11,7 @@ OptionProblem no_damper_problem(std::string_view name) {
 }
 
 void Driver::close_damper(const Device& /*device*/, std::optional<double> /*force_limit*/) {
-  internal::require_valid(no_damper_problem(facts().name));
+  require_valid(no_damper_problem(facts().name));
 }
 
 }  // namespace zwidth::rig

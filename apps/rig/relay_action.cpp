@@ -3,11 +3,11 @@
 #include <numbers>
 #include <utility>
 
-#include "require_valid.hpp"
 #include "rig/action_steps.hpp"
 #include "rig/rig_actions.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::rig {
 namespace {
@@ -85,7 +85,7 @@ Device without_wall_of_host(const Device& device) {
 
 RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options, const RelayTrialsOptions& trials,
                       const Progress& progress) {
-  internal::require_valid(find_problem(trials, device));
+  require_valid(find_problem(trials, device));
   const CriticalStiffness predicted = critical_stiffness(without_wall_of_host(device));
   RigRelay result;
   result.trust = trust_of(device);

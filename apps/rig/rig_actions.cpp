@@ -6,12 +6,12 @@
 #include <numbers>
 #include <utility>
 
-#include "require_valid.hpp"
 #include "rig/action_steps.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/rig/wall_verdict.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -59,8 +59,7 @@ void doubt_estimator(const Driver& driver, Trust& trust) {
   if (driver.facts().estimates_velocity) trust.doubt({.code = FindingCode::damper_estimator_not_modelled});
 }
 
-/// The device as theory of one rate or two knows it with any passive user; nothing where nobody can hold it or two rates
-/// leave it to analyze().
+/// With any passive user, of one rate; nothing where nobody can hold it. That of two rates stands among the holding limits.
 std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device) {
   if (!device.has_bodies() || device.bodies().size() > most_bodies_for_absolute_stability) return std::nullopt;
   if (has_damper_loop(device.loop())) return std::nullopt;
@@ -131,9 +130,10 @@ void inherit(const Trust& trust, Identification& identified) {
   identified.fit.device = Device(std::move(parameters));
 }
 
-/// The limit with any passive user is that which stands beside, computed once.
+/// The limit with any passive user is that which stands beside, computed once; of two rates it is computed here.
 HoldingLimits limits_beside(const Device& device, const RigLimit& limit) {
-  HoldingLimits limits = holding_limits(device, {.any_user = false, .critical_damping = false});
+  const bool of_two_rates = has_damper_loop(device.loop());
+  HoldingLimits limits = holding_limits(device, {.any_user = of_two_rates, .critical_damping = false});
   if (!limit.any_user) return limits;
   HolderLimit& any_user = limits.any_user.emplace();
   any_user.critical_stiffness = limit.any_user->stiffness;
@@ -273,7 +273,7 @@ RigIdentification identify_on_rig(const Device& device, Driver& driver, const Ri
 }
 
 RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options, const WallOptions& wall) {
-  internal::require_valid(find_problem(wall, device));
+  require_valid(find_problem(wall, device));
   RigWall result;
   result.controller = wall.controller;
   result.damper_on_drive = wall.damper_on_drive;
@@ -321,7 +321,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
 
 RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options, const LimitOptions& limit,
                        const Progress& progress) {
-  internal::require_valid(find_problem(limit, device));
+  require_valid(find_problem(limit, device));
   RigLimit result;
   result.predicted = critical_stiffness(device);
   result.any_user = any_user_limit(device);

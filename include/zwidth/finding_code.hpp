@@ -346,6 +346,7 @@ enum class FindingCode : std::uint16_t {
   clipped_for_response,             ///< a clipped signal, of which a response was taken
   clipped_for_equations,            ///< a clipped signal, to which equations of motion were fitted
   segments_averaged,                ///< how a response was averaged over segments
+  lines_of_whole_record,            ///< how a response was taken from the lines of a whole record
   begins_at_rest,                   ///< a record that begins at rest
   lines_of_record_ends,             ///< lines that only the ends of a record excite
   too_few_averages,                 ///< fewer than two independent averages

@@ -12,6 +12,7 @@
 #include "zwidth/design/design_comparison.hpp"
 #include "zwidth/design/design_target.hpp"
 #include "zwidth/design/diagnosis.hpp"
+#include "zwidth/design/drive_damper.hpp"
 #include "zwidth/design/drive_gains.hpp"
 #include "zwidth/design/notch_design.hpp"
 #include "zwidth/design/parameter_sweep.hpp"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 
@@ -19,7 +19,7 @@ std::optional<OptionProblem> find_problem(const DesignOptions& options) {
 
 Design design(const Device& device, const DesignOptions& options) {
   require_one_rate(device);
-  internal::require_valid(find_problem(options));
+  require_valid(find_problem(options));
   Design design;
   internal::StagedProgress stages(options.progress);
   stages.next(0.1);

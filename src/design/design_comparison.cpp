@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/device_user.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {

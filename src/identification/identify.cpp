@@ -16,12 +16,12 @@
 #include "identification/verdict/turned_sign.hpp"
 #include "identification/verdict/verdict.hpp"
 #include "model/loop_keys.hpp"
-#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

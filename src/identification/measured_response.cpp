@@ -20,11 +20,11 @@
 #include "identification/response/stated_units.hpp"
 #include "identification/response/welch.hpp"
 #include "identification/verdict/calibration.hpp"
-#include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "words/phrase.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

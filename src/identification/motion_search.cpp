@@ -1,7 +1,9 @@
 #include "identification/motion_search.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "identification/model/number_keys.hpp"
@@ -84,21 +86,30 @@ class Search {
   [[nodiscard]] std::shared_ptr<TimeEvidence> take_evidence() { return std::move(evidence_); }
   void set_noise(std::vector<Noise> noise) { evidence_->set_noise(std::move(noise)); }
 
-  /// A minimum, then others under the noise of its residuals, `rounds` at most, until that stands still.
-  [[nodiscard]] std::optional<Minimum> from(Eigen::VectorXd z, int rounds, const MinimiseOptions& options) {
+  /// A minimum, then others under the noise of its residuals, `rounds` at most, until that stands still, or the minimum is
+  /// one that is known.
+  [[nodiscard]] std::optional<Minimum> from(
+      Eigen::VectorXd z, int rounds, const MinimiseOptions& options,
+      const std::function<bool(const Minimum&)>& is_known = [](const Minimum&) { return false; }) {
     constexpr double still = 2e-3;  // of the noise, and of its effect on the limit less
     std::optional<Minimum> found;
     for (int round = 0; round < rounds; ++round) {
       found = minimise(*all_, std::move(z), options);
       if (!found) return std::nullopt;
       z = found->z;
-      if (round + 1 == rounds) break;
+      if (round + 1 == rounds || is_known(*found)) break;
       const double before = innovations();
       if (!take_noise(z)) return std::nullopt;
       const bool is_still = std::abs(innovations() - before) < still * rows();
       if (round > 1 && is_still && found->settled) break;
     }
     return found;
+  }
+  /// Segments' states that fit these numbers: the records' own make a start that no number mends.
+  [[nodiscard]] Eigen::VectorXd with_states(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd z = all_->start(x);
+    const auto fitted = minimise(*all_, z, {.most_steps = 3, .least_gain = 2.0, .held = x.size()});
+    return fitted ? fitted->z : z;
   }
   /// That of the residuals at z.
   [[nodiscard]] bool take_noise(const Eigen::VectorXd& z) {
@@ -158,22 +169,26 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
   return x;
 }
 
-bool rubs(const MotionModel& model, const Eigen::VectorXd& z) {
+/// Whether a body rubs as the record tells: friction within its noise makes no stops and starts that a fit could miss.
+bool rubs(const MotionModel& model, const Minimum& found) {
   constexpr double least = 1e-3;  // of the force: less moves no limit
+  constexpr double clear = 4.0;   // of chi squared, of all frictions at once: one may stand for another
+  std::vector<Eigen::Index> places;
   for (std::size_t i = 0; i < model.numbers().size(); ++i) {
-    if (body_of_friction(model.numbers()[i].key) && z(static_cast<Eigen::Index>(i)) > least) return true;
+    if (body_of_friction(model.numbers()[i].key)) places.push_back(static_cast<Eigen::Index>(i));
   }
-  return false;
+  const Eigen::VectorXd frictions = found.z(places);
+  if (!(frictions.array() > least).any()) return false;
+  const Eigen::MatrixXd covariance = covariance_of(found.picture.hessian)(places, places);
+  return frictions.dot(covariance.ldlt().solve(frictions)) > clear;
 }
 
 /// Whether numbers of the device differ by more than a quarter of a deviation.
 bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to) {
   constexpr double notable = 0.25;
-  const Eigen::MatrixXd covariance = covariance_of(from.picture.hessian);
-  for (Eigen::Index i = 0; i < model.family().of_device(); ++i) {
-    if (std::abs(to.z(i) - from.z(i)) > notable * std::sqrt(std::max(0.0, covariance(i, i)))) return true;
-  }
-  return false;
+  const Eigen::Index count = model.family().of_device();
+  const Eigen::VectorXd deviations = covariance_of(from.picture.hessian).diagonal().cwiseMax(0.0).cwiseSqrt();
+  return ((to.z - from.z).head(count).array().abs() > notable * deviations.head(count).array()).any();
 }
 
 /// Where the records whole may begin.
@@ -196,6 +211,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   constexpr double frictions[] = {0.0, 0.05, 0.2};  // of the force
   constexpr int most_rounds = 6;
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
+  constexpr MinimiseOptions between{.most_steps = 25, .least_gain = 0.5};  // the noise is not the last
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked);
@@ -210,7 +226,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   const std::vector<Segment> short_ones =
       thinned(segments_of(start.records, short_segment), most_samples_near, long_ones);
   Search near(coarse_model, short_ones, start, options);
-  Whole whole = whole_at(fine_parts);
+  Whole whole = whole_at(coarse_parts);
 
   const Eigen::VectorXd linear = family.coordinates_of(start.device);
   const std::string& rubbing = start.device.bodies[start.device.loop.actuated].name;
@@ -218,7 +234,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   for (const double share : frictions) {
     near.set_noise(first_noise(start));
     const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, coarse_model, rubbing, share) : linear;
-    const auto end = near.from(near.likelihood().start(x), 2, coarse);
+    const auto end = near.from(near.with_states(x), 2, coarse);
     if (!end || !near.take_noise(end->z)) continue;
     begins.push_back(
         {near.innovations(), near.evidence().noise(), carried_over(near, end->z, *whole.search, coarse_model)});
@@ -229,27 +245,31 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   std::vector<Noise> noise;
   double least = 0.0;
   for (const Beginning& each : begins) {
-    if (best && !rubs(*whole.model, best->z)) break;
+    if (best && !rubs(*whole.model, *best)) break;
     whole.search->set_noise(each.noise);
-    auto end = whole.search->from(each.z, most_rounds, fine);
-    if (!end || !whole.search->take_noise(end->z) || (best && whole.search->innovations() >= least)) continue;
+    bool joined = false;
+    auto end = whole.search->from(each.z, most_rounds, between, [&](const Minimum& here) {
+      joined = best && !has_moved(*whole.model, *best, here);
+      return joined;
+    });
+    if (!end || joined || !whole.search->take_noise(end->z) || (best && whole.search->innovations() >= least)) continue;
     least = whole.search->innovations();
     noise = whole.search->evidence().noise();
     best = std::move(end);
   }
   if (!best) return std::nullopt;
   whole.search->set_noise(noise);
-  best = minimise(whole.search->likelihood(), best->z, fine);
-  if (!best) return std::nullopt;
-  for (int finer = 2 * fine_parts; finer <= most_parts && rubs(*whole.model, best->z); finer *= 2) {
+  for (int finer = fine_parts; finer <= most_parts && (finer == fine_parts || rubs(*whole.model, *best)); finer *= 2) {
     Whole next = whole_at(finer);
     next.search->set_noise(whole.search->evidence().noise());
-    auto again = next.search->from(best->z, 2, fine);
+    auto again = next.search->from(best->z, 1, fine);
     if (!again) break;
     const bool stands_still = !has_moved(*next.model, *best, *again);
+    if (!stands_still && next.search->take_noise(again->z)) again = next.search->from(again->z, 1, fine);
+    if (!again) break;
     best = std::move(again);
     whole = std::move(next);
-    if (stands_still) break;
+    if (stands_still && finer > fine_parts) break;
   }
   return FoundMotion{std::move(whole.model), whole.search->take_evidence(), whole.search->take_likelihood(),
                      *std::move(best)};

@@ -4,9 +4,9 @@
 #include <map>
 
 #include "model/option_beyond.hpp"
-#include "require_valid.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/device_key.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 namespace {
@@ -36,7 +36,7 @@ std::optional<OptionProblem> find_problem(const NamedStructureOptions& options) 
 std::optional<NamedStructure> named_structure(std::string_view name, const NamedStructureOptions& options) {
   const auto named = bodies_by_name().find(name);
   if (named == bodies_by_name().end()) return std::nullopt;
-  internal::require_valid(find_problem(options));
+  require_valid(find_problem(options));
   DeviceParameters device;
   device.name = name;
   device.motion = options.motion.value_or(options.record_motion.value_or(Motion::linear));

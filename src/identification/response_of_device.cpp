@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "identification/evidence/response_evidence.hpp"
-#include "require_valid.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::internal {
 

@@ -10,10 +10,10 @@
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "io/time_axis.hpp"
-#include "require_valid.hpp"
 #include "signal/restored_rows.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -17,10 +17,10 @@
 #include "io/text_table.hpp"
 #include "io/time_axis.hpp"
 #include "io/uff_response.hpp"
-#include "require_valid.hpp"
 #include "zwidth/io/message_words.hpp"
 #include "zwidth/io/recording_file.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

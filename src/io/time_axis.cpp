@@ -12,8 +12,8 @@
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
-#include "require_valid.hpp"
 #include "zwidth/io/message_words.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "counted.hpp"
-#include "require_valid.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 namespace {
@@ -14,7 +14,7 @@ constexpr double velocity_bandwidth = 0.05;  // of the sampling rate
 constexpr double longest_ramp = 10.0;        // s
 
 const SafetyLimits& checked(const SafetyLimits& limits) {
-  internal::require_valid(find_problem(limits));
+  require_valid(find_problem(limits));
   return limits;
 }
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "doubt_all.hpp"
-#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
 
 namespace zwidth {
@@ -172,7 +172,7 @@ std::optional<LimitSearchOptions> limit_search_options(const Device& device, con
 }
 
 LimitSearch::LimitSearch(LimitSearchOptions options) : options_(std::move(options)) {
-  internal::require_valid(find_problem(options_));
+  require_valid(find_problem(options_));
 }
 
 const LimitTrial* LimitSearch::unstable() const {

@@ -32,9 +32,12 @@ class SquareMatrix {
 // (I + change)^steps - I
 SquareMatrix power_minus_one(SquareMatrix change, std::size_t steps) {
   SquareMatrix result(change.size());
-  for (; steps > 0; steps /= 2) {
-    if (steps % 2 == 1) result = result + change + result * change;
-    change = change + change + change * change;
+  bool is_first = true;
+  while (steps > 0) {
+    if (steps % 2 == 1) result = is_first ? change : result + change + result * change;
+    is_first = is_first && steps % 2 == 0;
+    steps /= 2;
+    if (steps > 0) change = change + change + change * change;
   }
   return result;
 }

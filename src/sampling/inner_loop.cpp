@@ -75,7 +75,8 @@ struct ClosedInner {
 
 ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
   const Response by_outer = sampled_response(form, outer);
-  const Response by_inner = sampled_response(form, inner.sampling);
+  const bool is_as_late = outer.delay == inner.sampling.delay && outer.period == inner.sampling.period;
+  const Response by_inner = is_as_late ? by_outer : sampled_response(form, inner.sampling);
   const double period = inner.sampling.period;
   PolynomialX filter{Extended(1.0)};  // delta + c with a damper
   PolynomialX force{Extended(inner.stiffness)};

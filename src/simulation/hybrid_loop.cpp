@@ -8,13 +8,13 @@
 #include <random>
 #include <string>
 
-#include "require_valid.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "simulation/held_path.hpp"
 #include "simulation/loop_schedule.hpp"
 #include "simulation/simulation_setup.hpp"
 #include "zwidth/control/sampled_damper.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

@@ -9,13 +9,13 @@
 
 #include "counted.hpp"
 #include "doubt_all.hpp"
-#include "require_valid.hpp"
 #include "simulation/loop_schedule.hpp"
 #include "simulation/relay_explanation.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/signal/recording.hpp"
 
 namespace zwidth {

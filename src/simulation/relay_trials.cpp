@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "require_valid.hpp"
 #include "simulation/loop_schedule.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
 namespace zwidth {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <span>
 
-#include "require_valid.hpp"
 #include "signal/fitted_sine.hpp"
 #include "simulation/loop_judgement.hpp"
 #include "simulation/loop_schedule.hpp"
@@ -13,6 +12,7 @@
 #include "simulation/simulation_remarks.hpp"
 #include "simulation/simulation_setup.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

@@ -7,7 +7,6 @@
 
 #include "counted.hpp"
 #include "model/implausible_numbers.hpp"
-#include "require_valid.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "stability/users/two_rate_users.hpp"
@@ -18,6 +17,7 @@
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 #include "zwidth/stability/holder_limit.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "require_valid.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 namespace {
@@ -96,7 +96,7 @@ double standard_normal_probability(double z) { return 0.5 * boost::math::erfc(-z
 double standard_normal_score(double u) { return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * u); }
 
 QuantileFunction::QuantileFunction(Distribution distribution) : distribution_(std::move(distribution)) {
-  internal::require_valid(find_problem(distribution_));
+  require_valid(find_problem(distribution_));
   if (has_deviation(distribution_.kind)) {
     below_ = standard_normal_probability(standard_score_of(distribution_, distribution_.lower));
     above_ = standard_normal_probability(-standard_score_of(distribution_, distribution_.upper));

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/design/region.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/study/sample_statistics.hpp"
 
 namespace zwidth {

@@ -5,8 +5,8 @@
 #include <boost/random/detail/sobol_table.hpp>
 
 #include "counted.hpp"
-#include "require_valid.hpp"
 #include "study/philox.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

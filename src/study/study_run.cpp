@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "require_valid.hpp"
 #include "study/study_parts.hpp"
 #include "thread_arena.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

@@ -68,6 +68,9 @@ std::span<const Phrase> response_phrases() {
       Phrase{segments_averaged, "segments_averaged", note,
              "{segments:n} segments of {samples:n} samples ({spacing:.4g} Hz between lines), worth {averages:.1f} "
              "independent averages{?form|; force and motion differenced, against drift}"},
+      Phrase{lines_of_whole_record, "lines_of_whole_record", note,
+             "lines {spacing:.4g} Hz apart, each by a parabola through those of the whole record within as much: its "
+             "segments left the critical stiffness open"},
       Phrase{begins_at_rest, "begins_at_rest", note,
              "the record begins at rest, and is taken to have been at rest before"},
       Phrase{lines_of_record_ends, "lines_of_record_ends", note,

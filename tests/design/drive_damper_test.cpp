@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "lhifam.hpp"
@@ -21,11 +20,9 @@
 namespace zwidth {
 namespace {
 
-using std::numbers::pi;
+Device held_by_cable(double delay = 0.0) { return Device(test::with_delay(test::lhifam_parameters(), delay)); }
 
-Device lhifam(double delay = 0.0) { return Device(test::with_delay(test::lhifam_parameters(), delay)); }
-
-Device with_damper(Device device, double stiffness, double damping, double filter = 0.0) {
+Device walled_with(Device device, double stiffness, double damping, double filter = 0.0) {
   DeviceParameters parameters = device.parameters();
   parameters.wall.stiffness = stiffness;
   parameters.wall.damping = damping;
@@ -33,7 +30,7 @@ Device with_damper(Device device, double stiffness, double damping, double filte
   return Device(parameters);
 }
 
-double any_user_of(const Device& device) { return internal::any_user_limit(device)->stiffness; }
+double any_users_limit(const Device& device) { return internal::any_user_limit(device)->stiffness; }
 
 TEST(DriveDamper, RunsAtTheWholePartNearestToEightKilohertz) {
   const auto timing = [](double period, double delay) -> std::optional<DamperTiming> {
@@ -48,7 +45,7 @@ TEST(DriveDamper, RunsAtTheWholePartNearestToEightKilohertz) {
   EXPECT_NEAR(timing(1e-3, 2.6e-4)->delay, 1.35e-4, 1e-18);
   EXPECT_NEAR(timing(1e-3, 1e-3)->delay, 1.25e-4, 1e-18);
   EXPECT_FALSE(timing(1.5e-4, 0.0));
-  EXPECT_FALSE(with_damper_on_drive(*with_damper_on_drive(lhifam())));
+  EXPECT_FALSE(with_damper_on_drive(*with_damper_on_drive(held_by_cable())));
   DeviceParameters filtered = test::lhifam_parameters();
   filtered.wall.filters.push_back({.kind = WallFilter::Kind::low_pass, .frequency_hz = 100.0});
   EXPECT_FALSE(with_damper_on_drive(Device(filtered)));
@@ -60,18 +57,18 @@ TEST(DriveDamper, EveryUserIsKnownAtAnyDelay) {
   std::uniform_real_distribution<double> delays(0.0, 3e-3);
   for (int i = 0; i < 100; ++i) {
     const double delay = delays(engine);
-    EXPECT_TRUE(internal::knows_all_users(with_damper_on_drive(lhifam(delay))->loop())) << delay;
+    EXPECT_TRUE(internal::knows_all_users(with_damper_on_drive(held_by_cable(delay))->loop())) << delay;
   }
 }
 
 // What searches look at is no bound from below, and near.
 TEST(DriveDamper, ASearchSeesTheLimitOfAnyUserFromAbove) {
   for (const double delay : {0.0, 2.5e-4}) {
-    const Device on_drive = *with_damper_on_drive(lhifam(delay));
+    const Device on_drive = *with_damper_on_drive(held_by_cable(delay));
     const internal::TwoRateUsers users(on_drive);
     for (const double damping : {10.0, 100.0, 500.0}) {
-      const double exact = any_user_of(with_damper(on_drive, 0.0, damping));
-      const double nobody = critical_stiffness(with_damper(on_drive, 0.0, damping)).stiffness;
+      const double exact = any_users_limit(walled_with(on_drive, 0.0, damping));
+      const double nobody = critical_stiffness(walled_with(on_drive, 0.0, damping)).stiffness;
       const double seen = std::min(nobody, users.limit_seen({damping, 0.0}));
       EXPECT_GE(seen, exact * (1.0 - 1e-6)) << damping;
       EXPECT_LE(seen, exact * 1.02) << damping;
@@ -79,15 +76,15 @@ TEST(DriveDamper, ASearchSeesTheLimitOfAnyUserFromAbove) {
   }
 }
 
-void expect_margins(const Device& device, const RecommendedWall& wall, double gain, double phase) {
+void expect_kept_margins(const Device& device, const RecommendedWall& wall, double gain, double phase) {
   const double stiffness = *wall.wall.stiffness;
   const double filter = wall.wall.velocity_filter_hz;
   for (const double factor : {1.0, std::sqrt(gain), gain}) {
     const double grown = factor == 1.0 ? gain : factor;
     EXPECT_LT(grown * stiffness,
-              any_user_of(with_damper(device, 0.0, factor * wall.wall.damping, filter)) * (1.0 + 1e-6));
+              any_users_limit(walled_with(device, 0.0, factor * wall.wall.damping, filter)) * (1.0 + 1e-6));
   }
-  const WallMargins margins = wall_margins(with_damper(device, stiffness, wall.wall.damping, filter));
+  const WallMargins margins = wall_margins(walled_with(device, stiffness, wall.wall.damping, filter));
   EXPECT_TRUE(margins.stable);
   EXPECT_LT(margins.spectral_radius, 1.0);
   EXPECT_GE(margins.gain_margin.value_or(gain), gain * (1.0 - 1e-6));
@@ -96,23 +93,23 @@ void expect_margins(const Device& device, const RecommendedWall& wall, double ga
   std::uniform_real_distribution<double> log_user(-3.0, 3.0);
   for (int i = 0; i < 30; ++i) {
     const User user{std::pow(10.0, log_user(engine)), 0.0, stiffness * std::pow(10.0, log_user(engine))};
-    const Device held = device_with_user(with_damper(device, 0.0, wall.wall.damping, filter), user);
+    const Device held = device_with_user(walled_with(device, 0.0, wall.wall.damping, filter), user);
     EXPECT_GT(critical_stiffness(held).stiffness, gain * stiffness) << user.mass << " " << user.stiffness;
   }
 }
 
 TEST(DriveDamper, TheWallOfTwoRatesKeepsItsMarginsWhoeverHolds) {
   for (const double delay : {0.0, 2.5e-4}) {
-    const Device device = *with_damper_on_drive(lhifam(delay));
+    const Device device = *with_damper_on_drive(held_by_cable(delay));
     const RecommendationOptions options;
     const WallRecommendation answer = recommend_wall(device, options);
     ASSERT_EQ(answer.status, WallRecommendation::Status::found);
     EXPECT_TRUE(answer.trust.sound());
-    expect_margins(device, *answer.wall, options.gain_margin, options.phase_margin);
+    expect_kept_margins(device, *answer.wall, options.gain_margin, options.phase_margin);
     EXPECT_FALSE(answer.alternatives.empty());
     for (const RecommendedWall& each : answer.alternatives) {
       SCOPED_TRACE(words_of(each.kind));
-      expect_margins(device, each, options.gain_margin, options.phase_margin);
+      expect_kept_margins(device, each, options.gain_margin, options.phase_margin);
       EXPECT_LE(*each.wall.stiffness, *answer.wall->wall.stiffness * (1.0 + 1e-6));
     }
     EXPECT_FALSE(answer.wall->contact_damping_ratio);
@@ -120,10 +117,10 @@ TEST(DriveDamper, TheWallOfTwoRatesKeepsItsMarginsWhoeverHolds) {
 }
 
 TEST(DriveDamper, AOneRateRecommendationSaysWhatItWouldGive) {
-  const WallRecommendation one = recommend_wall(lhifam(), {.alternatives = false, .drive_damper = true});
+  const WallRecommendation one = recommend_wall(held_by_cable(), {.alternatives = false, .drive_damper = true});
   ASSERT_TRUE(one.drive_damper);
   const DriveDamper& found = *one.drive_damper;
-  const WallRecommendation two = recommend_wall(*with_damper_on_drive(lhifam()), {.alternatives = false});
+  const WallRecommendation two = recommend_wall(*with_damper_on_drive(held_by_cable()), {.alternatives = false});
   EXPECT_EQ(found.stiffness, *two.wall->wall.stiffness);
   EXPECT_EQ(found.damping, two.wall->wall.damping);
   EXPECT_EQ(found.one_rate_stiffness, *one.wall->wall.stiffness);
@@ -132,7 +129,7 @@ TEST(DriveDamper, AOneRateRecommendationSaysWhatItWouldGive) {
   EXPECT_DOUBLE_EQ(found.sampling_period, 1.25e-4);
   EXPECT_EQ(found.why.code, FindingCode::damper_on_drive);
   EXPECT_EQ(found.why.key, "loop.damper.sampling_period");
-  EXPECT_FALSE(recommend_wall(lhifam(), {.alternatives = false}).drive_damper);  // unless asked
+  EXPECT_FALSE(recommend_wall(held_by_cable(), {.alternatives = false}).drive_damper);  // unless asked
 }
 
 TEST(DriveDamper, TheEncodersStepsBoundItsWall) {
@@ -144,24 +141,24 @@ TEST(DriveDamper, TheEncodersStepsBoundItsWall) {
   ASSERT_TRUE(answer.wall);
   const Wall& wall = answer.wall->wall;
   const double largest =
-      force_per_count(with_damper(device, *wall.stiffness, wall.damping, wall.velocity_filter_hz))->largest;
+      force_per_count(walled_with(device, *wall.stiffness, wall.damping, wall.velocity_filter_hz))->largest;
   EXPECT_LE(largest, most * (1.0 + 1e-9));
   EXPECT_EQ(largest, answer.wall->force_per_count->largest);
 }
 
 TEST(DriveDamper, ADamperAloneRunsInItsOwnLoop) {
-  const Device device = *with_damper_on_drive(lhifam());
+  const Device device = *with_damper_on_drive(held_by_cable());
   const WallRecommendation answer = recommend_wall(device, {.goal = WallGoal::damper});
   ASSERT_TRUE(answer.wall);
   EXPECT_EQ(*answer.wall->wall.stiffness, 0.0);
   const WallRecommendation alone = recommend_wall(with_loop_of_damper(device), {.goal = WallGoal::damper});
   EXPECT_EQ(answer.wall->wall.damping, alone.wall->wall.damping);
-  const Device damped = with_damper(device, 0.0, answer.wall->wall.damping, answer.wall->wall.velocity_filter_hz);
-  EXPECT_EQ(*answer.wall->absolute_stability_limit, any_user_of(damped));
+  const Device damped = walled_with(device, 0.0, answer.wall->wall.damping, answer.wall->wall.velocity_filter_hz);
+  EXPECT_EQ(*answer.wall->absolute_stability_limit, any_users_limit(damped));
 }
 
 TEST(DriveDamper, UncertainNumbersSoftenItsWall) {
-  DeviceParameters parameters = with_damper_on_drive(lhifam())->parameters();
+  DeviceParameters parameters = with_damper_on_drive(held_by_cable())->parameters();
   const double certain = *recommend_wall(Device(parameters), {.alternatives = false}).wall->wall.stiffness;
   parameters.uncertainty = Uncertainty{};
   parameters.uncertainty->parameters = {"body.motor.mass"};
@@ -181,7 +178,7 @@ TEST(DriveDamper, WithoutALimitOfAllUsersNoWallIsProposed) {
   apart.loop.damper = LoopDamper{.sampling_period = 1e-4, .delay = 0.5e-4};
   EXPECT_THROW((void)recommend_wall(Device(apart)), Error);
   const auto problem =
-      find_problem(RecommendationOptions{.goal = WallGoal::critical_damping}, *with_damper_on_drive(lhifam()));
+      find_problem(RecommendationOptions{.goal = WallGoal::critical_damping}, *with_damper_on_drive(held_by_cable()));
   ASSERT_TRUE(problem);
   EXPECT_EQ(problem->member, "goal");
 }
@@ -197,28 +194,28 @@ TEST(DriveDamper, OneRateWrittenAsTwoIsOneRate) {
 
 TEST(DriveDamper, ATargetSaysWhatItAllows) {
   for (const StiffnessGoal goal : {StiffnessGoal::critical_stiffness, StiffnessGoal::absolute_stability_limit}) {
-    const DesignTargets targets = design_targets(lhifam(), {.goal = goal, .factor = 2.0, .times_now = 2.0});
+    const DesignTargets targets = design_targets(held_by_cable(), {.goal = goal, .factor = 2.0, .times_now = 2.0});
     ASSERT_TRUE(targets.drive_damper);
     const DriveDamper& found = *targets.drive_damper;
-    const Device with = with_damper(*with_damper_on_drive(lhifam()), 0.0, found.damping);
-    const Device without = with_damper(lhifam(), 0.0, found.one_rate_damping);
+    const Device with = walled_with(*with_damper_on_drive(held_by_cable()), 0.0, found.damping);
+    const Device without = walled_with(held_by_cable(), 0.0, found.one_rate_damping);
     const bool any_user = goal == StiffnessGoal::absolute_stability_limit;
-    EXPECT_EQ(*found.absolute_stability_limit, any_user_of(with));
-    EXPECT_EQ(found.stiffness, any_user ? any_user_of(with) : critical_stiffness(with).stiffness);
-    EXPECT_EQ(found.one_rate_stiffness, any_user ? any_user_of(without) : critical_stiffness(without).stiffness);
+    EXPECT_EQ(*found.absolute_stability_limit, any_users_limit(with));
+    EXPECT_EQ(found.stiffness, any_user ? any_users_limit(with) : critical_stiffness(with).stiffness);
+    EXPECT_EQ(found.one_rate_stiffness, any_user ? any_users_limit(without) : critical_stiffness(without).stiffness);
     // No B of a ladder is better.
     for (const double damping : {50.0, 100.0, 200.0, 400.0, 800.0, 1600.0}) {
-      EXPECT_LE(any_user_of(with_damper(*with_damper_on_drive(lhifam()), 0.0, damping)),
+      EXPECT_LE(any_users_limit(walled_with(*with_damper_on_drive(held_by_cable()), 0.0, damping)),
                 *found.absolute_stability_limit * 1.02);
       if (!any_user) continue;
-      EXPECT_LE(any_user_of(with_damper(lhifam(), 0.0, damping)), found.one_rate_stiffness * 1.02);
+      EXPECT_LE(any_users_limit(walled_with(held_by_cable(), 0.0, damping)), found.one_rate_stiffness * 1.02);
     }
   }
 }
 
 TEST(DriveDamper, IsACureOfWhatOscillates) {
   for (const double damping : {0.0, 20.0}) {
-    const Device device = with_damper(lhifam(), 0.0, damping);
+    const Device device = walled_with(held_by_cable(), 0.0, damping);
     const CriticalStiffness now = critical_stiffness(device);
     const Diagnosis diagnosis =
         diagnose(device, {.frequency = now.limit->frequency, .stiffness = 1.05 * now.stiffness});
@@ -229,9 +226,9 @@ TEST(DriveDamper, IsACureOfWhatOscillates) {
     EXPECT_EQ(cure->value_now, 1e-3);
     EXPECT_DOUBLE_EQ(cure->value_then, 1.25e-4);
     EXPECT_DOUBLE_EQ(cure->delay_then.value(), 1.25e-4);
-    const Device then = with_damper(*with_damper_on_drive(device), 0.0, cure->damping_then.value());
+    const Device then = walled_with(*with_damper_on_drive(device), 0.0, cure->damping_then.value());
     EXPECT_EQ(cure->limit_then, critical_stiffness(then).stiffness);
-    EXPECT_EQ(cure->absolute_stability_limit_then, any_user_of(then));
+    EXPECT_EQ(cure->absolute_stability_limit_then, any_users_limit(then));
     EXPECT_TRUE(cure->ends_it.value());
     EXPECT_TRUE(cure->safe.value());
   }

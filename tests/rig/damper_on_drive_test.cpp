@@ -17,6 +17,7 @@
 #include "rig/simulated_driver.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/simulation/relay_record.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -159,8 +160,8 @@ TEST(DamperOnDrive, AResponseIsThatOfTheDeviceWithoutDamper) {
   EXPECT_EQ(measured.recording.channels[1].samples, expected.recording.channels[1].samples);
 }
 
-// Beside a damper the relay of a rigid device reads the limit with it, and without the drive's damper another one.
-TEST(DamperOnDrive, ARelayReadsTheLimitWithIt) {
+// The relay takes the place of the spring alone.
+TEST(DamperOnDrive, ARelayRunsBesideIt) {
   const Device device = belt_with_damper();
   RelayTrialsOptions trials;
   trials.relay.amplitude = 1.0;
@@ -171,7 +172,21 @@ TEST(DamperOnDrive, ARelayReadsTheLimitWithIt) {
   trials.damper_on_drive = true;
   const RigRelay relay = relay_on_rig(device, driver, {}, trials, {});
   ASSERT_TRUE(relay.relay && relay.relay->mean);
-  EXPECT_NEAR(relay.relay->mean->stiffness / critical_stiffness(device).stiffness, 1.0, 0.3);
+  ControllerOptions options;
+  options.kind = ControllerOptions::Kind::relay;
+  options.amplitude = 1.0;
+  SampledController controller(options, device.loop().sampling_period);
+  DampedDevice damped(device, 0.0);
+  std::vector<double> force;
+  std::vector<double> position;
+  for (int k = 0; k < 2000; ++k) {
+    position.push_back(damped.measure());
+    force.push_back(controller.update(position.back()));
+    damped.move(force.back());
+  }
+  const auto reading = analyse_relay_record(force, position, device.loop().sampling_period, {});
+  ASSERT_TRUE(reading);
+  EXPECT_NEAR(relay.relay->mean->stiffness / reading->stiffness, 1.0, 0.05);
   DeviceParameters bare = device.parameters();
   bare.wall.damping = 0.0;
   EXPECT_GT(relay.relay->mean->stiffness, 2.0 * critical_stiffness(Device(bare)).stiffness);

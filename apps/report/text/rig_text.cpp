@@ -15,6 +15,7 @@
 #include "report/text/relay_text.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/holder_limit.hpp"
 
 namespace zwidth::report {
@@ -81,6 +82,14 @@ std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
                                           : ""});
   }
   return layout(table);
+}
+
+/// What identify takes it as, whose walls are of one rate.
+std::string limit_option(const LimitMeasurement& measured, const Device& device) {
+  const double damping = device.parameters().wall.damping;
+  return fmt::format("--limit \"K={:.4g}{}{}\"", *measured.stiffness,
+                     damping > 0.0 ? fmt::format(", B={:.4g}", damping) : "",
+                     measured.frequency > 0.0 ? fmt::format(", hz={:.4g}", hertz(measured.frequency)) : "");
 }
 
 }  // namespace
@@ -167,12 +176,7 @@ std::string rig_text(const Device& device, const RigLimit& limit) {
       text += labelled("  between", fmt::format("{} and {}", quantity(measured.interval->lower, units.stiffness),
                                                 quantity(measured.interval->upper, units.stiffness)));
     }
-    const double damping = device.parameters().wall.damping;
-    text +=
-        labelled("  for identify",
-                 fmt::format("--limit \"K={:.4g}{}{}\"", *measured.stiffness,
-                             damping > 0.0 ? fmt::format(", B={:.4g}", damping) : "",
-                             measured.frequency > 0.0 ? fmt::format(", hz={:.4g}", hertz(measured.frequency)) : ""));
+    if (!has_damper_loop(device.loop())) text += labelled("  for identify", limit_option(measured, device));
   } else {
     text += labelled("  K_CR measured", "none");
   }

@@ -31,6 +31,9 @@ struct Sensitivity {
 /// wall.damping, velocity_filter_hz (where there is one), wall.filter.*, operator.*. Left out: what K_CR does not
 /// depend on (friction, force limit, encoder step, wall.stiffness). Where p is 0 the slope is that of growing p; so it
 /// is for the delay of whole samples and the period of a transfer function of relative degree 1, which jump there.
+/// Where the damper runs in a loop of its own (has_damper_loop()) loop.damper.delay is one of them, if the file gives it. The
+/// ratio of the two periods is whole and has no derivative: loop.sampling_period is that of both, which keep their ratio, and
+/// loop.damper.sampling_period is left out. There L_p is a difference, extrapolated until two agree: 1e-7 of K/p.
 /// Empty where K_CR is 0 or unbounded. Throws Error (did_not_converge) as critical_stiffness() does.
 /// Source: implicit function theorem; N. J. Higham, Functions of Matrices, SIAM 2008, section 3.2.
 [[nodiscard]] std::vector<Sensitivity> stiffness_sensitivities(const Device& device);

@@ -5,13 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
 namespace internal {
-struct RegionStructure;
+class RegionStructure;
 }
 
 /// Every stable wall of a loop: the open set of (K, B), K > 0 and B >= 0, with 1 + (K + B v(z)) P(z) stable.
@@ -30,6 +31,12 @@ class StableWalls {
   /// Throws Error (invalid_argument) for a negative or non-finite filter frequency (0: no filter), (did_not_converge)
   /// when subdivision hits its cap.
   explicit StableWalls(FilteredPlant plant, double velocity_filter_hz = 0.0, const Progress& progress = {});
+
+  /// Of a device, with its own velocity filter and filters; of one rate or of two. Where the damper runs in a loop of its
+  /// own the boundary is that of theory's plant of two rates, whose curve is followed through slices that miss no
+  /// crossing; what lies between two slices and touches neither is not seen (docs/region.md).
+  /// Throws as the other one; Error (did_not_converge) too where a curve cannot be followed.
+  explicit StableWalls(const Device& device, const Progress& progress = {});
 
   /// All stable intervals of K at this B >= 0, by rising K: critical_stiffness().stable_intervals at the cost of a few
   /// evaluations of P. Throws Error (invalid_argument) for a negative or NaN B.

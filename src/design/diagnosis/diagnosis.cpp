@@ -12,13 +12,13 @@
 #include "design/sensitivities/number_limit.hpp"
 #include "design/synthesis/absolute_stability_check.hpp"
 #include "design/synthesis/wall_limits.hpp"
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_key.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
 
 namespace zwidth {

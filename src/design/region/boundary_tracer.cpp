@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <utility>
 
-#include "stability/limit/mechanism_at.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -41,9 +40,8 @@ class BoundaryTracer {
       if (adjacency_.damping(to) == 0.0) {
         add(traced.boundary, BoundaryKind::no_damping, {plain(to), plain(from)});
       } else if (apart(place(to), place(from)) > joint_) {
-        std::vector<BoundaryPoint> points = level_points(to, from);
-        if (!points.empty()) {
-          add(traced.boundary, BoundaryKind::oscillation, std::move(points));
+        if (auto level = level_arc(to, from)) {
+          add(traced.boundary, level->kind, std::move(level->points));
         } else {
           joint_ = rounding_near(to);
         }
@@ -60,10 +58,11 @@ class BoundaryTracer {
     const auto last = structure_.edge_at(edge, slab.upper);
     stiffness_extent_ = std::max({stiffness_extent_, first.stiffness, last.stiffness});
     damping_extent_ = std::max(damping_extent_, slab.upper);
-    if (edge.kind != BoundaryKind::oscillation) return;
-    for (const Node& node : structure_.branches[edge.branch].nodes()) {
-      const bool on_edge = (node.angle - first.angle) * (node.angle - last.angle) < 0.0;
-      if (on_edge) stiffness_extent_ = std::max(stiffness_extent_, node.wall.stiffness);
+    if (!structure_.is_curved(edge)) return;
+    const Node from{first.angle, {first.stiffness, slab.lower}};
+    const Node to{last.angle, {last.stiffness, slab.upper}};
+    for (const Node& node : structure_.nodes_between(edge.branch, from, to)) {
+      stiffness_extent_ = std::max(stiffness_extent_, node.wall.stiffness);
     }
   }
 
@@ -76,12 +75,10 @@ class BoundaryTracer {
   }
 
   [[nodiscard]] BoundaryPoint at_angle(const WallPoint& wall, double angle) const {
-    const FilteredPlant& plant = structure_.curve.plant();
-    const double frequency = angle >= std::numbers::pi ? std::numbers::pi / plant.period : angle / plant.period;
     // K = 0 and B = 0 are met to rounding of the extent.
     const auto cleared = [](double value, double extent) { return value > rounding * extent ? value : 0.0; };
-    return {cleared(wall.stiffness, stiffness_extent_), cleared(wall.damping, damping_extent_), frequency,
-            mechanism_at(plant, angle)};
+    return structure_.seen_at({cleared(wall.stiffness, stiffness_extent_), cleared(wall.damping, damping_extent_)},
+                              angle);
   }
 
   // Distance of a wall from the chord, in shares of the extent.
@@ -96,10 +93,7 @@ class BoundaryTracer {
 
   // Points between two nodes, without the first. Two looks, so that no inflection passes for a straight line.
   void refine(const Node& from, const Node& to, int depth, std::vector<BoundaryPoint>& points) const {
-    const auto between = [&](double part) {
-      const double angle = from.angle + part * (to.angle - from.angle);
-      return Node{angle, structure_.curve.at(angle)};
-    };
+    const auto between = [&](double part) { return structure_.between(from, to, part); };
     const auto strays = [&](double part) { return off_chord(between(part).wall, from.wall, to.wall) > deviation_; };
     if (depth < max_depth && (strays(1.0 / 3.0) || strays(2.0 / 3.0))) {
       const Node middle = between(0.5);
@@ -124,13 +118,8 @@ class BoundaryTracer {
     const Node last = node(to);
     // The branch's own nodes keep sharp bends from being overlooked.
     std::vector<Node> stops{first};
-    std::vector<Node> nodes = structure_.branches[adjacency_.edge(from).branch].nodes();
-    if (last.angle < first.angle) std::reverse(nodes.begin(), nodes.end());
-    for (const Node& each : nodes) {
-      const bool between = (each.angle - first.angle) * (each.angle - last.angle) < 0.0;
-      if (between && apart(each.wall, stops.back().wall) > spacing && apart(each.wall, last.wall) > spacing) {
-        stops.push_back(each);
-      }
+    for (const Node& each : structure_.nodes_between(adjacency_.edge(from).branch, first, last)) {
+      if (apart(each.wall, stops.back().wall) > spacing && apart(each.wall, last.wall) > spacing) stops.push_back(each);
     }
     stops.push_back(last);
     std::vector<BoundaryPoint> points{at_angle(first.wall, first.angle)};
@@ -146,28 +135,27 @@ class BoundaryTracer {
                                      std::hypot(moved.stiffness / stiffness_extent_, moved.damping / damping_extent_));
   }
 
-  // From one end to the other along a branch of constant B: the product of the loop's poles is 1 there. Empty where
-  // there is no such branch.
-  [[nodiscard]] std::vector<BoundaryPoint> level_points(const EdgeEnd& from, const EdgeEnd& to) const {
+  // From one end to the other along a branch of constant B: there the product of the loop's poles is 1, or a pole is on the
+  // circle whatever K.
+  [[nodiscard]] std::optional<BoundaryArc> level_arc(const EdgeEnd& from, const EdgeEnd& to) const {
     const double level = adjacency_.damping(from);
-    for (const BoundaryBranch& branch : structure_.branches) {
+    for (std::size_t i = 0; i < structure_.branches.size(); ++i) {
+      const std::vector<Node>& nodes = structure_.branches[i].nodes();
       const auto on_level = [&](const Node& node) { return std::abs(node.wall.damping - level) <= same_level * level; };
-      const std::vector<Node>& nodes = branch.nodes();
       if (!std::all_of(nodes.begin(), nodes.end(), on_level)) continue;
       const Node first = at_stiffness(nodes.front(), nodes.back(), adjacency_.point(from).stiffness);
       const Node last = at_stiffness(nodes.front(), nodes.back(), adjacency_.point(to).stiffness);
       if (apart(first.wall, place(from)) > usual_joint || apart(last.wall, place(to)) > usual_joint) continue;
-      return {at_angle(first.wall, first.angle), at_angle(last.wall, last.angle)};
+      return BoundaryArc{structure_.kind_of(i), {at_angle(first.wall, first.angle), at_angle(last.wall, last.angle)}};
     }
-    return {};
+    return std::nullopt;
   }
 
   // Where the curve between two nodes has this K, by halving.
   [[nodiscard]] Node at_stiffness(Node a, Node b, double stiffness) const {
     if (std::abs(a.wall.stiffness - stiffness) <= same_level * stiffness) return a;
     for (int i = 0; i < max_halvings; ++i) {
-      const double angle = 0.5 * (a.angle + b.angle);
-      const Node middle{angle, structure_.curve.at(angle)};
+      const Node middle = structure_.between(a, b, 0.5);
       const bool beyond = (middle.wall.stiffness > stiffness) == (b.wall.stiffness > stiffness);
       (beyond ? b : a) = middle;
     }
@@ -176,7 +164,7 @@ class BoundaryTracer {
 
   void add_edge(ClosedBoundary& boundary, const EdgeEnd& from, const EdgeEnd& to) {
     const BoundaryKind kind = adjacency_.edge(from).kind;
-    if (kind == BoundaryKind::oscillation) {
+    if (structure_.is_curved(adjacency_.edge(from))) {
       add(boundary, kind, curve_points(from, to));
     } else if (kind == BoundaryKind::no_stiffness) {
       add(boundary, kind, {plain(from), plain(to)});
@@ -208,7 +196,7 @@ class BoundaryTracer {
     if (points.size() == 2 && apart(wall(points[0]), wall(points[1])) == 0.0) return;
     if (!boundary.arcs.empty() && continues(boundary.arcs.back(), kind, points.front())) {
       auto& last = boundary.arcs.back().points;
-      if (kind != BoundaryKind::oscillation) last.pop_back();
+      if (!structure_.is_curved({kind, 0})) last.pop_back();
       last.insert(last.end(), points.begin() + 1, points.end());
     } else {
       boundary.arcs.push_back({kind, std::move(points)});

@@ -97,7 +97,7 @@ void CellAdjacency::link_bottom_of(std::size_t slab) {
   const double damping = this->damping(ends.front().end);
   double greatest = 0.0;
   for (const Placed& each : ends) greatest = std::max(greatest, each.stiffness);
-  const double extent = greatest + damping / structure_.curve.plant().period;
+  const double extent = greatest + damping / structure_.period();
   const double rounding = structure_.rounding_at(damping, greatest).stiffness;
   const auto is_even = [](const std::vector<Placed>& open) {
     if (open.size() % 2 != 0) return false;

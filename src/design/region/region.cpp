@@ -9,13 +9,13 @@
 
 #include "design/region/region_check.hpp"
 #include "design/region/region_structure.hpp"
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
@@ -26,6 +26,7 @@ constexpr double walls_share = 0.2;  // of the progress; the rest is of the user
 
 std::vector<ComparedApproximation> compared(const Device& device, const WallRegion& walls) {
   std::vector<ComparedApproximation> result;
+  if (has_damper_loop(device.loop())) return result;  // each is of one rate
   for (RegionApproximation& formula : region_approximations(device, walls.walls->velocity_filter_hz())) {
     if (formula.any_user && walls.any_user) {
       const ApproximationError error = approximation_error(formula, *walls.any_user);
@@ -57,7 +58,7 @@ FoundWalls find_walls(const Device& device, const OutlineOptions& outline, WallR
   StagedProgress stages(progress);
   stages.next(0.7);
   FoundWalls found;
-  found.walls.emplace(filtered_plant(device), device.parameters().wall.velocity_filter_hz, stages.stage());
+  found.walls.emplace(device, stages.stage());
   stages.next(1.0);
   found.region = stable_region(*found.walls, outline);
   const RegionCheck check = check_region(device, *found.walls, found.region, outline.deviation, stages.stage());
@@ -119,7 +120,6 @@ std::optional<OptionProblem> find_problem(const RegionOptions& options) {
 }
 
 WallRegion region(const Device& device, const RegionOptions& options) {
-  require_one_rate(device);
   require_valid(find_problem(options));
   WallRegion result;
   StagedProgress stages(options.progress);
@@ -148,11 +148,15 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   result.modes = form.modes;
   result.suspended_rigid_body = form.suspended_rigid_body;
   if (const double resolution = device.parameters().sensor.resolution; resolution > 0.0) {
-    result.force_per_count = force_per_count_rates(device.parameters().wall, device.loop().sampling_period, resolution);
+    const double period = damper_timing(device.loop()).sampling_period;
+    result.force_per_count = force_per_count_rates(device.parameters().wall, period, resolution);
   }
   if (options.any_user && device.has_bodies() && result.region.most_damped &&
       result.region.most_damped->damping > 0.0) {
-    if (device.bodies().size() <= most_bodies_for_absolute_stability) {
+    if (has_damper_loop(device.loop())) {
+      result.remarks.push_back(
+          note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user"}}}));
+    } else if (device.bodies().size() <= most_bodies_for_absolute_stability) {
       stages.next(0.95);
       result.any_user = absolute_stability_region(device, result.nobody ? *result.nobody->walls : *result.walls,
                                                   result.region.most_damped->damping, {.progress = stages.stage()});

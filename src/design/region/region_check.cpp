@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/second_route/pole_count.hpp"
 #include "stability/second_route/routh_count.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth::internal {
@@ -34,8 +37,14 @@ constexpr double loop_gains[] = {1e-6, 1e-4, 1e-2, 1.0};
 class ClosedLoop {
  public:
   explicit ClosedLoop(const Device& device)
-      : plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})),
+      : device_(device),
+        plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})),
         wall_(device.parameters().wall) {
+    if (has_damper_loop(device.loop())) {
+      states_ = static_cast<Eigen::Index>(TwoRateDevice(device, 1.0).as_it_runs(device).states());
+      return;
+    }
+    states_ = plant_.Phi.rows() + static_cast<Eigen::Index>(plant_.delay_samples + 3 + 2 * wall_.filters.size());
     if (order() > largest_order_for_routh || !RouthCount::suits(plant_)) return;
     Wall damped = wall_;
     damped.damping = 1.0;  // the loop then has the damper's states
@@ -43,18 +52,13 @@ class ClosedLoop {
   }
 
   // Of the loop with a damper.
-  [[nodiscard]] Eigen::Index order() const {
-    return plant_.Phi.rows() + static_cast<Eigen::Index>(plant_.delay_samples + 3 + 2 * wall_.filters.size());
-  }
+  [[nodiscard]] Eigen::Index order() const { return states_; }
   [[nodiscard]] bool confirms(const WallPoint& at, bool stable) const {
     return (routh_ && routh_->surely(stable, at.stiffness, at.damping)) || side(at) == (stable ? -1 : 1);
   }
   // -1, 1: certainly stable, certainly not; 0: on the circle to rounding.
   [[nodiscard]] int side(const WallPoint& at) const {
-    Wall wall = wall_;
-    wall.stiffness = at.stiffness;
-    wall.damping = at.damping;
-    const double excess = stability_excess(plant_, wall);
+    const double excess = excess_of(at);
     return excess < -on_circle ? -1 : excess > on_circle ? 1 : 0;
   }
   // The same side a little further on.
@@ -67,8 +71,26 @@ class ClosedLoop {
   }
 
  private:
+  // The largest |z| - 1.
+  [[nodiscard]] double excess_of(const WallPoint& at) const {
+    if (!has_damper_loop(device_.loop())) {
+      Wall wall = wall_;
+      wall.stiffness = at.stiffness;
+      wall.damping = at.damping;
+      return stability_excess(plant_, wall);
+    }
+    double greatest = -1.0;
+    const ScheduledLoop loop = TwoRateDevice(device_, at.damping).as_it_runs(device_);
+    for (const std::complex<double>& pole : loop.poles_minus_one(at.stiffness)) {
+      greatest = std::max(greatest, (2.0 * pole.real() + std::norm(pole)) / (std::abs(1.0 + pole) + 1.0));
+    }
+    return greatest;
+  }
+
+  const Device& device_;
   DiscreteStateSpace plant_;
   Wall wall_;
+  Eigen::Index states_ = 0;
   std::optional<RouthCount> routh_;
 };
 
@@ -268,7 +290,8 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
       return check;
     }
   }
-  if (check.confirmed == 0 && loop.order() <= static_cast<Eigen::Index>(PoleCount::most_states_for_digits)) {
+  if (check.confirmed == 0 && !has_damper_loop(device.loop()) &&
+      loop.order() <= static_cast<Eigen::Index>(PoleCount::most_states_for_digits)) {
     check_in_digits(device, walls, asked, check, progress);
   }
   return check;

@@ -1,20 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "design/region/boundary_branch.hpp"
-#include "stability/limit/gain_crossings.hpp"
 #include "zwidth/design/stable_region.hpp"
-#include "zwidth/progress.hpp"
 
 namespace zwidth::internal {
 
 // One side of a stable interval of K while B varies.
 struct RegionEdge {
   BoundaryKind kind = BoundaryKind::oscillation;
-  std::size_t branch = 0;  // of an oscillation
+  std::size_t branch = 0;  // of an oscillation, and of whatever is curved
   friend bool operator==(const RegionEdge&, const RegionEdge&) = default;
 };
 
@@ -32,50 +30,45 @@ struct RegionSlab {
   std::vector<RegionCell> cells;  // by rising K
 };
 
-struct RegionStructure {
-  // Of ranges of B into slabs.
-  static constexpr std::size_t max_divisions = 600;
+// The stable walls of a loop, whatever its rates: cells in slabs, and the curves that end them.
+class RegionStructure {
+ public:
+  using Node = BoundaryBranch::Node;
 
-  // The cells are told by the branches at each B; those of every slab are confirmed by critical_stiffness(), which
-  // knows no branch. Where it contradicts, it tells the cells everywhere.
-  // Throws Error (did_not_converge) at the cap, and as boundary_segments() and critical_stiffness() do.
-  RegionStructure(FilteredPlant plant, double velocity_filter_hz, const Progress& progress);
+  RegionStructure() = default;
+  RegionStructure(const RegionStructure&) = delete;
+  RegionStructure& operator=(const RegionStructure&) = delete;
+  virtual ~RegionStructure() = default;
 
   struct EdgePoint {
     double stiffness = 0.0;
     double angle = 0.0;  // of an oscillation
   };
-  [[nodiscard]] EdgePoint edge_at(const RegionEdge& edge, double damping) const;
+  [[nodiscard]] virtual EdgePoint edge_at(const RegionEdge& edge, double damping) const = 0;
+  // Whether such an edge runs along a branch, and not straight.
+  [[nodiscard]] virtual bool is_curved(const RegionEdge& edge) const = 0;
+  // What happens on a branch.
+  [[nodiscard]] virtual BoundaryKind kind_of(std::size_t) const { return BoundaryKind::oscillation; }
+  // That share of the way along the curve between two of its nodes.
+  [[nodiscard]] virtual Node between(const Node& from, const Node& to, double part) const = 0;
+  // The branch's own nodes between two of its points, in that order.
+  [[nodiscard]] virtual std::vector<Node> nodes_between(std::size_t branch, const Node& first,
+                                                        const Node& last) const = 0;
+  // Where the curve is stiffest between two of its points.
+  [[nodiscard]] virtual BoundaryPoint stiffest_between(const BoundaryPoint& first, const BoundaryPoint& last) const = 0;
 
   // What rounding of the angle makes of K and of B, at the most, along the branches up to about `stiffest` at this B.
-  [[nodiscard]] WallPoint rounding_at(double damping, double stiffest) const;
+  [[nodiscard]] virtual WallPoint rounding_at(double damping, double stiffest) const = 0;
 
-  BoundaryCurve curve;
+  // How the loop oscillates where a wall puts a pole on the unit circle.
+  [[nodiscard]] virtual BoundaryPoint seen_at(const WallPoint& wall, double angle) const = 0;
+
+  [[nodiscard]] virtual double period() const = 0;  // whose z = e^{j angle}
+  [[nodiscard]] virtual double velocity_filter_hz() const = 0;
+
   bool proven = true;  // bounds, not estimates, say that no piece of boundary is missed
   std::vector<BoundaryBranch> branches;
-  std::optional<double> nyquist;  // K of the Nyquist line at B = 0, where > 0
-  std::optional<double> drift;    // K at which a pole passes z = 1, where > 0
   std::vector<RegionSlab> slabs;  // by rising B, one on the other from B = 0; nothing is stable above the last
-
- private:
-  [[nodiscard]] std::vector<BoundarySegment> straight_segments(double top) const;
-  [[nodiscard]] std::vector<double> levels(const std::vector<BoundarySegment>& segments, const Progress& progress);
-  [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
-  [[nodiscard]] std::vector<RegionCell> cells_by_branches(double damping) const;
-  [[nodiscard]] std::vector<RegionCell> cells_by_isolation(double damping) const;
-  [[nodiscard]] bool agree(const std::vector<RegionCell>& cells, const std::vector<RegionCell>& others,
-                           double damping) const;
-  [[nodiscard]] bool agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const;
-  [[nodiscard]] double stiffest_of(const std::vector<RegionCell>& cells, double damping) const;
-  void add_below(double lower, double upper, std::vector<RegionCell> cells);
-  void add_slabs(double bottom, double top, const Progress& progress);
-  void find_slabs(const std::vector<double>& found, const Progress& progress);
-  [[nodiscard]] bool are_slabs_confirmed(const Progress& progress) const;
-
-  GainCrossings by_damping_;  // of the damper alone
-  bool by_branches_ = true;
-  bool told_apart_ = true;  // no two pieces of boundary lie on one another
-  std::size_t divisions_left_ = max_divisions;
 };
 
 }  // namespace zwidth::internal

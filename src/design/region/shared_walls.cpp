@@ -13,7 +13,6 @@
 
 #include "design/region/region_structure.hpp"
 #include "infinity.hpp"
-#include "stability/limit/mechanism_at.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -185,14 +184,13 @@ class BothWalls {
 
   static BoundaryPoint point_on(const RegionStructure& structure, const RegionEdge& edge,
                                 const RegionStructure::EdgePoint& at, double damping) {
-    BoundaryPoint point{at.stiffness, damping, std::nullopt, std::nullopt};
-    if (edge.kind == BoundaryKind::no_stiffness || edge.kind == BoundaryKind::no_damping) return point;
+    if (edge.kind == BoundaryKind::no_stiffness || edge.kind == BoundaryKind::no_damping) {
+      return {at.stiffness, damping, std::nullopt, std::nullopt};
+    }
     const double angle = edge.kind == BoundaryKind::oscillation ? at.angle
                          : edge.kind == BoundaryKind::nyquist   ? std::numbers::pi
                                                                 : 0.0;
-    point.frequency = angle / structure.curve.plant().period;
-    point.limited_by = mechanism_at(structure.curve.plant(), angle);
-    return point;
+    return structure.seen_at({at.stiffness, damping}, angle);
   }
 
   const StableWalls& nobody_;

@@ -1,23 +1,18 @@
 #include "zwidth/design/stable_region.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <utility>
 
 #include "design/region/boundary_tracer.hpp"
 #include "require_argument.hpp"
-#include "stability/limit/mechanism_at.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
 using namespace internal;
 namespace {
-
-constexpr std::uintmax_t max_steps = 100;
 
 // By Green's theorem; positive where the boundary runs counter-clockwise.
 double signed_area(const ClosedBoundary& boundary) {
@@ -60,20 +55,8 @@ std::vector<StableComponent> components_of(std::vector<TracedBoundary> boundarie
   return components;
 }
 
-// Where the curve is stiffest between two of its points.
-BoundaryPoint stiffest_between(const BoundaryCurve& curve, double from, double to) {
-  std::uintmax_t steps = max_steps;
-  const double period = curve.plant().period;
-  const auto [low, high] = std::minmax({from * period, to * period});
-  const double angle = boost::math::tools::brent_find_minima([&](double a) { return -curve.at(a).stiffness; }, low,
-                                                             high, std::numeric_limits<double>::digits / 2, steps)
-                           .first;
-  const WallPoint wall = curve.at(angle);
-  return {wall.stiffness, wall.damping, angle / period, mechanism_at(curve.plant(), angle)};
-}
-
 // Largest K and largest B over the outlines; between vertices of the curve K may be larger.
-void find_extremes(StableRegion& region, const BoundaryCurve& curve, double deviation) {
+void find_extremes(StableRegion& region, const RegionStructure& structure, double deviation) {
   const auto consider = [&region](const BoundaryPoint& point) {
     if (!region.stiffest || point.stiffness > region.stiffest->stiffness) region.stiffest = point;
     if (!region.most_damped || point.damping > region.most_damped->damping) region.most_damped = point;
@@ -91,7 +74,7 @@ void find_extremes(StableRegion& region, const BoundaryCurve& curve, double devi
       for (std::size_t i = 1; i + 1 < arc.points.size(); ++i) {
         const double here = arc.points[i].stiffness;
         if (here < worth_refining || here < arc.points[i - 1].stiffness || here < arc.points[i + 1].stiffness) continue;
-        consider(stiffest_between(curve, *arc.points[i - 1].frequency, *arc.points[i + 1].frequency));
+        consider(structure.stiffest_between(arc.points[i - 1], arc.points[i + 1]));
       }
     }
   }
@@ -115,7 +98,7 @@ StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
   for (const TracedBoundary& traced : boundaries) region.vertex_error = std::max(region.vertex_error, traced.gap);
   region.components = components_of(std::move(boundaries));
   for (const StableComponent& component : region.components) region.area += component.area;
-  find_extremes(region, structure.curve, options.deviation);
+  find_extremes(region, structure, options.deviation);
   return region;
 }
 

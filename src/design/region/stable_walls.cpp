@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "design/region/region_structure.hpp"
+#include "design/region/one_rate_structure.hpp"
+#include "design/region/two_rate_structure.hpp"
 #include "require_argument.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -20,10 +22,19 @@ FilteredPlant checked(FilteredPlant plant, double velocity_filter_hz) {
 }  // namespace
 
 StableWalls::StableWalls(FilteredPlant plant, double velocity_filter_hz, const Progress& progress)
-    : structure_(std::make_shared<const RegionStructure>(checked(std::move(plant), velocity_filter_hz),
-                                                         velocity_filter_hz, progress)) {}
+    : structure_(std::make_shared<const OneRateStructure>(checked(std::move(plant), velocity_filter_hz),
+                                                          velocity_filter_hz, progress)) {}
 
-double StableWalls::velocity_filter_hz() const { return structure_->curve.velocity_filter_hz(); }
+StableWalls::StableWalls(const Device& device, const Progress& progress) {
+  if (has_damper_loop(device.loop())) {
+    structure_ = std::make_shared<const TwoRateStructure>(device, progress);
+  } else {
+    structure_ = std::make_shared<const OneRateStructure>(filtered_plant(device),
+                                                          device.parameters().wall.velocity_filter_hz, progress);
+  }
+}
+
+double StableWalls::velocity_filter_hz() const { return structure_->velocity_filter_hz(); }
 
 std::vector<StableInterval> StableWalls::stable_stiffnesses(double damping) const {
   require_argument(damping >= 0.0, ProblemCode::negative, {"virtual damper", damping});

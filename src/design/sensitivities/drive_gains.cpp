@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "require_valid.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 namespace {
@@ -259,7 +259,7 @@ bool closes_damper(DriveFirmware firmware) {
 }
 
 std::vector<DriveNumber> damper_numbers(const Device& device, DriveFirmware firmware) {
-  internal::require_valid(find_damper_problem(firmware, device));
+  require_valid(find_damper_problem(firmware, device));
   return numbers_of_damper(firmware, device);
 }
 
@@ -336,8 +336,8 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
 }
 
 DriveGains drive_gains(const Device& device, DriveFirmware firmware, const DriveLoopOptions& options) {
-  internal::require_valid(find_problem(firmware, device));
-  internal::require_valid(find_problem(options, firmware, device));
+  require_valid(find_problem(firmware, device));
+  require_valid(find_problem(options, firmware, device));
   if (has_damper_loop(device.loop())) return gains_of_damper(device, firmware);
   DriveGains gains;
   gains.numbers = numbers_of(firmware, device);

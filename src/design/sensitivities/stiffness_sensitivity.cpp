@@ -5,7 +5,9 @@
 #include "design/sensitivities/controller_sensitivity.hpp"
 #include "design/sensitivities/design_parameter.hpp"
 #include "design/sensitivities/plant_sensitivity.hpp"
+#include "design/sensitivities/two_rate_sensitivity.hpp"
 #include "stability/limit/gain_locus.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -58,7 +60,7 @@ std::vector<Sensitivity> at_crossover(const Device& device, const SampledPlant& 
 }  // namespace
 
 std::vector<Sensitivity> stiffness_sensitivities(const Device& device) {
-  require_one_rate(device);
+  if (has_damper_loop(device.loop())) return stiffness_sensitivities(device, unguarded_stiffness(device));
   const Wall& wall = device.parameters().wall;
   const SampledPlant plant = sampled_plant(device);
   const CriticalStiffness critical =
@@ -67,7 +69,11 @@ std::vector<Sensitivity> stiffness_sensitivities(const Device& device) {
 }
 
 std::vector<Sensitivity> stiffness_sensitivities(const Device& device, const CriticalStiffness& critical) {
-  require_one_rate(device);
+  if (has_damper_loop(device.loop())) {
+    if (!critical.limit) return {};
+    if (device.parameters().wall.damping == 0.0) return stiffness_sensitivities(with_one_rate(device), critical);
+    return two_rate_sensitivities(device, *critical.limit);
+  }
   return critical.limit ? at_crossover(device, sampled_plant(device), *critical.limit) : std::vector<Sensitivity>{};
 }
 

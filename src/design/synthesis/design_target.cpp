@@ -18,11 +18,11 @@
 #include "design/synthesis/followed_numbers.hpp"
 #include "design/synthesis/limit_along_parameter.hpp"
 #include "infinity.hpp"
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {

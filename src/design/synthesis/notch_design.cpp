@@ -11,11 +11,11 @@
 #include "design/synthesis/margin_wall.hpp"
 #include "design/synthesis/notch_search.hpp"
 #include "design/synthesis/wall_limits.hpp"
-#include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {

@@ -10,7 +10,6 @@
 #include "design/synthesis/known_holders.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
-#include "require_valid.hpp"
 #include "stability/device_draws.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
@@ -22,6 +21,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
 

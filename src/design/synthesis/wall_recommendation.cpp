@@ -12,13 +12,13 @@
 #include "design/synthesis/wall_limits.hpp"
 #include "design/synthesis/wall_lowering.hpp"
 #include "design/synthesis/wall_search.hpp"
-#include "require_valid.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "require_valid.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 namespace {
@@ -44,7 +44,7 @@ std::optional<OptionProblem> find_problem(const WallToRunOptions& options, const
 }
 
 WallToRun wall_to_run(const Device& device, const WallToRunOptions& options) {
-  internal::require_valid(find_problem(options, device));
+  require_valid(find_problem(options, device));
   WallToRun result{.device = device};
   if (options.safety_factor) {
     result.share = safe_wall(device, {.safety_factor = *options.safety_factor});

@@ -34,6 +34,12 @@ double between(double a, double b, double share) { return a + share * (b - a); }
 /// How far a straight line between samples 1 and 2 may be off, by the curvature that samples 0 and 3 show.
 double sag(double y0, double y1, double y2, double y3) { return std::abs(y0 - y1 - y2 + y3) / 16.0; }
 
+/// By an independent error to either side.
+void widen(Interval& interval, double value, double error) {
+  interval.lower = value - std::hypot(value - interval.lower, error);
+  interval.upper = value + std::hypot(interval.upper - value, error);
+}
+
 class Crossing {
  public:
   Crossing(std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts, const PhaseRun& below,
@@ -97,25 +103,24 @@ class Crossing {
     return surest;
   }
 
+  /// By one curve through the lines around; what bends between two of them may be off besides.
   [[nodiscard]] std::optional<MeasuredCrossover> by_curve() const {
-    if (!stiffness_curve_) return std::nullopt;
-    return crossing_of(*stiffness_curve_, 0.5 * (lines_[meeting_.before].frequency + lines_[meeting_.after].frequency),
-                       below_.sign);
+    const PhaseLine& before = lines_[meeting_.before];
+    const PhaseLine& after = lines_[meeting_.after];
+    if (!curve_) return std::nullopt;
+    auto crossing = crossing_of(*curve_, 0.5 * (before.frequency + after.frequency), below_.sign);
+    if (!crossing || step() == 0.0) return crossing;
+    const double lines_off = phase_sag_ / std::abs(step());
+    widen(crossing->frequency_interval, crossing->frequency, lines_off * (after.frequency - before.frequency));
+    widen(crossing->stiffness_interval, crossing->stiffness,
+          crossing->stiffness * std::hypot(magnitude_sag_, lines_off * log_step()));
+    return crossing;
   }
 
-  /// One curve through the phases around the crossing. Its bound passes -180 degrees at the interval's ends: of many
-  /// lines, each proven by a fit of its own with 95 %, some are so by chance, and the innermost of them is too near.
   void fit_curve(double line_correlation) {
     const bool is_before = std::abs(lines_[meeting_.before].deviation) < std::abs(lines_[meeting_.after].deviation);
     const std::size_t centre = is_before ? meeting_.before : meeting_.after;
-    first_sample_ = centre;
-    while (first_sample_ > below_.first && !is_far(lines_[first_sample_ - 1])) --first_sample_;
-    std::vector<CurveSample> phases;
-    for (std::size_t i = first_sample_; i <= above_.last && !(i > centre && is_far(lines_[i])); ++i) {
-      phases.push_back(phase_sample(lines_[i]));
-    }
-    stiffness_curve_ = stiffness_curve(lines_, centre, below_.first, above_.last, line_correlation);
-    if (lines_[centre].measured) curve_ = local_curve(phases, centre - first_sample_, line_correlation);
+    curve_ = stiffness_curve(lines_, centre, below_.first, above_.last, line_correlation);
   }
 
   /// Curvature of phase and ln |P| over the four lines around the meeting, where there are four.
@@ -206,26 +211,8 @@ class Crossing {
     return sign * deviation.value - two_sided_95 * deviation.sigma - phase_sag_;
   }
 
-  /// From the crossing outwards, to where the curve is proven to be on the run's side; nothing where it is not so
-  /// within its reach.
-  [[nodiscard]] std::optional<double> end_by_curve(const PhaseRun& run, bool downwards) const {
-    if (!curve_) return std::nullopt;
-    const std::size_t first = first_sample_ + curve_->first;
-    const std::size_t last = first_sample_ + curve_->last;
-    const auto bound_at = [&](std::size_t i) { return bound(curve_->at(std::log(lines_[i].frequency)), run.sign); };
-    std::size_t inner = downwards ? meeting_.after : meeting_.before;
-    for (std::size_t i = downwards ? meeting_.before : meeting_.after; i >= first && i <= last; downwards ? --i : ++i) {
-      if (bound_at(i) > 0.0) {
-        return between(lines_[i].frequency, lines_[inner].frequency, zero_between(bound_at(i), bound_at(inner)));
-      }
-      inner = i;
-    }
-    return std::nullopt;
-  }
-
   /// Where no single curve tells: the outermost open line between the crossing and the surest line ends the interval.
   [[nodiscard]] double lower_end() const {
-    if (const auto end = end_by_curve(below_, true)) return *end;
     std::size_t open = first_open_;
     for (std::size_t i = surest_line(below_.first, meeting_.before); i < open; ++i) {
       if (is_open(i, below_)) open = i;
@@ -240,7 +227,6 @@ class Crossing {
   }
 
   [[nodiscard]] double upper_end() const {
-    if (const auto end = end_by_curve(above_, false)) return *end;
     std::size_t end_open = end_open_;
     for (std::size_t i = surest_line(meeting_.after, above_.last); i >= end_open; --i) {
       if (is_open(i, above_)) end_open = i + 1;
@@ -302,9 +288,7 @@ class Crossing {
   MeetingLines meeting_;
   std::size_t first_open_ = 0;
   std::size_t end_open_ = 0;
-  std::size_t first_sample_ = 0;  // of the curve: its line
-  std::optional<LocalCurve> curve_;
-  std::optional<StiffnessCurve> stiffness_curve_;
+  std::optional<StiffnessCurve> curve_;
   double phase_sag_ = 0.0;
   double magnitude_sag_ = 0.0;
 };

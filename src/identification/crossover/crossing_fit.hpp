@@ -22,11 +22,10 @@ struct FittedCrossing {
 
 /// Where the phase passes -180 degrees between two runs that meet, with its 95 % intervals.
 ///
-/// Place and stiffness by interpolation of phase and ln |P| between the two neighbouring lines; where the noise makes
-/// the phase pass several times near by, of the smoothed ones. The interval reaches on either side to where the 95 %
-/// bound of one curve through the phases around the crossing leaves -180 degrees (Fieller's interval); where it does
-/// not so within the curve's reach, to the outermost line that is not proven to be on its run's side. A curvature of
-/// the phase between the two lines widens it. `line_correlation`: see FrequencyResponse. Source: Fieller 1954.
+/// By the curve of 1/P around it (stiffness_curve.hpp) and its profile, with what bends between the two neighbouring lines beside.
+/// Where no curve tells: by interpolation of phase and ln |P| between the two lines, and where the noise makes the phase
+/// pass several times near by, of the smoothed ones; the interval then reaches on either side to the outermost line that is not
+/// proven to be on its run's side. `line_correlation`: see FrequencyResponse.
 /// Where the phase falls far between the two lines, a resonance lies between them: there 1/P is nearly a straight line,
 /// and the interval holds both lines.
 /// Nothing where the phase passes 0 instead of -180 degrees, or steps so far that it may have done either.

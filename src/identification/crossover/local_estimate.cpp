@@ -14,14 +14,11 @@ constexpr std::array<std::size_t, 12> reaches{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 
 constexpr double agreement = 2.0;
 /// The neighbourhood is chosen by the same data, which costs certainty: by this much, as simulated.
 constexpr double cost_of_choice = 1.2;
-/// A curve is so many reaches narrower than the widest that agrees, a third of its width: what bend the widest hides in
-/// its noise is then some thirty times smaller, and the intervals of crossovers hold the truth in 93 to 99 % of cases.
-constexpr std::size_t narrower = 3;
 /// Standard deviations by which the misfit may exceed its expectation.
 constexpr double most_misfit = 2.0;
 
 struct Fit {
-  LocalCurve curve;
+  Estimate middle;       ///< at the sample
   double misfit = 0.0;   ///< sum of squared residuals over variances
   double freedom = 0.0;  ///< samples less coefficients
 };
@@ -49,26 +46,22 @@ std::optional<Fit> polynomial_fit(std::span<const CurveSample> window, double mi
   }
   const Eigen::Matrix3d covariance = normal.inverse();
   Fit fit;
-  fit.curve.middle = middle;
-  fit.curve.scale = scale;
-  fit.curve.coefficients = covariance * right;
+  const Eigen::Vector3d found = covariance * right;
   fit.freedom = static_cast<double>(count - coefficients);
   for (const CurveSample& sample : window) {
     if (!sample.counts) continue;
-    const double residual = (sample.y - powers(sample).dot(fit.curve.coefficients)) / sample.sigma;
+    const double residual = (sample.y - powers(sample).dot(found)) / sample.sigma;
     fit.misfit += residual * residual;
   }
   const double inflation = std::min(static_cast<double>(count), correlation);
-  fit.curve.covariance.topLeftCorner(coefficients, coefficients) =
-      inflation * covariance.topLeftCorner(coefficients, coefficients);
-  const Estimate middle_one = fit.curve.at(middle);
-  if (!std::isfinite(middle_one.value) || !std::isfinite(middle_one.sigma)) return std::nullopt;
+  fit.middle = {found(0), std::sqrt(std::max(0.0, inflation * covariance(0, 0)))};
+  if (!std::isfinite(fit.middle.value) || !std::isfinite(fit.middle.sigma)) return std::nullopt;
   return fit;
 }
 
 /// The fits around a sample that agree with each other, by rising width.
 struct Accepted {
-  std::array<LocalCurve, reaches.size()> curves;
+  std::array<Estimate, reaches.size()> estimates;
   std::size_t count = 0;
 };
 
@@ -81,12 +74,10 @@ Accepted accepted_fits(std::span<const CurveSample> samples, std::size_t index, 
     const std::size_t last = std::min(samples.size() - 1, index + reach);
     auto fit = polynomial_fit(samples.subspan(first, last - first + 1), samples[index].x, correlation);
     if (fit) {
-      const Estimate wider = fit->curve.at(samples[index].x);
+      const Estimate wider = fit->middle;
       const bool fits = fit->misfit <= fit->freedom + most_misfit * std::sqrt(2.0 * fit->freedom);
       if (!fits || wider.value < lowest || wider.value > highest) break;
-      fit->curve.first = first;
-      fit->curve.last = last;
-      accepted.curves[accepted.count++] = fit->curve;
+      accepted.estimates[accepted.count++] = wider;
       lowest = std::max(lowest, wider.value - agreement * wider.sigma);
       highest = std::min(highest, wider.value + agreement * wider.sigma);
     }
@@ -97,26 +88,12 @@ Accepted accepted_fits(std::span<const CurveSample> samples, std::size_t index, 
 
 }  // namespace
 
-Estimate LocalCurve::at(double x) const {
-  const double t = (x - middle) / scale;
-  const Eigen::Vector3d powers(1.0, t, t * t);
-  return {powers.dot(coefficients), std::sqrt(std::max(0.0, powers.dot(covariance * powers)))};
-}
-
-std::optional<LocalCurve> local_curve(std::span<const CurveSample> samples, std::size_t index, double correlation) {
-  const Accepted accepted = accepted_fits(samples, index, correlation);
-  if (accepted.count <= narrower) return std::nullopt;
-  LocalCurve curve = accepted.curves[accepted.count - 1 - narrower];
-  curve.covariance *= cost_of_choice * cost_of_choice;
-  return curve;
-}
-
 Estimate local_estimate(std::span<const CurveSample> samples, std::size_t index, double correlation) {
   const Accepted accepted = accepted_fits(samples, index, correlation);
   const Estimate own{samples[index].y, samples[index].sigma};
   Estimate best = own;
   for (std::size_t k = 0; k < accepted.count; ++k) {
-    const Estimate wider = accepted.curves[k].at(samples[index].x);
+    const Estimate wider = accepted.estimates[k];
     if (wider.sigma < best.sigma) best = wider;
   }
   if (best.sigma < own.sigma) best.sigma = std::min(cost_of_choice * best.sigma, own.sigma);

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <span>
 
 namespace zwidth::internal {
@@ -20,23 +18,6 @@ struct CurveSample {
   double sigma = 0.0;  ///< > 0
   bool counts = true;  ///< else it only takes up its place
 };
-
-/// A parabola (a line: among few samples) fitted to neighbouring samples.
-struct LocalCurve {
-  std::size_t first = 0;  ///< sample
-  std::size_t last = 0;
-  double middle = 0.0;  ///< x
-  double scale = 1.0;   ///< of x - middle
-  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-
-  [[nodiscard]] Estimate at(double x) const;
-};
-
-/// The curve around samples[index], by a fit narrower than that of local_estimate(): its bias is far below the noise
-/// all along. Nothing where too few samples agree.
-[[nodiscard]] std::optional<LocalCurve> local_curve(std::span<const CurveSample> samples, std::size_t index,
-                                                    double correlation);
 
 /// The curve at samples[index].x: a parabola (a line, a constant: among few samples) fitted to the samples around.
 ///

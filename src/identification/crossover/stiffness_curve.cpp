@@ -15,13 +15,13 @@ namespace {
 using Numbers = StiffnessCurve::Numbers;
 using Half = Eigen::Vector3d;
 
-constexpr std::array<std::size_t, 14> reaches{4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384};
-/// A wider fit agrees with a narrower one within this many of the narrower one's standard deviations.
-constexpr double agreement = 2.0;
+constexpr std::array<std::size_t, 14> curve_reaches{4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384};
+/// A wider fit curve_agrees with a narrower one within this many of the narrower one's standard deviations.
+constexpr double curve_agreement = 2.0;
 /// Standard deviations by which the misfit may exceed its expectation.
-constexpr double most_misfit = 2.0;
+constexpr double most_curve_misfit = 2.0;
 /// The lines are chosen by the same data, which costs certainty: by this much, as simulated.
-constexpr double cost_of_choice = 1.2;
+constexpr double cost_of_curve = 1.2;
 
 /// 1, t, t^2 with t from -1 to 1 over the curve's squares of w.
 Half powers_at(const StiffnessCurve& curve, double frequency) {
@@ -31,20 +31,23 @@ Half powers_at(const StiffnessCurve& curve, double frequency) {
   return {1.0, t, t * t};
 }
 
-struct Fit {
+struct CurveFit {
   StiffnessCurve curve;
   double misfit = 0.0;
   double freedom = 0.0;
 };
 
-std::optional<Fit> fitted(std::span<const PhaseLine> lines, std::size_t first, std::size_t last, double correlation) {
-  Fit fit;
+std::optional<CurveFit> fitted_curve(std::span<const PhaseLine> lines, std::size_t first, std::size_t last,
+                                     double correlation) {
+  CurveFit fit;
   fit.curve.first = first;
   fit.curve.last = last;
   fit.curve.lowest = lines[first].frequency;
   fit.curve.highest = lines[last].frequency;
   std::size_t count = 0;
-  for (std::size_t i = first; i <= last; ++i) count += std::isfinite(lines[i].sigma) && lines[i].sigma > 0.0 ? 1 : 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    if (std::isfinite(lines[i].sigma) && lines[i].sigma > 0.0) ++count;
+  }
   constexpr std::size_t fewest = 6;
   if (count < fewest) return std::nullopt;
   fit.freedom = 2.0 * static_cast<double>(count) - 6.0;
@@ -85,8 +88,8 @@ std::optional<Fit> fitted(std::span<const PhaseLine> lines, std::size_t first, s
   return fit;
 }
 
-bool agrees(Estimate wider, Estimate narrower) {
-  return std::abs(wider.value - narrower.value) <= agreement * narrower.sigma;
+bool curve_agrees(Estimate wider, Estimate narrower) {
+  return std::abs(wider.value - narrower.value) <= curve_agreement * narrower.sigma;
 }
 
 }  // namespace
@@ -109,24 +112,24 @@ double StiffnessCurve::covariance_at(double frequency) const {
 std::optional<StiffnessCurve> stiffness_curve(std::span<const PhaseLine> lines, std::size_t index, std::size_t first,
                                               std::size_t last, double correlation) {
   std::optional<StiffnessCurve> best;
-  std::array<std::pair<Estimate, Estimate>, reaches.size()> accepted;
+  std::array<std::pair<Estimate, Estimate>, curve_reaches.size()> accepted;
   std::size_t count = 0;
   const double at = lines[index].frequency;
-  for (const std::size_t reach : reaches) {
+  for (const std::size_t reach : curve_reaches) {
     const std::size_t begin = std::max(first, index - std::min(index, reach));
     const std::size_t end = std::min(last, index + reach);
-    if (auto fit = fitted(lines, begin, end, correlation)) {
+    if (auto fit = fitted_curve(lines, begin, end, correlation)) {
       const std::pair own{fit->curve.real_at(at), fit->curve.imaginary_at(at)};
-      bool fits = fit->misfit <= fit->freedom + most_misfit * std::sqrt(2.0 * fit->freedom * correlation);
+      bool fits = fit->misfit <= fit->freedom + most_curve_misfit * std::sqrt(2.0 * fit->freedom * correlation);
       for (std::size_t i = 0; i < count; ++i)
-        fits = fits && agrees(own.first, accepted[i].first) && agrees(own.second, accepted[i].second);
+        fits = fits && curve_agrees(own.first, accepted[i].first) && curve_agrees(own.second, accepted[i].second);
       if (!fits) break;
       accepted[count++] = own;
       best = fit->curve;
     }
     if (begin == first && end == last) break;
   }
-  if (best) best->covariance *= cost_of_choice * cost_of_choice;
+  if (best) best->covariance *= cost_of_curve * cost_of_curve;
   return best;
 }
 

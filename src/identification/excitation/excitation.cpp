@@ -7,8 +7,8 @@
 
 #include "identification/excitation/excitation_check.hpp"
 #include "identification/excitation/excitation_spectrum.hpp"
-#include "require_valid.hpp"
 #include "zwidth/model/device_key.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

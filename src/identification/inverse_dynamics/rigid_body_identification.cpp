@@ -19,12 +19,12 @@
 #include "model/loop_keys.hpp"
 #include "model/option_beyond.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/device_key.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {

@@ -89,8 +89,10 @@ std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorX
       const auto row = static_cast<Eigen::Index>(k);
       out.positions(row) = player.x(0) + (sensed_ == 0 ? 0.0 : player.x(sensed_));
       if (with_slopes) {
-        out.slopes.row(row) = player.slopes.row(0).head(columns);
-        if (sensed_ != 0) out.slopes.row(row) += player.slopes.row(sensed_).head(columns);
+        const double* first_body = player.slopes.row(0).data();
+        const double* beside = player.slopes.row(sensed_).data();
+        for (Eigen::Index c = 0; c < columns; ++c)
+          out.slopes(row, c) = sensed_ == 0 ? first_body[c] : first_body[c] + beside[c];
       }
       const double share = share_at(k);
       for (int part = 0; part < device->before.count; ++part) player.move(device->before, older, share);

@@ -24,10 +24,10 @@ End sum(const End& a, double by_a, const End& b, double by_b) {
 ///
 ///     a / rate + (1 - (1 - bend) e^-a) strength = reach,  with strength * bend < reach
 ///
-/// The left side is concave in a: Newton's steps from below never pass the root.
+/// The left side is concave in a: Newton's steps from below never pass the root, and leave half the square of the last.
 double travel(double reach, double strength, double bend, double rate) {
   constexpr int most_steps = 60;
-  constexpr double close = 1e-14;
+  constexpr double close = 1e-8;
   double a = std::max(0.0, (reach - strength) * rate);
   for (int step = 0; step < most_steps; ++step) {
     const double left = strength * (1.0 - bend) * std::exp(-a);
@@ -75,7 +75,7 @@ template <bool with_slopes>
 PreslidingStep slide(const PreslidingStep& from, const End& change, double limit, double compliance, double length,
                      double duration) {
   constexpr int most_steps = 60;
-  constexpr double close = 1e-14;
+  constexpr double close = 1e-9;  // of a step of Newton's, which leaves its square
   constexpr double small = 1e-3;
   const double strength = compliance * limit;
   const double sign = from.velocity.value < 0.0 ? -1.0 : 1.0;

@@ -6,17 +6,19 @@
 namespace zwidth::internal {
 namespace {
 
-using Lanes = Eigen::Array<double, lanes, 1>;
-
 /// As many rows as there are `j`: their factors stay in registers.
 template <Eigen::Index... j>
-void add_few_rows(double* to, const double* by, const double* from, Eigen::Index stride, Eigen::Index width,
-                  std::integer_sequence<Eigen::Index, j...> /*rows*/) {
+void add_few_rows(double* __restrict to, const double* by, const double* __restrict from, Eigen::Index stride,
+                  Eigen::Index width, std::integer_sequence<Eigen::Index, j...> /*rows*/) {
   const double factors[] = {by[j]...};
   for (Eigen::Index column = 0; column < width; column += lanes) {
-    Lanes sum = Eigen::Map<const Lanes>(to + column);
-    ((sum += factors[j] * Eigen::Map<const Lanes>(from + column + j * stride)), ...);
-    Eigen::Map<Lanes>(to + column) = sum;
+    double sum[lanes];
+    for (Eigen::Index lane = 0; lane < lanes; ++lane) sum[lane] = to[column + lane];
+    const auto add = [&](double factor, const double* row) {
+      for (Eigen::Index lane = 0; lane < lanes; ++lane) sum[lane] += factor * row[lane];
+    };
+    (add(factors[j], from + column + j * stride), ...);
+    for (Eigen::Index lane = 0; lane < lanes; ++lane) to[column + lane] = sum[lane];
   }
 }
 

@@ -12,10 +12,10 @@ inline constexpr Eigen::Index lanes = 4;
 inline Eigen::Index padded(Eigen::Index columns) { return (columns + lanes - 1) / lanes * lanes; }
 
 /// to += by from, of `width` columns, a multiple of `lanes`.
-inline void add_row(double* to, double by, const double* from, Eigen::Index width) {
-  using Lanes = Eigen::Array<double, lanes, 1>;
-  for (Eigen::Index column = 0; column < width; column += lanes)
-    Eigen::Map<Lanes>(to + column) += by * Eigen::Map<const Lanes>(from + column);
+inline void add_row(double* __restrict to, double by, const double* __restrict from, Eigen::Index width) {
+  for (Eigen::Index column = 0; column < width; column += lanes) {
+    for (Eigen::Index lane = 0; lane < lanes; ++lane) to[column + lane] += by * from[column + lane];
+  }
 }
 
 /// to += sum_j by[j] from[j], of `count` rows that begin `stride` numbers after each other.

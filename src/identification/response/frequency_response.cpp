@@ -13,8 +13,8 @@
 #include "identification/response/period_detection.hpp"
 #include "identification/response/periodic_response.hpp"
 #include "identification/response/welch.hpp"
-#include "require_valid.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;

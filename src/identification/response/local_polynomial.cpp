@@ -18,8 +18,8 @@ namespace {
 
 using Lines = std::vector<std::complex<double>>;
 
-constexpr Eigen::Index terms = 3;            // of a parabola
-constexpr Eigen::Index numbers = 2 * terms;  // of a window
+constexpr Eigen::Index terms = 3;             // of a parabola
+constexpr Eigen::Index unknowns = 2 * terms;  // of a window
 
 /// Less the line through its ends, which leaks into all lines.
 Lines levelled_spectrum(std::span<const double> signal) {
@@ -65,7 +65,7 @@ class WholeRecord {
   /// Value, variance and coherence at a window's middle.
   [[nodiscard]] std::optional<ResponsePoint> estimated(const LocalWindow& window) const {
     const auto count = static_cast<Eigen::Index>(window.count);
-    Eigen::MatrixXcd basis(count, numbers);
+    Eigen::MatrixXcd basis(count, unknowns);
     Eigen::VectorXcd motion(count);
     const double reach = 0.5 * static_cast<double>(window.count - 1);
     const double force = std::sqrt(mean_power(window));
@@ -78,15 +78,15 @@ class WholeRecord {
       motion(i) = output_[k];
     }
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> solver(basis);
-    if (solver.rank() < numbers) return std::nullopt;
+    if (solver.rank() < unknowns) return std::nullopt;
     const Eigen::VectorXcd found = solver.solve(motion);
-    const double rest = (motion - basis * found).squaredNorm() / static_cast<double>(count - numbers);
+    const double rest = (motion - basis * found).squaredNorm() / static_cast<double>(count - unknowns);
     // (B^H B)^-1 of the value, by the triangle R of B P = Q R.
-    Eigen::VectorXcd unit = Eigen::VectorXcd::Zero(numbers);
+    Eigen::VectorXcd unit = Eigen::VectorXcd::Zero(unknowns);
     unit(0) = 1.0;
     const Eigen::VectorXcd permuted = solver.colsPermutation().transpose() * unit;
     const Eigen::VectorXcd column =
-        solver.matrixR().topLeftCorner(numbers, numbers).triangularView<Eigen::Upper>().adjoint().solve(permuted);
+        solver.matrixR().topLeftCorner(unknowns, unknowns).triangularView<Eigen::Upper>().adjoint().solve(permuted);
     ResponsePoint point;
     point.value = found(0) / force;
     point.variance = rest * column.squaredNorm() / (force * force);
@@ -109,7 +109,7 @@ FrequencyResponse local_polynomial_response(std::span<const double> force, std::
                                             double sampling_period, double spacing,
                                             const FrequencyResponseOptions& options) {
   // The share of the strongest window's power below which the force excites nothing (-50 dB).
-  constexpr double excited_share = 1e-5;
+  constexpr double excited_power_share = 1e-5;
   const WholeRecord record(force, output, power_of_falling(options.output));
   const double line = 2.0 * std::numbers::pi / (static_cast<double>(force.size()) * sampling_period);
   const double reach = spacing / line;  // lines
@@ -128,7 +128,7 @@ FrequencyResponse local_polynomial_response(std::span<const double> force, std::
   response.sampling_period = sampling_period;
   for (const LocalWindow& window : windows) {
     const double power = record.mean_power(window);
-    if (power < excited_share * strongest) continue;
+    if (power < excited_power_share * strongest) continue;
     auto point = record.estimated(window);
     if (!point) continue;
     point->frequency = window.middle * line;
@@ -136,8 +136,10 @@ FrequencyResponse local_polynomial_response(std::span<const double> force, std::
     point->force = 2.0 * std::sqrt(power) / static_cast<double>(force.size());
     response.points.push_back(*point);
   }
+  response.remarks.push_back(note(
+      {.code = FindingCode::lines_of_whole_record, .evidence = {{"spacing", spacing / (2.0 * std::numbers::pi)}}}));
   const double rows = 2.0 * std::floor(reach) + 1.0;
-  response.averages = 1.0 + rows - static_cast<double>(numbers);
+  response.averages = 1.0 + rows - static_cast<double>(unknowns);
   // Windows hold half of their neighbours' lines.
   constexpr double correlation_of_halves = 1.3;
   response.line_correlation = correlation_of_halves;

@@ -9,9 +9,9 @@
 #include "counted.hpp"
 #include "identification/response/line_response.hpp"
 #include "identification/response/period_detection.hpp"
-#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::internal {
 

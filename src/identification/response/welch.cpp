@@ -11,10 +11,10 @@
 
 #include "counted.hpp"
 #include "identification/response/encoder_rounding.hpp"
-#include "require_valid.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -41,6 +41,7 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   constexpr double better = 0.15;      // of the rise
   constexpr double still = 2e-4;       // of the logarithm
   constexpr double most_damping = 10;  // of the curvature
+  constexpr double most_rises = 30;    // of a step that is shortened; one that costs more is damped
   const Eigen::VectorXd lowest = problem.lowest();
   const double middle = number(minimum.z).value_or(0.0);
   ProfileEnd end{middle, minimum.z, 0.0, false};
@@ -49,11 +50,16 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   double before = middle;
   double damping = 0.0;
   const double allowed = minimum.picture.cost + rise;
+  const double worst = allowed + 0.5 * rise;
   for (int step = 0; step < most_steps;) {
     const Eigen::VectorXd slope = -direction * slope_of(number, z, varied, lowest);
-    const Eigen::VectorXd move = step_to_cost(here, slope, lowest - z, damping, allowed);
-    const double worst = std::max(here.cost, allowed) + rise;
-    const std::optional<double> cost = problem.cost(z + move);
+    Eigen::VectorXd move = step_to_cost(here, slope, lowest - z, damping, allowed);
+    std::optional<double> cost = problem.cost(z + move);
+    const double rises = cost ? (*cost - minimum.picture.cost) / rise : 0.0;
+    if (cost && *cost > worst && rises < most_rises) {  // along the step the cost rises by its square
+      move /= std::sqrt(rises);
+      cost = problem.cost(z + move);
+    }
     const std::optional<double> value = number(z + move);
     std::optional<Picture> picture;
     if (cost && value && *cost <= worst) picture = problem.picture(z + move);

@@ -27,8 +27,11 @@ constexpr int even_looks = 128;       // in the band of the spring's rate, and a
 constexpr double least_look = 1e-7;   // rad per period of the spring
 constexpr int looks_per_decade = 24;  // towards zero
 constexpr int bits_of_minimum = 40;
+constexpr double flat_minimum = 1e-8;     // relative: a minimum between neighbours as near lies an eighth of that lower
 constexpr double same_as_at_zero = 1e-9;  // relative: the limit towards w = 0 is named rather than another frequency
 constexpr double whole_within = 1e-6;     // periods of the damper, of the difference of the delays
+
+}  // namespace
 
 class TwoRateDiscs {
  public:
@@ -158,6 +161,8 @@ class TwoRateDiscs {
   double whole_;
 };
 
+namespace {
+
 std::vector<double> frequencies_to_look_at(const TwoRateDiscs& discs, const Device& device,
                                            const CriticalStiffness& nobody) {
   const double nyquist = discs.nyquist();
@@ -236,6 +241,8 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
     const double before = i > 0 ? limits[i - 1] : std::numeric_limits<double>::infinity();
     const double after = i + 1 < limits.size() ? limits[i + 1] : std::numeric_limits<double>::infinity();
     if (!(limits[i] > 0.0) || limits[i] > before || limits[i] > after) continue;
+    if (std::max(before, after) <= limits[i] * (1.0 + flat_minimum))
+      continue;  // towards zero it is constant, and rounding swings
     std::uintmax_t most_steps = 100;
     const auto [at, compliance] = boost::math::tools::brent_find_minima(
         [&](double frequency) { return -1.0 / discs.quick_limit_at(frequency, damper); },

@@ -1,12 +1,15 @@
-#include "design/region/region_structure.hpp"
+#include "design/region/one_rate_structure.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
 #include "design/region/boundary_crossings.hpp"
 #include "infinity.hpp"
+#include "stability/limit/mechanism_at.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
@@ -38,6 +41,7 @@ constexpr double line_ratio = 4.0;
 constexpr double same_stiffness = 1e-6;
 // An angle this far, relative, outside a branch is on its end.
 constexpr double same_angle = 1e-6;
+constexpr std::uintmax_t most_steps_to_stiffest = 100;
 
 // K = stiffness + slope B for 0 <= B <= top, in pieces by ratios of B: each knows B to rounding of itself.
 void add_line(std::vector<BoundarySegment>& lines, double stiffness, double slope, double top) {
@@ -66,21 +70,21 @@ std::optional<double> drift_stiffness(const BoundaryCurve& curve) {
 
 }  // namespace
 
-RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz, const Progress& progress)
-    : curve(std::move(plant), velocity_filter_hz) {
-  if (curve.plant().terms.empty()) {  // the wall does not see the device
+OneRateStructure::OneRateStructure(FilteredPlant plant, double velocity_filter_hz, const Progress& progress)
+    : curve_(std::move(plant), velocity_filter_hz) {
+  if (curve_.plant().terms.empty()) {  // the wall does not see the device
     const RegionCell all{RegionEdge{BoundaryKind::no_stiffness, 0}, std::nullopt};
     slabs.push_back({0.0, infinity, {all}});
     return;
   }
   StagedProgress stages(progress);
   stages.next(following_share);
-  nyquist = if_positive(curve.nyquist_stiffness());
-  drift = drift_stiffness(curve);
-  by_damping_ = damping_crossings(curve.plant(), {0.0, curve.velocity_filter_hz()});
-  const auto [segments, all_proven] = curve_segments(curve, wall_bounds(curve), stages.stage());
+  nyquist_ = if_positive(curve_.nyquist_stiffness());
+  drift_ = drift_stiffness(curve_);
+  by_damping_ = damping_crossings(curve_.plant(), {0.0, curve_.velocity_filter_hz()});
+  const auto [segments, all_proven] = curve_segments(curve_, wall_bounds(curve_), stages.stage());
   proven = all_proven;
-  branches = boundary_branches(curve, segments);
+  branches = boundary_branches(curve_, segments);
   stages.next(crossing_share);
   const std::vector<double> found = levels(segments, stages.stage());
   try {
@@ -104,7 +108,7 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz,
   stages.done();
 }
 
-void RegionStructure::find_slabs(const std::vector<double>& found, const Progress& progress) {
+void OneRateStructure::find_slabs(const std::vector<double>& found, const Progress& progress) {
   slabs.clear();
   for (std::size_t i = found.size() - 1; i > 0; --i) {
     // Where everything meets at K = B = 0 rounding moves levels: what is below is not resolved.
@@ -116,7 +120,7 @@ void RegionStructure::find_slabs(const std::vector<double>& found, const Progres
   std::reverse(slabs.begin(), slabs.end());
 }
 
-bool RegionStructure::are_slabs_confirmed(const Progress& progress) const {
+bool OneRateStructure::are_slabs_confirmed(const Progress& progress) const {
   return std::all_of(slabs.begin(), slabs.end(), [&](const RegionSlab& slab) {
     tell(progress, 1.0);
     const double middle = slab.lower + 0.5 * (slab.upper - slab.lower);
@@ -124,26 +128,26 @@ bool RegionStructure::are_slabs_confirmed(const Progress& progress) const {
   });
 }
 
-std::vector<BoundarySegment> RegionStructure::straight_segments(double top) const {
+std::vector<BoundarySegment> OneRateStructure::straight_segments(double top) const {
   std::vector<BoundarySegment> lines;
-  if (nyquist) {
-    const double velocity = curve.velocity_at_nyquist();
-    top = std::max(top, *nyquist / velocity);
-    add_line(lines, *nyquist, -velocity, *nyquist / velocity);
+  if (nyquist_) {
+    const double velocity = curve_.velocity_at_nyquist();
+    top = std::max(top, *nyquist_ / velocity);
+    add_line(lines, *nyquist_, -velocity, *nyquist_ / velocity);
   }
   add_line(lines, 0.0, 0.0, top);
-  if (drift) add_line(lines, *drift, 0.0, top);
+  if (drift_) add_line(lines, *drift_, 0.0, top);
   return lines;
 }
 
 // Every B at which the stable intervals of K may change, from 0.
-std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& segments, const Progress& progress) {
+std::vector<double> OneRateStructure::levels(const std::vector<BoundarySegment>& segments, const Progress& progress) {
   std::vector<double> found;
   double top = 0.0;
   for (const BoundarySegment& segment : segments) top = std::max(top, greatest(segment.damping));
   std::vector<BoundarySegment> all = segments;
   for (const BoundarySegment& each : straight_segments(top)) all.push_back(each);
-  const BoundaryCrossings crossings = boundary_crossings(curve, all, progress);
+  const BoundaryCrossings crossings = boundary_crossings(curve_, all, progress);
   proven = proven && crossings.complete;
   told_apart_ = crossings.complete;
   for (const WallPoint& wall : crossings.walls) found.push_back(wall.damping);
@@ -154,7 +158,7 @@ std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& 
   }
   for (const GainCrossing& crossing : by_damping_.crossings) found.push_back(crossing.gain);
   // The Nyquist line ends on K = 0, to rounding.
-  if (nyquist) found.push_back(*nyquist / curve.velocity_at_nyquist());
+  if (nyquist_) found.push_back(*nyquist_ / curve_.velocity_at_nyquist());
   std::erase_if(found, [](double level) { return !(level > 0.0) || !std::isfinite(level); });
   found.push_back(0.0);
   std::sort(found.begin(), found.end());
@@ -164,19 +168,19 @@ std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& 
   return found;
 }
 
-std::vector<RegionCell> RegionStructure::cells_at(double damping) const {
+std::vector<RegionCell> OneRateStructure::cells_at(double damping) const {
   return by_branches_ ? cells_by_branches(damping) : cells_by_isolation(damping);
 }
 
 // The branches at this B > 0 are all the crossovers of K: f of GainLocus is B less that of the curve, times a positive
 // number, so that a pole pair leaves with rising K where B rises with the angle.
-std::vector<RegionCell> RegionStructure::cells_by_branches(double damping) const {
+std::vector<RegionCell> OneRateStructure::cells_by_branches(double damping) const {
   struct Crossing {
     double stiffness;
     int poles_leaving;
     RegionEdge edge;
   };
-  const GainLocus locus(curve.plant(), GainLocus::Gain::stiffness, 0.0, {damping, curve.velocity_filter_hz()});
+  const GainLocus locus(curve_.plant(), GainLocus::Gain::stiffness, 0.0, {damping, curve_.velocity_filter_hz()});
   std::vector<Crossing> crossings;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const double first = branches[i].nodes().front().wall.damping;
@@ -185,8 +189,8 @@ std::vector<RegionCell> RegionStructure::cells_by_branches(double damping) const
     const RegionEdge edge{BoundaryKind::oscillation, i};
     crossings.push_back({edge_at(edge, damping).stiffness, last > first ? 2 : -2, edge});
   }
-  if (drift) crossings.push_back({*drift, locus.value(0.0) < 0.0 ? 1 : -1, {BoundaryKind::drift, 0}});
-  if (nyquist) {
+  if (drift_) crossings.push_back({*drift_, locus.value(0.0) < 0.0 ? 1 : -1, {BoundaryKind::drift, 0}});
+  if (nyquist_) {
     const RegionEdge edge{BoundaryKind::nyquist, 0};
     crossings.push_back({edge_at(edge, damping).stiffness, locus.value(std::numbers::pi) > 0.0 ? 1 : -1, edge});
   }
@@ -194,7 +198,7 @@ std::vector<RegionCell> RegionStructure::cells_by_branches(double damping) const
   std::sort(crossings.begin(), crossings.end(),
             [](const Crossing& a, const Crossing& b) { return a.stiffness < b.stiffness; });
   int unstable = locus.initially_unstable(locus.value(0.0)) + unstable_poles(by_damping_, damping);
-  for (const SampledTerm& term : curve.plant().terms) unstable -= term.unstable_poles;
+  for (const SampledTerm& term : curve_.plant().terms) unstable -= term.unstable_poles;
   std::vector<RegionCell> cells;
   RegionEdge left{BoundaryKind::no_stiffness, 0};
   for (const Crossing& each : crossings) {
@@ -206,10 +210,10 @@ std::vector<RegionCell> RegionStructure::cells_by_branches(double damping) const
   return cells;
 }
 
-std::vector<RegionCell> RegionStructure::cells_by_isolation(double damping) const {
+std::vector<RegionCell> OneRateStructure::cells_by_isolation(double damping) const {
   const CriticalStiffness critical = critical_stiffness_of(
-      curve.plant(), stiffness_crossings(curve.plant(), {damping, curve.velocity_filter_hz()}, by_damping_));
-  const double period = curve.plant().period;
+      curve_.plant(), stiffness_crossings(curve_.plant(), {damping, curve_.velocity_filter_hz()}, by_damping_));
+  const double period = curve_.plant().period;
   const auto edge = [&](double stiffness) -> RegionEdge {
     if (stiffness == 0.0) return {BoundaryKind::no_stiffness, 0};
     const auto crossover = std::find_if(critical.crossovers.begin(), critical.crossovers.end(),
@@ -236,14 +240,14 @@ std::vector<RegionCell> RegionStructure::cells_by_isolation(double damping) cons
   return cells;
 }
 
-RegionStructure::EdgePoint RegionStructure::edge_at(const RegionEdge& edge, double damping) const {
+OneRateStructure::EdgePoint OneRateStructure::edge_at(const RegionEdge& edge, double damping) const {
   switch (edge.kind) {
     case BoundaryKind::nyquist:
-      return {*nyquist - damping * curve.velocity_at_nyquist(), std::numbers::pi};
+      return {*nyquist_ - damping * curve_.velocity_at_nyquist(), std::numbers::pi};
     case BoundaryKind::drift:
-      return {*drift, 0.0};
+      return {*drift_, 0.0};
     case BoundaryKind::oscillation: {
-      const BoundaryBranch::Node node = branches[edge.branch].at_damping(curve, damping);
+      const BoundaryBranch::Node node = branches[edge.branch].at_damping(curve_, damping);
       return {node.wall.stiffness, node.angle};
     }
     case BoundaryKind::no_stiffness:
@@ -253,15 +257,46 @@ RegionStructure::EdgePoint RegionStructure::edge_at(const RegionEdge& edge, doub
   return {0.0, 0.0};
 }
 
+bool OneRateStructure::is_curved(const RegionEdge& edge) const { return edge.kind == BoundaryKind::oscillation; }
+
+RegionStructure::Node OneRateStructure::between(const Node& from, const Node& to, double part) const {
+  const double angle = from.angle + part * (to.angle - from.angle);
+  return {angle, curve_.at(angle)};
+}
+
+std::vector<RegionStructure::Node> OneRateStructure::nodes_between(std::size_t branch, const Node& first,
+                                                                   const Node& last) const {
+  std::vector<Node> nodes = branches[branch].nodes();
+  std::erase_if(nodes,
+                [&](const Node& each) { return !((each.angle - first.angle) * (each.angle - last.angle) < 0.0); });
+  if (last.angle < first.angle) std::ranges::reverse(nodes);
+  return nodes;
+}
+
+BoundaryPoint OneRateStructure::stiffest_between(const BoundaryPoint& first, const BoundaryPoint& last) const {
+  std::uintmax_t steps = most_steps_to_stiffest;
+  const auto [low, high] = std::minmax({*first.frequency * period(), *last.frequency * period()});
+  const double angle = boost::math::tools::brent_find_minima([&](double a) { return -curve_.at(a).stiffness; }, low,
+                                                             high, std::numeric_limits<double>::digits / 2, steps)
+                           .first;
+  const WallPoint wall = curve_.at(angle);
+  return {wall.stiffness, wall.damping, angle / period(), mechanism_at(curve_.plant(), angle)};
+}
+
+BoundaryPoint OneRateStructure::seen_at(const WallPoint& wall, double angle) const {
+  const double frequency = angle >= std::numbers::pi ? std::numbers::pi / period() : angle / period();
+  return {wall.stiffness, wall.damping, frequency, mechanism_at(curve_.plant(), angle)};
+}
+
 // Whether these cells are the same at this B: between the same pieces of boundary, or to rounding at the same K.
-bool RegionStructure::agree(const std::vector<RegionCell>& cells, const std::vector<RegionCell>& others,
-                            double damping) const {
+bool OneRateStructure::agree(const std::vector<RegionCell>& cells, const std::vector<RegionCell>& others,
+                             double damping) const {
   const double rounding = rounding_at(damping, stiffest_of(cells, damping)).stiffness;
   const auto meet = [&](const RegionEdge& a, const RegionEdge& b) {
     if (a == b) return true;
     const double here = edge_at(a, damping).stiffness;
     const double there = edge_at(b, damping).stiffness;
-    return std::abs(here - there) <= same_stiffness * (std::abs(there) + damping / curve.plant().period) + rounding;
+    return std::abs(here - there) <= same_stiffness * (std::abs(there) + damping / curve_.plant().period) + rounding;
   };
   return std::equal(cells.begin(), cells.end(), others.begin(), others.end(),
                     [&](const RegionCell& a, const RegionCell& b) {
@@ -271,7 +306,7 @@ bool RegionStructure::agree(const std::vector<RegionCell>& cells, const std::vec
 }
 
 // Near both ends; and where it spans orders of magnitude at several places between.
-bool RegionStructure::agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const {
+bool OneRateStructure::agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const {
   const double guard = guard_share * (upper - lower);
   const auto agree_at = [&](double damping) { return agree(cells, cells_at(damping), damping); };
   if (!agree_at(lower + guard) || !agree_at(upper - guard)) return false;
@@ -283,11 +318,11 @@ bool RegionStructure::agree_within(const std::vector<RegionCell>& cells, double 
 }
 
 // Beside a pole that is hardly damped the curve runs far within few digits of the angle.
-WallPoint RegionStructure::rounding_at(double damping, double stiffest) const {
+WallPoint OneRateStructure::rounding_at(double damping, double stiffest) const {
   WallPoint greatest;
   for (const BoundaryBranch& branch : branches) {
-    const BoundaryBranch::Node node = branch.at_damping(curve, damping);
-    const WallPoint moved = curve.at(node.angle * (1.0 - angle_step));
+    const BoundaryBranch::Node node = branch.at_damping(curve_, damping);
+    const WallPoint moved = curve_.at(node.angle * (1.0 - angle_step));
     const WallPoint rounding{rounded_steps * std::abs(moved.stiffness - node.wall.stiffness),
                              rounded_steps * std::abs(moved.damping - node.wall.damping)};
     // It does not reach this B, or not near these K.
@@ -299,13 +334,13 @@ WallPoint RegionStructure::rounding_at(double damping, double stiffest) const {
   return greatest;
 }
 
-double RegionStructure::stiffest_of(const std::vector<RegionCell>& cells, double damping) const {
+double OneRateStructure::stiffest_of(const std::vector<RegionCell>& cells, double damping) const {
   if (cells.empty()) return 0.0;
   return cells.back().right ? edge_at(*cells.back().right, damping).stiffness : infinity;
 }
 
 // Below the last slab, or as part of it where the cells are the same. Nothing stable above the first one.
-void RegionStructure::add_below(double lower, double upper, std::vector<RegionCell> cells) {
+void OneRateStructure::add_below(double lower, double upper, std::vector<RegionCell> cells) {
   if (slabs.empty() && cells.empty()) return;
   if (!slabs.empty() && slabs.back().cells == cells) {
     slabs.back().lower = lower;
@@ -314,7 +349,7 @@ void RegionStructure::add_below(double lower, double upper, std::vector<RegionCe
   }
 }
 
-void RegionStructure::add_slabs(double bottom, double top, const Progress& progress) {
+void OneRateStructure::add_slabs(double bottom, double top, const Progress& progress) {
   struct Range {
     double lower;
     double upper;

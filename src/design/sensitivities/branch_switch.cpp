@@ -8,11 +8,12 @@
 #include <limits>
 #include <utility>
 
+#include "design/sensitivities/two_rate_sensitivity.hpp"
 #include "stability/limit/gain_crossings.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
-#include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth {
@@ -61,8 +62,9 @@ class Way {
   [[nodiscard]] std::optional<FollowedPoint> at(double value, double near) const {
     progress_.go_on();
     DeviceParameters moved = parameters_;
-    set_parameter(moved, key_, value);
+    set_with_ratio(moved, key_, value);
     if (find_problem(moved)) return std::nullopt;
+    if (has_damper_loop(moved.loop)) return at_two_rates(value, Device(std::move(moved)));
     const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
     return FollowedPoint{value, limit_of(filtered_plant(Device(std::move(moved))), damper, may_grow * near)};
   }
@@ -102,13 +104,23 @@ class Way {
   }
 
  private:
+  /// Nothing where its plant is beyond all digits.
+  [[nodiscard]] static std::optional<FollowedPoint> at_two_rates(double value, const Device& device) {
+    try {
+      return FollowedPoint{value, unguarded_stiffness(device)};
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::did_not_converge) throw;
+      return std::nullopt;
+    }
+  }
+
   /// What holds beyond a switch. Where no crossover limits there, rounding decides at its very edge between no wall and
   /// every wall: then the first answer on the way onward that the second route confirms. Nothing where there is none.
   [[nodiscard]] std::optional<CriticalStiffness> beyond(const FollowedPoint& far, double direction) const {
     if (far.critical.limit) return far.critical;
     for (double step = resolution; step <= farthest_beyond; step *= 10.0) {
       DeviceParameters moved = parameters_;
-      set_parameter(moved, key_, far.value + direction * step * std::abs(far.value));
+      set_with_ratio(moved, key_, far.value + direction * step * std::abs(far.value));
       if (find_problem(moved)) return std::nullopt;
       CriticalStiffness critical = critical_stiffness(Device(std::move(moved)));
       if (critical.trust.sound()) return critical;
@@ -146,14 +158,12 @@ std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffn
 }  // namespace
 
 std::vector<BranchSwitch> branch_switches(const Device& device, BranchSwitchOptions options) {
-  require_one_rate(device);
   if (!(options.factor > 1.0) || !std::isfinite(options.factor)) {
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::not_finite_and_above,
                                               .evidence = {{"value", options.factor}, {"bound", 1.0}},
                                               .subjects = {{"name", "factor"}}});
   }
-  const Wall& wall = device.parameters().wall;
-  const CriticalStiffness own = critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});
+  const CriticalStiffness own = unguarded_stiffness(device);
   const std::vector<Sensitivity> sensitivities = stiffness_sensitivities(device, own);
   std::vector<std::vector<BranchSwitch>> found(sensitivities.size());
   SharedProgress progress(options.progress, sensitivities.size());

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "design/region/region_structure.hpp"
+#include "design/region/two_rate_curve.hpp"
+#include "design/region/two_rate_slices.hpp"
+#include "design/region/two_rate_tracer.hpp"
+#include "zwidth/progress.hpp"
+
+namespace zwidth::internal {
+
+// The walls of a device whose damper runs in a loop of its own. Slices of one gain inside have every crossing; the chains
+// through them, divided where B turns, are the branches. Between two levels of B, at which branches end or cross, the cells
+// are told by slices; and every slice is asked whether it tells the same.
+// Throws Error (did_not_converge) where a slice contradicts, also among thrice as many, and where a chain cannot be followed.
+class TwoRateStructure final : public RegionStructure {
+ public:
+  TwoRateStructure(const Device& device, const Progress& progress);
+
+  [[nodiscard]] EdgePoint edge_at(const RegionEdge& edge, double damping) const override;
+  [[nodiscard]] bool is_curved(const RegionEdge& edge) const override;
+  [[nodiscard]] BoundaryKind kind_of(std::size_t branch) const override { return kinds_[branch]; }
+  [[nodiscard]] Node between(const Node& from, const Node& to, double part) const override;
+  [[nodiscard]] std::vector<Node> nodes_between(std::size_t branch, const Node& first, const Node& last) const override;
+  [[nodiscard]] BoundaryPoint stiffest_between(const BoundaryPoint& first, const BoundaryPoint& last) const override;
+  [[nodiscard]] WallPoint rounding_at(double, double) const override { return {}; }
+  [[nodiscard]] BoundaryPoint seen_at(const WallPoint& wall, double angle) const override;
+  [[nodiscard]] double period() const override { return curve_.period(); }
+  [[nodiscard]] double velocity_filter_hz() const override { return curve_.velocity_filter_hz(); }
+
+ private:
+  void build(int density, const Progress& progress);
+  void add_branches(TwoRateChain chain);
+  [[nodiscard]] Node turn_between(const Node& first, const Node& last) const;
+  [[nodiscard]] Node at_damping(std::size_t branch, double damping) const;
+  [[nodiscard]] std::vector<double> levels() const;
+  void add_crossings(std::size_t first, std::size_t second, std::vector<double>& found) const;
+  [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
+  [[nodiscard]] bool is_stable(const WallPoint& wall) const;
+  [[nodiscard]] bool holds(const RegionSlice& slice) const;
+  [[nodiscard]] Node node_of(const BoundaryPoint& point) const;
+
+  TwoRateCurve curve_;
+  RegionSlices slices_;
+  WallPoint most_;
+  std::vector<BoundaryKind> kinds_;  // of the branches
+};
+
+}  // namespace zwidth::internal

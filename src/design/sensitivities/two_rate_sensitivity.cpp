@@ -1,0 +1,195 @@
+#include "design/sensitivities/two_rate_sensitivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "design/region/two_rate_curve.hpp"
+#include "design/sensitivities/design_parameter.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr double same_crossover_stiffness = 1e-6;  // relative
+constexpr double near_unit_circle_ends = 1e-7;     // rad: a real pole, whose angle stays
+constexpr double widest_difference = 1e-3;         // of a number, or of its unit where it is 0
+constexpr double finer_difference = 0.25;
+constexpr int most_differences = 7;
+constexpr double agreeing_differences = 1e-6;   // of the derivative
+constexpr double agreeing_with_nothing = 1e-8;  // of the value over the step's unit: the derivative is 0
+constexpr double whole_sample = 1e-9;
+
+// The derivative of `value` at 0 by its step; where growing steps alone count, of these.
+template <typename Function>
+std::optional<std::complex<double>> derivative(const Function& value, double unit, bool only_growing) {
+  const std::complex<double> here = value(0.0);
+  const auto difference = [&](double h) {
+    if (only_growing) return (4.0 * value(h) - value(2.0 * h) - 3.0 * here) / (2.0 * h);
+    return (value(h) - value(-h)) / (2.0 * h);
+  };
+  const auto extrapolated = [&](double h) { return (4.0 * difference(0.5 * h) - difference(h)) / 3.0; };
+  double h = widest_difference * unit;
+  std::complex<double> last = extrapolated(h);
+  for (int i = 0; i < most_differences; ++i) {
+    h *= finer_difference;
+    const std::complex<double> next = extrapolated(h);
+    const double apart = std::abs(next - last);
+    if (apart <= agreeing_differences * std::abs(next) || apart <= agreeing_with_nothing * std::abs(here) / unit) {
+      return last;
+    }
+    last = next;
+  }
+  return std::nullopt;
+}
+
+// The numbers of the file: its own ones of the damper's loop too. A whole ratio of the periods moves by no derivative.
+std::vector<DesignParameter> numbers_of_two_rates(const Device& device) {
+  std::vector<DesignParameter> numbers = design_parameters(device);
+  const auto delay =
+      std::ranges::find(numbers, DesignParameter::Kind::delay, [](const DesignParameter& each) { return each.kind; });
+  const std::optional<LoopDamper>& damper = device.loop().damper;
+  if (damper && damper->delay) {
+    numbers.insert(delay + 1, {DesignParameter::Kind::delay, 0, "loop.damper.delay", *damper->delay});
+  }
+  return numbers;
+}
+
+class LimitOfTwoRates {
+ public:
+  LimitOfTwoRates(const Device& device, TwoRateCurve::Node limit) : parameters_(device.parameters()), limit_(limit) {
+    parameters_.uncertainty.reset();
+    fast_period_ = std::min(parameters_.loop.sampling_period, damper_timing(parameters_.loop).sampling_period);
+  }
+
+  // g + 1/(C_out P) of the device with that number.
+  [[nodiscard]] std::complex<double> with(const DesignParameter& number, double step) const {
+    DeviceParameters moved = parameters_;
+    set_with_ratio(moved, number.key, number.value + step);
+    const double damping = moved.wall.damping;
+    const TwoRateCurve curve{Device(std::move(moved))};
+    return at(curve, limit_.angle, {limit_.wall.stiffness, damping});
+  }
+
+  [[nodiscard]] static std::complex<double> at(const TwoRateCurve& curve, double angle, const WallPoint& wall) {
+    return curve.outside(wall) +
+           std::complex<double>(-curve.gain(angle, curve.inside(wall)), curve.phase(angle, curve.inside(wall)));
+  }
+
+  // Where the number is 0, and where a force arrives just with a sample, only growing tells.
+  [[nodiscard]] bool only_grows(const DesignParameter& number) const {
+    if (number.value == 0.0) return true;
+    using Kind = DesignParameter::Kind;
+    if (number.kind == Kind::delay) return is_whole(number.value);
+    return number.kind == Kind::sampling_period &&
+           (is_whole(parameters_.loop.delay) || is_whole(damper_timing(parameters_.loop).delay));
+  }
+
+  // What a step is a share of: the number; of a delay not further than to the next sample; where it is 0, what it adds to.
+  [[nodiscard]] double unit_of(const DesignParameter& number) const {
+    using Kind = DesignParameter::Kind;
+    if (number.kind == Kind::delay && number.value > 0.0 && !is_whole(number.value)) {
+      const double part = std::abs(std::remainder(number.value, fast_period_));
+      return std::min(number.value, part / (2.0 * widest_difference));
+    }
+    if (number.value != 0.0) return number.value;
+    const double stiffness = limit_.wall.stiffness;
+    switch (number.kind) {
+      case Kind::body_mass:
+      case Kind::user_mass: {
+        double mass = 0.0;
+        for (const Body& body : parameters_.bodies) mass += body.mass;
+        return mass;
+      }
+      case Kind::body_stiffness:
+      case Kind::link_stiffness:
+      case Kind::user_stiffness:
+        return stiffness;
+      case Kind::body_damping:
+      case Kind::link_damping:
+      case Kind::user_damping:
+      case Kind::wall_damping:
+        return stiffness * parameters_.loop.sampling_period;
+      default:
+        return fast_period_;
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_whole(double delay) const {
+    return delay > 0.0 && std::abs(std::remainder(delay, fast_period_)) < whole_sample * fast_period_;
+  }
+
+  DeviceParameters parameters_;
+  TwoRateCurve::Node limit_;
+  double fast_period_ = 0.0;
+};
+
+}  // namespace
+
+void set_with_ratio(DeviceParameters& parameters, std::string_view key, double value) {
+  std::optional<LoopDamper>& damper = parameters.loop.damper;
+  if (without_alias(key) == "loop.sampling_period" && damper && damper->sampling_period) {
+    *damper->sampling_period *= value / parameters.loop.sampling_period;
+  }
+  set_parameter(parameters, key, value);
+}
+
+std::vector<Sensitivity> two_rate_sensitivities(const Device& device, const Crossover& limit) {
+  TwoRateCurve curve(device);
+  const double damping = device.parameters().wall.damping;
+  const double angle = std::abs(std::remainder(limit.frequency * curve.period(), 2.0 * std::numbers::pi));
+  const double fast_nyquist = curve.unreached_angle() / curve.period();
+  // The slower part does not move that pole: the limit of the spring alone.
+  if (!curve.is_damper_inside() && curve.unreached_gain() && limit.frequency > fast_nyquist * (1.0 - 1e-9)) {
+    DeviceParameters alone = with_one_rate(device).parameters();
+    alone.wall.damping = 0.0;
+    std::vector<Sensitivity> result = stiffness_sensitivities(Device(std::move(alone)));
+    std::erase_if(result, [](const Sensitivity& each) { return each.key == "wall.damping"; });
+    return result;
+  }
+  const bool is_real = angle < near_unit_circle_ends || angle > std::numbers::pi - near_unit_circle_ends;
+  TwoRateCurve::Node node{is_real && angle > 1.0 ? std::numbers::pi : angle, {limit.stiffness, damping}};
+  curve.scales = {1.0, limit.stiffness, damping};
+  if (!is_real) {
+    const auto polished = curve.solve(node, Eigen::Vector3d::UnitZ());
+    if (!polished) return {};
+    if (std::abs(polished->wall.stiffness - limit.stiffness) > same_crossover_stiffness * limit.stiffness) {
+      throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::other_devices_limit});
+    }
+    node = *polished;
+  }
+  const LimitOfTwoRates loop(device, node);
+  const auto by_stiffness = derivative(
+      [&](double step) {
+        return LimitOfTwoRates::at(curve, node.angle, {node.wall.stiffness + step, damping});
+      },
+      node.wall.stiffness, false);
+  const auto by_angle =
+      is_real ? std::optional(std::complex<double>(0.0, 1.0))
+              : derivative([&](double step) { return LimitOfTwoRates::at(curve, node.angle + step, node.wall); },
+                           std::min(node.angle, std::numbers::pi - node.angle), false);
+  if (!by_stiffness || !by_angle) return {};
+  std::vector<Sensitivity> result;
+  for (const DesignParameter& number : numbers_of_two_rates(device)) {
+    const auto slope =
+        derivative([&](double step) { return loop.with(number, step); }, loop.unit_of(number), loop.only_grows(number));
+    if (!slope) continue;
+    // Cramer's rule.
+    const double determinant = by_stiffness->real() * by_angle->imag() - by_stiffness->imag() * by_angle->real();
+    const double by_number = (slope->imag() * by_angle->real() - slope->real() * by_angle->imag()) / determinant;
+    if (!std::isfinite(by_number)) continue;
+    const double value = number.value;
+    result.push_back({number.key, value, by_number,
+                      value != 0.0 ? std::optional(value / limit.stiffness * by_number) : std::nullopt});
+  }
+  return result;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "zwidth/design/sensitivity.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth::internal {
+
+/// set_parameter() that keeps the ratio of two rates: with loop.sampling_period the damper's own period is scaled.
+void set_with_ratio(DeviceParameters& parameters, std::string_view key, double value);
+
+/// stiffness_sensitivities() at the limit of a device whose damper runs in a loop of its own. With the gain inside q and that
+/// outside g (TwoRateCurve) the loop is critical where F = g + 1/(C_out P) = 0, of K and the angle:
+///
+///     [F_K F_theta] (dK, dtheta) = -F_p dp
+///
+/// F_K, F_theta and F_p by differences at the crossover, extrapolated over steps until two agree; nothing is solved again, and
+/// a number whose differences do not agree is left out.
+[[nodiscard]] std::vector<Sensitivity> two_rate_sensitivities(const Device& device, const Crossover& limit);
+
+}  // namespace zwidth::internal
