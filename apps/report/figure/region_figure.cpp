@@ -209,7 +209,7 @@ class RegionFigure {
     return entries;
   }
 
-  /// The whole region, and the corner at the origin where the formulas and K_CR would be too small to see.
+  /// The whole region, and the corner at the origin where formulas, K_CR and one loop would be too small to see.
   [[nodiscard]] std::vector<Extent> extents() const {
     constexpr double margin = 1.06;
     constexpr double too_small = 0.2;
@@ -230,6 +230,10 @@ class RegionFigure {
     for (const ComparedApproximation& each : walls_.approximations) {
       corner.stiffness = std::max(corner.stiffness, each.formula.at_zero_damping);
       corner.damping = std::max(corner.damping, each.formula.largest_damping.value_or(0.0));
+    }
+    if (one_rate_ && one_rate_->stiffest) {
+      corner = {std::max(corner.damping, one_rate_->most_damped->damping),
+                std::max(corner.stiffness, one_rate_->stiffest->stiffness)};
     }
     corner = {2.0 * corner.damping, 2.0 * corner.stiffness};
     const bool shown = corner.damping > too_small * whole.damping && corner.stiffness > too_small * whole.stiffness;
