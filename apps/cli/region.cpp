@@ -35,7 +35,7 @@ WallRegion found_region(const CLI::App& command, const Device& device, const std
   return region(device, {.progress = line.progress()});
 }
 
-/// The wall to mark in the figure; none where there is none, or the search would take seconds, and at two rates.
+/// The wall to mark in the figure; none where there is none, the search would take seconds, or the damper runs apart.
 std::optional<Wall> recommended_wall(const Device& device) {
   if (device.bodies().size() > most_bodies_for_wall_summary || has_damper_loop(device.loop())) return std::nullopt;
   const WallRecommendation found = recommend_wall(device, {.alternatives = false});
@@ -43,13 +43,12 @@ std::optional<Wall> recommended_wall(const Device& device) {
 }
 
 /// Spring and damper both at the slower of two rates: what a damper of its own is drawn against.
-std::optional<StableRegion> region_of_slower_rate(const Device& device) {
+std::optional<WallRegion> region_of_slower_rate(const Device& device) {
   const Loop& loop = device.loop();
   if (!has_damper_loop(loop)) return std::nullopt;
   const bool damper_is_slower = damper_timing(loop).sampling_period > loop.sampling_period;
-  WallRegion slower = region(damper_is_slower ? with_loop_of_damper(device) : with_one_rate(device),
-                             {.any_user = false, .approximations = false});
-  return slower.trust.refused() ? std::nullopt : std::optional(std::move(slower.region));
+  return region(damper_is_slower ? with_loop_of_damper(device) : with_one_rate(device),
+                {.any_user = false, .approximations = false});
 }
 
 void run_region(const RegionArguments& arguments) {

@@ -164,10 +164,10 @@ TEST(RegionFigure, OfTwoRatesShowsBothAtTheSlowerRate) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.loop.damper = LoopDamper{1e-4, 2e-4};
   const WallRegion& walls = lhifam_region().walls;
-  const auto drawn = [&](const StableRegion* slower) {
+  const auto drawn = [&](const WallRegion* slower) {
     return report::draw_region(Device(parameters), walls, FigureFormat::svg, std::nullopt, slower);
   };
-  const std::string svg = drawn(&walls.region);
+  const std::string svg = drawn(&walls);
   EXPECT_THAT(svg, HasSubstr("Spring every 1 ms, 0 s of delay; damper every 100 µs, 200 µs of delay."));
   EXPECT_THAT(svg, HasSubstr("both at 1 kHz: up to 188.3 kN/m"));
   EXPECT_THAT(drawn(nullptr), Not(HasSubstr("both at")));
