@@ -167,7 +167,10 @@ class RegionFigure {
         entries.push_back({up_to(words_of(Holder::user), *walls_.region.stiffest), held_style, {}});
       }
     } else if (walls_.region.stiffest) {
-      entries.push_back({up_to(alone, *walls_.region.stiffest), boundary_style, region_colour});
+      // Which of them a passive user destabilises is not known at two rates.
+      const bool users_unknown = has_damper_loop(device_.loop()) && !walls_.any_user;
+      entries.push_back({up_to(users_unknown ? words_of(Holder::nobody) : alone, *walls_.region.stiffest),
+                         boundary_style, region_colour});
     } else {
       entries.push_back({walls_.trust.refused()  ? "refused: no region is given"
                          : walls_.region.bounded ? "no wall is stable"
