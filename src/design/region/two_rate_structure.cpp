@@ -80,7 +80,10 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   kinds_.clear();
   slabs.clear();
   slices_ = region_slices(curve_, density, stages.stage());
-  if (slices_.most_outside == 0.0) return;  // nothing is stable
+  if (slices_.most_outside == 0.0) {
+    if (!is_stable_on_an_axis(curve_)) return;
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::region_changes_too_often});
+  }
   most_ = curve_.wall(slices_.most_outside, slices_.most_inside);
   curve_.scales = {1.0, most_.stiffness, most_.damping};
   stages.next(share_of_chains);
