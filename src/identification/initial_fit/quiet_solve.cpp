@@ -1,4 +1,4 @@
-#include "identification/linear_fit/quiet_solve.hpp"
+#include "identification/initial_fit/quiet_solve.hpp"
 
 #include <glog/logging.h>
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "identification/linear_fit/fit_model.hpp"
-#include "identification/linear_fit/least_squares.hpp"
+#include "identification/initial_fit/fit_model.hpp"
+#include "identification/initial_fit/least_squares.hpp"
 
 namespace zwidth::internal {
 

@@ -1,11 +1,11 @@
-#include "identification/linear_fit/response_slopes.hpp"
+#include "identification/initial_fit/response_slopes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <utility>
 
-#include "identification/linear_fit/motion_slope.hpp"
+#include "identification/initial_fit/motion_slope.hpp"
 #include "model/balance.hpp"
 #include "sampling/matrix_exponential.hpp"
 #include "sampling/sampling_instants.hpp"

@@ -1,4 +1,4 @@
-#include "identification/linear_fit/link_mode.hpp"
+#include "identification/initial_fit/link_mode.hpp"
 
 #include <fmt/format.h>
 

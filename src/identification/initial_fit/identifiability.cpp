@@ -1,4 +1,4 @@
-#include "identification/linear_fit/identifiability.hpp"
+#include "identification/initial_fit/identifiability.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/linear_fit/fit_model.hpp"
-#include "identification/linear_fit/response_features.hpp"
+#include "identification/initial_fit/fit_model.hpp"
+#include "identification/initial_fit/response_features.hpp"
 
 namespace zwidth::internal {
 

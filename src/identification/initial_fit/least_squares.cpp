@@ -1,4 +1,4 @@
-#include "identification/linear_fit/least_squares.hpp"
+#include "identification/initial_fit/least_squares.hpp"
 
 #include <ceres/ceres.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/linear_fit/quiet_solve.hpp"
+#include "identification/initial_fit/quiet_solve.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {

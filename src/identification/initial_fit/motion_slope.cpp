@@ -1,4 +1,4 @@
-#include "identification/linear_fit/motion_slope.hpp"
+#include "identification/initial_fit/motion_slope.hpp"
 
 #include <algorithm>
 

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "identification/linear_fit/fit_solution.hpp"
-#include "identification/linear_fit/fit_weights.hpp"
-#include "identification/linear_fit/identifiability.hpp"
-#include "identification/linear_fit/missed_mode.hpp"
+#include "identification/initial_fit/fit_solution.hpp"
+#include "identification/initial_fit/fit_weights.hpp"
+#include "identification/initial_fit/identifiability.hpp"
+#include "identification/initial_fit/missed_mode.hpp"
 #include "model/loop_keys.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"

@@ -1,4 +1,4 @@
-#include "identification/linear_fit/fit_weights.hpp"
+#include "identification/initial_fit/fit_weights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include "identification/linear_fit/fit_model.hpp"
+#include "identification/initial_fit/fit_model.hpp"
 
 namespace zwidth::internal {
 

@@ -1,4 +1,4 @@
-#include "identification/linear_fit/initial_values.hpp"
+#include "identification/initial_fit/initial_values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "identification/linear_fit/link_mode.hpp"
+#include "identification/initial_fit/link_mode.hpp"
 #include "model/loop_keys.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"

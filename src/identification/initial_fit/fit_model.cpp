@@ -1,4 +1,4 @@
-#include "identification/linear_fit/fit_model.hpp"
+#include "identification/initial_fit/fit_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "identification/linear_fit/motion_slope.hpp"
-#include "identification/linear_fit/response_features.hpp"
-#include "identification/linear_fit/response_slopes.hpp"
+#include "identification/initial_fit/motion_slope.hpp"
+#include "identification/initial_fit/response_features.hpp"
+#include "identification/initial_fit/response_slopes.hpp"
 #include "model/key_members.hpp"
 #include "model/loop_keys.hpp"
 #include "signal/median.hpp"

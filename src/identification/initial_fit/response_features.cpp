@@ -1,4 +1,4 @@
-#include "identification/linear_fit/response_features.hpp"
+#include "identification/initial_fit/response_features.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "identification/linear_fit/fit_solution.hpp"
+#include "identification/initial_fit/fit_solution.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "identification/linear_fit/fit_weights.hpp"
-#include "identification/linear_fit/identifiability.hpp"
-#include "identification/linear_fit/initial_values.hpp"
-#include "identification/linear_fit/link_mode.hpp"
-#include "identification/linear_fit/response_features.hpp"
+#include "identification/initial_fit/fit_weights.hpp"
+#include "identification/initial_fit/identifiability.hpp"
+#include "identification/initial_fit/initial_values.hpp"
+#include "identification/initial_fit/link_mode.hpp"
+#include "identification/initial_fit/response_features.hpp"
 #include "model/loop_keys.hpp"
 #include "zwidth/error.hpp"
 

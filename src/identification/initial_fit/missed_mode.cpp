@@ -1,4 +1,4 @@
-#include "identification/linear_fit/missed_mode.hpp"
+#include "identification/initial_fit/missed_mode.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "identification/linear_fit/fit_model.hpp"
+#include "identification/initial_fit/fit_model.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::internal {

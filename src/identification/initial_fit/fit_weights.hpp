@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "identification/linear_fit/least_squares.hpp"
+#include "identification/initial_fit/least_squares.hpp"
 
 namespace zwidth::internal {
 
