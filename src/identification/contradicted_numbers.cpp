@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "identification/fit/bounded_step.hpp"
+#include "identification/optimiser/bounded_step.hpp"
 #include "identification/model/device_numbers.hpp"
 #include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/profile.hpp"

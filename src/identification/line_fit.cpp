@@ -10,7 +10,7 @@
 #include "identification/evidence/limit_evidence.hpp"
 #include "identification/evidence/response_evidence.hpp"
 #include "identification/evidence/sum_of_evidence.hpp"
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 #include "identification/line_model.hpp"
 #include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/confidence.hpp"

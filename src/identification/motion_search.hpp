@@ -10,7 +10,7 @@
 #include "identification/evidence/limit_evidence.hpp"
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 #include "identification/motion_start.hpp"
 
 namespace zwidth::internal {

@@ -11,7 +11,7 @@
 
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 #include "identification/verdict/calibration.hpp"
 
 namespace zwidth::internal {

@@ -10,7 +10,7 @@
 
 #include "identification/evidence/limit_evidence.hpp"
 #include "identification/evidence/response_evidence.hpp"
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 #include "lhifam.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "identification/fit/least_squares_problem.hpp"
+#include "identification/optimiser/least_squares_problem.hpp"
 
 namespace zwidth::internal {
 

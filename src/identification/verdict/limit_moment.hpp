@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 namespace zwidth::internal {
 

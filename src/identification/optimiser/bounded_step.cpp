@@ -1,4 +1,4 @@
-#include "identification/fit/bounded_step.hpp"
+#include "identification/optimiser/bounded_step.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>

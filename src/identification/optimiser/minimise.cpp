@@ -1,4 +1,4 @@
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit/bounded_step.hpp"
+#include "identification/optimiser/bounded_step.hpp"
 
 namespace zwidth::internal {
 
