@@ -4,7 +4,7 @@
 
 #include "counted.hpp"
 #include "identification/device_file_trust.hpp"
-#include "identification/likelihood_fit.hpp"
+#include "identification/motion_fit.hpp"
 #include "identification/limit_of_response.hpp"
 #include "identification/line_fit.hpp"
 #include "identification/model/segment_player.hpp"
@@ -255,7 +255,7 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
   if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::motion);
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
-  const auto fitted = fit_by_likelihood(recordings, measured.response, structure,
+  const auto fitted = fit_motion(recordings, measured.response, structure,
                                         {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
                                          options.segment,
                                          options.limits,

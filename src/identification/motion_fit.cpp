@@ -1,4 +1,4 @@
-#include "identification/likelihood_fit.hpp"
+#include "identification/motion_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -144,8 +144,8 @@ std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNum
 
 }  // namespace
 
-std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> recordings, const FrequencyResponse& response,
-                                               const Device& structure, const LikelihoodFitOptions& options) {
+std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const FrequencyResponse& response,
+                                               const Device& structure, const MotionFitOptions& options) {
   const MotionStart start = motion_start(recordings, response, structure, options.free);
   auto motion = found_motion(start, options.free.locked, {options.segment, options.limits, options.tell});
   if (!motion) return std::nullopt;
@@ -159,7 +159,7 @@ std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> record
   Eigen::VectorXd precision(count);
   for (Eigen::Index i = 0; i < count; ++i)
     precision(i) = std::pow(numbers[static_cast<std::size_t>(i)].prior_deviation, -2.0);
-  LikelihoodFit fit;
+  MotionFit fit;
   const auto left = left_over(*motion->evidence, motion->best.z);
   const double wider = left ? widening(*left, {slope.head(count), precision}) : 1.0;
   if (left) fit.left = omnibus(*left);

@@ -18,7 +18,7 @@
 
 namespace zwidth::internal {
 
-struct LikelihoodFitOptions {
+struct MotionFitOptions {
   FreeNumbers free;
   double segment = 10.0;                   ///< s
   std::vector<MeasuredLimit> limits = {};  ///< observed beside the records
@@ -26,7 +26,7 @@ struct LikelihoodFitOptions {
 };
 
 /// A device found by likelihood from its motion, and the range of its limit.
-struct LikelihoodFit {
+struct MotionFit {
   FoundDevice found;
   Omnibus left;                       ///< of what it leaves
   std::vector<FittedMotion> motions;  ///< by recording
@@ -39,8 +39,8 @@ struct LikelihoodFit {
 ///
 /// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.
 /// Source: theory, section 10; Venzon & Moolgavkar 1988.
-[[nodiscard]] std::optional<LikelihoodFit> fit_by_likelihood(std::span<const Recording> recordings,
+[[nodiscard]] std::optional<MotionFit> fit_motion(std::span<const Recording> recordings,
                                                              const FrequencyResponse& response, const Device& structure,
-                                                             const LikelihoodFitOptions& options);
+                                                             const MotionFitOptions& options);
 
 }  // namespace zwidth::internal
