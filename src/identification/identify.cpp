@@ -6,7 +6,7 @@
 #include "identification/device_file_trust.hpp"
 #include "identification/motion_fit.hpp"
 #include "identification/limit_of_response.hpp"
-#include "identification/line_fit.hpp"
+#include "identification/response_fit.hpp"
 #include "identification/model/segment_player.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/response/response_choice.hpp"
@@ -199,7 +199,7 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
 }
 
 /// A device found from lines or limits, in the words of one found from its motion.
-FoundDevice found_device(const FittedByLines& fitted, const Device& structure, const IdentifyOptions& options) {
+FoundDevice found_device(const ResponseFit& fitted, const Device& structure, const IdentifyOptions& options) {
   FoundDevice found{.device = fitted.device, .best = {}, .last_change = fitted.last_change};
   found.best = {.numbers = fitted.numbers,
                 .x = fitted.x,
@@ -226,7 +226,7 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
   fit.motion_tells_none = motion_tells_none;
   if (!fit.contradictions.empty() || is_drowned(response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::lines);
-  const auto fitted = fit_lines({.structure = structure,
+  const auto fitted = fit_response({.structure = structure,
                                  .response = &response,
                                  .limits = options.limits,
                                  .free = options.fit.free,
@@ -301,7 +301,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   require_one_rate(structure);
   require_valid(find_problem(options));
   if (options.limits.empty()) refuse_member("limits", {.code = ProblemCode::no_values});
-  const auto fitted = fit_lines({.structure = structure,
+  const auto fitted = fit_response({.structure = structure,
                                  .limits = options.limits,
                                  .free = options.fit.free,
                                  .locked = options.fit.locked,

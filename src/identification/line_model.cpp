@@ -22,7 +22,7 @@ bool is_named(const std::vector<std::string>& keys, const std::string& key) {
 }
 
 /// How large numbers are that show in a response.
-RivalSetting setting_of_lines(const DeviceParameters& device, const LineFitSetting& setting) {
+RivalSetting setting_of_lines(const DeviceParameters& device, const ResponseFitSetting& setting) {
   RivalSetting sizes{.device = device, .locked = setting.locked, .rms_force = 1.0};
   for (const ResponsePoint& point : setting.response->points) {
     sizes.rms_position = std::max(sizes.rms_position, std::abs(point.value));
@@ -113,7 +113,7 @@ void fit_lag_as_delay(LineModel& model) {
 
 }  // namespace
 
-LineModel model_of_response(const LineFitSetting& setting) {
+LineModel model_of_response(const ResponseFitSetting& setting) {
   constexpr double typical_delay = 0.5;  // sampling periods
   LineModel model{setting.structure.parameters(), {}, {}};
   std::vector<std::string> free = free_parameters(setting.structure, setting.free, setting.locked);
@@ -147,7 +147,7 @@ LineModel model_of_response(const LineFitSetting& setting) {
   return model;
 }
 
-LineModel model_of_limits(const LineFitSetting& setting) {
+LineModel model_of_limits(const ResponseFitSetting& setting) {
   LineModel model{setting.structure.parameters(), {}, {}};
   const std::optional<Uncertainty> file = std::exchange(model.start.uncertainty, {});
   const bool names_none = frees_all(setting.free);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "identification/line_fit.hpp"
+#include "identification/response_fit.hpp"
 #include "identification/model/number.hpp"
 #include "zwidth/model/device.hpp"
 
@@ -18,9 +18,9 @@ struct LineModel {
 
 /// The numbers that show in the response, a lag and a spring to the ground among them; where a linear fit ends. Throws Error as
 /// fit_parameters() does.
-[[nodiscard]] LineModel model_of_response(const LineFitSetting& setting);
+[[nodiscard]] LineModel model_of_response(const ResponseFitSetting& setting);
 
 /// Those that limits are fitted with, each with what is believed of it. Throws Error (invalid_argument) for an unknown key.
-[[nodiscard]] LineModel model_of_limits(const LineFitSetting& setting);
+[[nodiscard]] LineModel model_of_limits(const ResponseFitSetting& setting);
 
 }  // namespace zwidth::internal

@@ -1,4 +1,4 @@
-#include "identification/line_fit.hpp"
+#include "identification/response_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ TEST(LineFit, TheIntervalHoldsTheTruth) {
     const DeviceParameters truth = late_lhifam(0.0);
     const FrequencyResponse lines = noisy_lines(truth, 0.01, static_cast<unsigned>(seed));
     const Device structure = unknown_lhifam();
-    const auto found = fit_lines({.structure = structure, .response = &lines, .frees_lateness = true});
+    const auto found = fit_response({.structure = structure, .response = &lines, .frees_lateness = true});
     ASSERT_TRUE(found) << seed;
     EXPECT_EQ(found->last_change, 0.0) << seed;
     const double limit = bare_limit(truth);
@@ -107,7 +107,7 @@ TEST(LineFit, DeviationsAreThoseOfTheNoise) {
     const DeviceParameters truth = test::lhifam_parameters();
     const FrequencyResponse lines = noisy_lines(truth, 0.01, static_cast<unsigned>(seed));
     const Device structure = unknown_lhifam();
-    const auto found = fit_lines({.structure = structure, .response = &lines});
+    const auto found = fit_response({.structure = structure, .response = &lines});
     ASSERT_TRUE(found) << seed;
     ASSERT_EQ(found->numbers[0].key, "body.motor.mass");
     const double left = std::log(found->numbers[0].value(found->x(0)) / truth.bodies[0].mass);
@@ -121,7 +121,7 @@ TEST(LineFit, ALagIsPartOfIt) {
   const DeviceParameters truth = late_lhifam(1.5e-3);
   const FrequencyResponse lines = noisy_lines(truth, 0.003, 1);
   const Device structure = unknown_lhifam();
-  const auto found = fit_lines({.structure = structure, .response = &lines, .frees_lateness = true});
+  const auto found = fit_response({.structure = structure, .response = &lines, .frees_lateness = true});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->device.actuator.time_constant, 1.5e-3, 0.2e-3);
   EXPECT_NEAR(found->device.loop.delay, 0.4e-3, 0.2e-3);
@@ -142,7 +142,7 @@ TEST(LineFit, ATableWithoutVariancesHoldsTheTruth) {
                                      (1.0 + std::complex<double>(normal(random), normal(random)))});
   }
   const Device structure = unknown_lhifam();
-  const auto found = fit_lines({.structure = structure, .response = &table, .frees_lateness = true});
+  const auto found = fit_response({.structure = structure, .response = &table, .frees_lateness = true});
   ASSERT_TRUE(found);
   EXPECT_LE(found->lower, bare_limit(truth));
   EXPECT_GE(found->upper, bare_limit(truth));
@@ -155,8 +155,8 @@ TEST(LineFit, ALimitBesideLinesNarrowsTheInterval) {
   const FrequencyResponse lines = noisy_lines(truth, 0.05, 1);
   const std::vector<MeasuredLimit> limits = {limit_at(truth, 0.0, 0.01)};
   const Device structure = unknown_lhifam();
-  const auto without = fit_lines({.structure = structure, .response = &lines});
-  const auto with = fit_lines({.structure = structure, .response = &lines, .limits = limits});
+  const auto without = fit_response({.structure = structure, .response = &lines});
+  const auto with = fit_response({.structure = structure, .response = &lines, .limits = limits});
   ASSERT_TRUE(without);
   ASSERT_TRUE(with);
   EXPECT_LT(std::log(with->upper / with->lower), 0.5 * std::log(without->upper / without->lower));
@@ -173,7 +173,7 @@ TEST(LineFit, WhatIsGivenIsAsOpenAsTheFileSays) {
   DeviceParameters file = truth;
   const auto width = [&] {
     const Device structure(file);
-    const auto found = fit_lines({.structure = structure,
+    const auto found = fit_response({.structure = structure,
                                   .response = &lines,
                                   .free = {"link.stiffness", "link.damping"},
                                   .locked = {"handle"},
@@ -196,7 +196,7 @@ TEST(LineFit, ABodyThatIsMissingStandsOut) {
   rigid.links.clear();
   rigid.loop.actuated = rigid.loop.sensed = rigid.loop.held = 0;
   const Device structure(rigid);
-  const auto found = fit_lines({.structure = structure, .response = &lines});
+  const auto found = fit_response({.structure = structure, .response = &lines});
   ASSERT_TRUE(found);
   EXPECT_LT(found->left.p, 1e-6);
 }
@@ -210,8 +210,8 @@ TEST(LineFit, LimitsAloneNarrowAFile) {
   file.bodies[1].damping *= 1.2;  // within what a file is believed to
   file.links[0].stiffness *= 0.9;
   const Device structure(file);
-  const auto wide = fit_lines({.structure = structure, .limits = coarse, .known = true});
-  const auto narrow = fit_lines({.structure = structure, .limits = fine, .known = true});
+  const auto wide = fit_response({.structure = structure, .limits = coarse, .known = true});
+  const auto narrow = fit_response({.structure = structure, .limits = fine, .known = true});
   ASSERT_TRUE(wide);
   ASSERT_TRUE(narrow);
   EXPECT_GT(wide->upper / wide->lower, 1.1);
@@ -228,7 +228,7 @@ TEST(LineFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
   const Device structure(file);
   std::vector<MeasuredLimit> far = {limit_at(file, 0.0, 10.0)};
   far[0].frequency_hz.reset();
-  const auto found = fit_lines({.structure = structure, .limits = far, .known = true});
+  const auto found = fit_response({.structure = structure, .limits = far, .known = true});
   ASSERT_TRUE(found);
   ASSERT_EQ(found->numbers.size(), 1U);
   const double deviation = found->numbers[0].slope(found->x(0)) * std::sqrt(found->covariance(0, 0));
@@ -240,7 +240,7 @@ TEST(LineFit, OfALagAloneLimitsTellAsOfADelay) {
   truth.actuator.time_constant = 1e-3;
   const Device structure(truth);
   const std::vector<MeasuredLimit> limits = {limit_at(truth, 0.0, 0.02)};
-  const auto found = fit_lines({.structure = structure, .limits = limits, .known = true});
+  const auto found = fit_response({.structure = structure, .limits = limits, .known = true});
   ASSERT_TRUE(found);
   EXPECT_EQ(std::ranges::count(found->numbers, "actuator.time_constant", &Number::key), 0);
   EXPECT_EQ(std::ranges::count(found->numbers, "loop.delay", &Number::key), 1);
@@ -259,7 +259,7 @@ TEST(LineFit, AFileKeepsTheSumOfDelayAndLag) {
   std::vector<MeasuredLimit> far = {limit_at(file, 0.0, 10.0)};
   far[0].frequency_hz.reset();
   const Device structure(file);
-  const auto found = fit_lines({.structure = structure, .limits = far, .known = true});
+  const auto found = fit_response({.structure = structure, .limits = far, .known = true});
   ASSERT_TRUE(found);
   ASSERT_EQ(found->numbers[0].key, "loop.delay");  // the sum of both
   EXPECT_NEAR(found->numbers[0].slope(0.0) * std::sqrt(found->covariance(0, 0)), std::sqrt(0.02 * open), 1e-7);
@@ -269,7 +269,7 @@ TEST(LineFit, AFileKeepsTheSumOfDelayAndLag) {
 TEST(LineFit, RefusesANumberThatTheFileLacks) {
   const Device structure(test::lhifam_parameters());
   const std::vector<MeasuredLimit> limits = {limit_at(structure.parameters(), 0.0, 0.05)};
-  EXPECT_THROW((void)fit_lines({.structure = structure, .limits = limits, .free = {"body.nobody.mass"}, .known = true}),
+  EXPECT_THROW((void)fit_response({.structure = structure, .limits = limits, .free = {"body.nobody.mass"}, .known = true}),
                Error);
 }
 
@@ -282,7 +282,7 @@ TEST(LineFit, ALimitThatContradictsAFileStandsOut) {
   limits[0].stiffness *= 2.0;
   limits[0].frequency_hz.reset();
   const Device structure(file);
-  const auto found = fit_lines({.structure = structure, .limits = limits, .known = true});
+  const auto found = fit_response({.structure = structure, .limits = limits, .known = true});
   ASSERT_TRUE(found);
   EXPECT_LT(found->left.p, 1e-6);
 }
@@ -290,8 +290,8 @@ TEST(LineFit, ALimitThatContradictsAFileStandsOut) {
 TEST(LineFit, NumbersOfNobodySayNothingOfALimit) {
   const Device structure = unknown_lhifam();
   const std::vector<MeasuredLimit> limits = {limit_at(test::lhifam_parameters(), 0.0, 0.05)};
-  EXPECT_FALSE(fit_lines({.structure = structure, .limits = limits}));
-  EXPECT_FALSE(fit_lines({.structure = structure, .known = true}));
+  EXPECT_FALSE(fit_response({.structure = structure, .limits = limits}));
+  EXPECT_FALSE(fit_response({.structure = structure, .known = true}));
 }
 
 }  // namespace

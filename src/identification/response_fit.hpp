@@ -15,7 +15,7 @@
 namespace zwidth::internal {
 
 /// What a device is found from where no motion is fitted.
-struct LineFitSetting {
+struct ResponseFitSetting {
   const Device& structure;
   const FrequencyResponse* response = nullptr;  ///< null: limits alone
   std::span<const MeasuredLimit> limits = {};
@@ -26,7 +26,7 @@ struct LineFitSetting {
 };
 
 /// A device found by the likelihood of lines and limits, and the range of its limit.
-struct FittedByLines {
+struct ResponseFit {
   DeviceParameters device;
   std::vector<Number> numbers;  ///< of the fit, all of the device: a lag and a spring to the ground are rivals
   Eigen::VectorXd x;            ///< a coordinate each
@@ -51,6 +51,6 @@ struct FittedByLines {
 ///
 /// Nothing where the data say nothing, where no start can be computed, or where the found device has no limit.
 /// Throws Error as fit_parameters() does.
-[[nodiscard]] std::optional<FittedByLines> fit_lines(const LineFitSetting& setting);
+[[nodiscard]] std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting);
 
 }  // namespace zwidth::internal

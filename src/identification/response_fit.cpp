@@ -1,4 +1,4 @@
-#include "identification/line_fit.hpp"
+#include "identification/response_fit.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -41,7 +41,7 @@ Eigen::MatrixXd moved_covariance(const LeastSquaresProblem& problem, const Minim
 
 }  // namespace
 
-std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
+std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
   constexpr int most_begins = 4;
   constexpr MinimiseOptions fine{.most_steps = 60, .least_gain = 1e-4};
   if (!setting.response && setting.limits.empty()) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<FittedByLines> fit_lines(const LineFitSetting& setting) {
   }
 
   const auto count = static_cast<Eigen::Index>(model.numbers.size());
-  FittedByLines found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
+  ResponseFit found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
   const Eigen::VectorXd slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest());
   found.slope = slope.head(count);
   SumOfSquares left;
