@@ -11,7 +11,7 @@
 #include "identification/evidence/response_evidence.hpp"
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/optimiser/minimise.hpp"
-#include "identification/line_model.hpp"
+#include "identification/response_start.hpp"
 #include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/confidence.hpp"
 #include "identification/verdict/line_bands.hpp"
@@ -46,21 +46,21 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
   constexpr MinimiseOptions fine{.most_steps = 60, .least_gain = 1e-4};
   if (!setting.response && setting.limits.empty()) return std::nullopt;
   if (!setting.response && !setting.known && frees_all(setting.free)) return std::nullopt;
-  const LineModel model = setting.response ? model_of_response(setting) : model_of_limits(setting);
-  if (model.numbers.empty()) return std::nullopt;
-  const DeviceFamily family(model.start, model.numbers, setting.locked);
+  const ResponseStart start = setting.response ? start_of_response(setting) : start_of_limits(setting);
+  if (start.numbers.empty()) return std::nullopt;
+  const DeviceFamily family(start.device, start.numbers, setting.locked);
   std::vector<std::shared_ptr<const PartOfEvidence>> parts;
   std::shared_ptr<ResponseEvidence> lines;
   if (setting.response) parts.push_back(lines = std::make_shared<ResponseEvidence>(family, *setting.response));
   const std::vector<MeasuredLimit> walls(setting.limits.begin(), setting.limits.end());
   const auto limits = std::make_shared<LimitEvidence>(family, walls);
   if (!walls.empty()) parts.push_back(limits);
-  if (model.given)
-    parts.push_back(std::make_shared<GivenNumbers>(family, setting.structure.parameters(), *model.given));
+  if (start.given)
+    parts.push_back(std::make_shared<GivenNumbers>(family, setting.structure.parameters(), *start.given));
   const SumOfEvidence likelihood(family.numbers(), parts);
 
   const auto limit = [&](const Eigen::VectorXd& z) { return log_bare_limit(family.device_at(z)); };
-  std::optional<Minimum> best = minimise(likelihood, likelihood.start(family.coordinates_of(model.start)), fine);
+  std::optional<Minimum> best = minimise(likelihood, likelihood.start(family.coordinates_of(start.device)), fine);
   if (!best || !limit(best->z)) return std::nullopt;
   const double shared = setting.response ? shared_noise(*setting.response) : 1.0;
   ProfileEnd low;
@@ -75,7 +75,7 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
     if (again && limit(again->z)) best = *std::move(again);
   }
 
-  const auto count = static_cast<Eigen::Index>(model.numbers.size());
+  const auto count = static_cast<Eigen::Index>(start.numbers.size());
   ResponseFit found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
   const Eigen::VectorXd slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest());
   found.slope = slope.head(count);

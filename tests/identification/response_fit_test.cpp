@@ -78,7 +78,7 @@ MeasuredLimit limit_at(const DeviceParameters& parameters, double damping, doubl
   return made;
 }
 
-TEST(LineFit, TheIntervalHoldsTheTruth) {
+TEST(ResponseFit, TheIntervalHoldsTheTruth) {
   constexpr int records = 10;
   int holds = 0;
   for (int seed = 1; seed <= records; ++seed) {
@@ -100,7 +100,7 @@ TEST(LineFit, TheIntervalHoldsTheTruth) {
   EXPECT_GE(holds, 8);  // of 10 at 95 %: fewer in 1 % of such tests
 }
 
-TEST(LineFit, DeviationsAreThoseOfTheNoise) {
+TEST(ResponseFit, DeviationsAreThoseOfTheNoise) {
   constexpr int records = 12;
   double squares = 0.0;
   for (int seed = 1; seed <= records; ++seed) {
@@ -117,7 +117,7 @@ TEST(LineFit, DeviationsAreThoseOfTheNoise) {
   EXPECT_LT(squares, 28.3);
 }
 
-TEST(LineFit, ALagIsPartOfIt) {
+TEST(ResponseFit, ALagIsPartOfIt) {
   const DeviceParameters truth = late_lhifam(1.5e-3);
   const FrequencyResponse lines = noisy_lines(truth, 0.003, 1);
   const Device structure = unknown_lhifam();
@@ -129,7 +129,7 @@ TEST(LineFit, ALagIsPartOfIt) {
 }
 
 // A table has no period and may have no variances: what is left over all lines is the noise.
-TEST(LineFit, ATableWithoutVariancesHoldsTheTruth) {
+TEST(ResponseFit, ATableWithoutVariancesHoldsTheTruth) {
   const DeviceParameters truth = late_lhifam(0.0);
   const ModalForm form = modal_form(Device(truth));
   std::mt19937_64 random(1);
@@ -150,7 +150,7 @@ TEST(LineFit, ATableWithoutVariancesHoldsTheTruth) {
   EXPECT_GT(found->left.p, 1e-3);
 }
 
-TEST(LineFit, ALimitBesideLinesNarrowsTheInterval) {
+TEST(ResponseFit, ALimitBesideLinesNarrowsTheInterval) {
   const DeviceParameters truth = test::lhifam_parameters();
   const FrequencyResponse lines = noisy_lines(truth, 0.05, 1);
   const std::vector<MeasuredLimit> limits = {limit_at(truth, 0.0, 0.01)};
@@ -166,7 +166,7 @@ TEST(LineFit, ALimitBesideLinesNarrowsTheInterval) {
 }
 
 // The paper's locked handle: of its mass and damping the lines tell nothing.
-TEST(LineFit, WhatIsGivenIsAsOpenAsTheFileSays) {
+TEST(ResponseFit, WhatIsGivenIsAsOpenAsTheFileSays) {
   const DeviceParameters truth = test::lhifam_parameters();
   DeviceParameters locked = locked_device(Device(truth), {1}).parameters();
   const FrequencyResponse lines = noisy_lines(locked, 0.003, 1);
@@ -188,7 +188,7 @@ TEST(LineFit, WhatIsGivenIsAsOpenAsTheFileSays) {
   EXPECT_GT(width(), 0.1);
 }
 
-TEST(LineFit, ABodyThatIsMissingStandsOut) {
+TEST(ResponseFit, ABodyThatIsMissingStandsOut) {
   const DeviceParameters truth = test::lhifam_parameters();
   const FrequencyResponse lines = noisy_lines(truth, 0.01, 1);
   DeviceParameters rigid = truth;
@@ -201,7 +201,7 @@ TEST(LineFit, ABodyThatIsMissingStandsOut) {
   EXPECT_LT(found->left.p, 1e-6);
 }
 
-TEST(LineFit, LimitsAloneNarrowAFile) {
+TEST(ResponseFit, LimitsAloneNarrowAFile) {
   const DeviceParameters truth = test::lhifam_parameters();
   std::vector<MeasuredLimit> coarse = {limit_at(truth, 0.0, 10.0)};
   coarse[0].frequency_hz.reset();
@@ -221,7 +221,7 @@ TEST(LineFit, LimitsAloneNarrowAFile) {
   EXPECT_GT(narrow->left.p, 0.01);
 }
 
-TEST(LineFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
+TEST(ResponseFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
   DeviceParameters file = test::lhifam_parameters();
   const double damping = file.bodies[1].damping;
   file.uncertainty = Uncertainty{.parameters = {"body.handle.damping"}, .covariance = {{std::pow(0.1 * damping, 2)}}};
@@ -235,7 +235,7 @@ TEST(LineFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
   EXPECT_NEAR(deviation, 0.1 * damping, 0.01 * damping);
 }
 
-TEST(LineFit, OfALagAloneLimitsTellAsOfADelay) {
+TEST(ResponseFit, OfALagAloneLimitsTellAsOfADelay) {
   DeviceParameters truth = test::lhifam_parameters();
   truth.actuator.time_constant = 1e-3;
   const Device structure(truth);
@@ -250,7 +250,7 @@ TEST(LineFit, OfALagAloneLimitsTellAsOfADelay) {
 }
 
 // A delay and a lag that share a known sum: neither is known, the limit is.
-TEST(LineFit, AFileKeepsTheSumOfDelayAndLag) {
+TEST(ResponseFit, AFileKeepsTheSumOfDelayAndLag) {
   DeviceParameters file = late_lhifam(0.6e-3);
   const double open = std::pow(0.2e-3, 2);
   const double shared = -0.99 * open;
@@ -266,14 +266,14 @@ TEST(LineFit, AFileKeepsTheSumOfDelayAndLag) {
   EXPECT_LT(found->upper / found->lower, 1.2);
 }
 
-TEST(LineFit, RefusesANumberThatTheFileLacks) {
+TEST(ResponseFit, RefusesANumberThatTheFileLacks) {
   const Device structure(test::lhifam_parameters());
   const std::vector<MeasuredLimit> limits = {limit_at(structure.parameters(), 0.0, 0.05)};
   EXPECT_THROW((void)fit_response({.structure = structure, .limits = limits, .free = {"body.nobody.mass"}, .known = true}),
                Error);
 }
 
-TEST(LineFit, ALimitThatContradictsAFileStandsOut) {
+TEST(ResponseFit, ALimitThatContradictsAFileStandsOut) {
   const DeviceParameters truth = test::lhifam_parameters();
   DeviceParameters file = truth;
   file.uncertainty =
@@ -287,7 +287,7 @@ TEST(LineFit, ALimitThatContradictsAFileStandsOut) {
   EXPECT_LT(found->left.p, 1e-6);
 }
 
-TEST(LineFit, NumbersOfNobodySayNothingOfALimit) {
+TEST(ResponseFit, NumbersOfNobodySayNothingOfALimit) {
   const Device structure = unknown_lhifam();
   const std::vector<MeasuredLimit> limits = {limit_at(test::lhifam_parameters(), 0.0, 0.05)};
   EXPECT_FALSE(fit_response({.structure = structure, .limits = limits}));

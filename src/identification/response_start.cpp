@@ -1,4 +1,4 @@
-#include "identification/line_model.hpp"
+#include "identification/response_start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,16 +55,16 @@ Uncertainty part_of(const Uncertainty& all, const std::vector<std::size_t>& kept
 }
 
 /// Numbers of the file's [uncertainty] that are not open: fitted too, which it alone limits.
-void add_given(LineModel& model, const Uncertainty& file, const std::vector<std::string>& open) {
+void add_given(ResponseStart& start, const Uncertainty& file, const std::vector<std::string>& open) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < file.parameters.size(); ++i) {
-    const std::string key = full_parameter_key(model.start, file.parameters[i]);
-    const std::optional<double> value = parameter(model.start, key);
+    const std::string key = full_parameter_key(start.device, file.parameters[i]);
+    const std::optional<double> value = parameter(start.device, key);
     if (!value || !(file.covariance[i][i] > 0.0) || is_named(open, key)) continue;
     kept.push_back(i);
-    model.numbers.push_back(given_number(key, *value, std::sqrt(file.covariance[i][i])));
+    start.numbers.push_back(given_number(key, *value, std::sqrt(file.covariance[i][i])));
   }
-  if (!kept.empty()) model.given = part_of(file, kept);
+  if (!kept.empty()) start.given = part_of(file, kept);
 }
 
 /// A named number is open, one of a file that says nothing more is known to 20 %.
@@ -84,87 +84,87 @@ Number number_of_limits(const std::string& key, const DeviceParameters& start, b
 }
 
 /// A limit tells of a lag what it tells of a delay: a lag alone is fitted as a delay, both by their sum (DeviceFamily).
-void fit_lag_as_delay(LineModel& model) {
-  const auto lag = std::ranges::find(model.numbers, key_of_lag, &Number::key);
-  if (lag == model.numbers.end()) return;
-  const double value = model.start.actuator.time_constant;
-  const auto delay = std::ranges::find(model.numbers, key_of_delay, &Number::key);
-  if (delay != model.numbers.end()) {
+void fit_lag_as_delay(ResponseStart& start) {
+  const auto lag = std::ranges::find(start.numbers, key_of_lag, &Number::key);
+  if (lag == start.numbers.end()) return;
+  const double value = start.device.actuator.time_constant;
+  const auto delay = std::ranges::find(start.numbers, key_of_delay, &Number::key);
+  if (delay != start.numbers.end()) {
     if (delay->scale == Number::Scale::logarithmic) delay->unit += value;
     return;
   }
   const bool is_open = lag->prior_deviation > 1.0 || value == 0.0;
-  double deviation = is_open ? model.start.loop.sampling_period : known_to * value;
-  if (model.given) {
-    const auto place = std::ranges::find(model.given->parameters, key_of_lag) - model.given->parameters.begin();
+  double deviation = is_open ? start.device.loop.sampling_period : known_to * value;
+  if (start.given) {
+    const auto place = std::ranges::find(start.given->parameters, key_of_lag) - start.given->parameters.begin();
     const auto i = static_cast<std::size_t>(place);
-    if (i < model.given->parameters.size()) {
-      deviation = std::sqrt(model.given->covariance[i][i]);
+    if (i < start.given->parameters.size()) {
+      deviation = std::sqrt(start.given->covariance[i][i]);
       std::vector<std::size_t> others;
-      for (std::size_t j = 0; j < model.given->parameters.size(); ++j) {
+      for (std::size_t j = 0; j < start.given->parameters.size(); ++j) {
         if (j != i) others.push_back(j);
       }
-      model.given = others.empty() ? std::nullopt : std::optional(part_of(*model.given, others));
+      start.given = others.empty() ? std::nullopt : std::optional(part_of(*start.given, others));
     }
   }
   *lag = {
-      .key = key_of_delay, .unit = deviation, .expected = model.start.loop.delay / deviation, .prior_deviation = 1.0};
+      .key = key_of_delay, .unit = deviation, .expected = start.device.loop.delay / deviation, .prior_deviation = 1.0};
 }
 
 }  // namespace
 
-LineModel model_of_response(const ResponseFitSetting& setting) {
+ResponseStart start_of_response(const ResponseFitSetting& setting) {
   constexpr double typical_delay = 0.5;  // sampling periods
-  LineModel model{setting.structure.parameters(), {}, {}};
+  ResponseStart start{setting.structure.parameters(), {}, {}};
   std::vector<std::string> free = free_parameters(setting.structure, setting.free, setting.locked);
   if ((setting.frees_lateness || is_named(free, key_of_lag)) && !is_named(free, key_of_delay)) {
-    const double period = setting.response->sampling_period.value_or(model.start.loop.sampling_period);
-    if (model.start.loop.delay == 0.0) model.start.loop.delay = typical_delay * period;
+    const double period = setting.response->sampling_period.value_or(start.device.loop.sampling_period);
+    if (start.device.loop.delay == 0.0) start.device.loop.delay = typical_delay * period;
     free.emplace_back(key_of_delay);
   }
   ParameterFitOptions linear;
   linear.free = free;
   linear.locked = setting.locked;
-  model.start = fit_parameters(Device(model.start), *setting.response, linear).device.parameters();
-  model.start.uncertainty.reset();
+  start.device = fit_parameters(Device(start.device), *setting.response, linear).device.parameters();
+  start.device.uncertainty.reset();
 
-  RivalSetting sizes = setting_of_lines(model.start, setting);
+  RivalSetting sizes = setting_of_lines(start.device, setting);
   sizes.frees_lag = setting.frees_lateness || is_named(free, key_of_lag);
   const TypicalSizes typical{sizes.sampling_period, typical_damping(sizes), sizes.rms_force / sizes.rms_position};
   ModelParts parts;
   for (const std::string& key : free) {
-    if (key != key_of_lag) parts.numbers.push_back(device_number(key, model.start, typical));
+    if (key != key_of_lag) parts.numbers.push_back(device_number(key, start.device, typical));
   }
   actuator_lag().add(sizes, parts);
   ground_spring().add(sizes, parts);
-  model.numbers = std::move(parts.numbers);
+  start.numbers = std::move(parts.numbers);
   const std::optional<Uncertainty>& file = setting.structure.parameters().uncertainty;
   if (file && setting.known) {
-    for (const Number& each : model.numbers) free.push_back(each.key);
-    add_given(model, *file, free);
-    fit_lag_as_delay(model);
+    for (const Number& each : start.numbers) free.push_back(each.key);
+    add_given(start, *file, free);
+    fit_lag_as_delay(start);
   }
-  return model;
+  return start;
 }
 
-LineModel model_of_limits(const ResponseFitSetting& setting) {
-  LineModel model{setting.structure.parameters(), {}, {}};
-  const std::optional<Uncertainty> file = std::exchange(model.start.uncertainty, {});
+ResponseStart start_of_limits(const ResponseFitSetting& setting) {
+  ResponseStart start{setting.structure.parameters(), {}, {}};
+  const std::optional<Uncertainty> file = std::exchange(start.device.uncertainty, {});
   const bool names_none = frees_all(setting.free);
   std::vector<std::string> keys;
   if (!names_none || !file) keys = free_parameters(setting.structure, setting.free);
-  if (file && setting.known) add_given(model, *file, keys);
+  if (file && setting.known) add_given(start, *file, keys);
   for (const std::string& key : keys) {
-    Number number = number_of_limits(key, model.start, !names_none);
+    Number number = number_of_limits(key, start.device, !names_none);
     if (names_none && number.scale != Number::Scale::logarithmic) continue;  // a file that gives 0 means none
-    model.numbers.push_back(std::move(number));
+    start.numbers.push_back(std::move(number));
   }
-  const bool has_delay = std::ranges::find(model.numbers, key_of_delay, &Number::key) != model.numbers.end();
-  if (setting.frees_lateness && model.start.loop.delay == 0.0 && !has_delay) {
-    model.numbers.push_back({.key = key_of_delay, .unit = model.start.loop.sampling_period, .prior_deviation = 1.0});
+  const bool has_delay = std::ranges::find(start.numbers, key_of_delay, &Number::key) != start.numbers.end();
+  if (setting.frees_lateness && start.device.loop.delay == 0.0 && !has_delay) {
+    start.numbers.push_back({.key = key_of_delay, .unit = start.device.loop.sampling_period, .prior_deviation = 1.0});
   }
-  fit_lag_as_delay(model);
-  return model;
+  fit_lag_as_delay(start);
+  return start;
 }
 
 }  // namespace zwidth::internal
