@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "identification/optimiser/bounded_step.hpp"
 #include "identification/model/device_numbers.hpp"
+#include "identification/optimiser/bounded_step.hpp"
 #include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/profile.hpp"
 #include "model/loop_keys.hpp"

@@ -4,12 +4,12 @@
 
 #include "counted.hpp"
 #include "identification/device_file_trust.hpp"
-#include "identification/motion_fit.hpp"
 #include "identification/limit_of_response.hpp"
-#include "identification/response_fit.hpp"
 #include "identification/model/segment_player.hpp"
+#include "identification/motion_fit.hpp"
 #include "identification/response/plausibility.hpp"
 #include "identification/response/response_choice.hpp"
+#include "identification/response_fit.hpp"
 #include "identification/response_of_device.hpp"
 #include "identification/verdict/assumed_experiment.hpp"
 #include "identification/verdict/plausible_device.hpp"
@@ -199,8 +199,8 @@ Identification judged(const MeasuredResponse& measured, const Device& structure,
 }
 
 /// A device found from lines or limits, in the words of one found from its motion.
-FoundDevice found_device(const ResponseFit& fitted, const Device& structure, const IdentifyOptions& options) {
-  FoundDevice found{.device = fitted.device, .best = {}, .last_change = fitted.last_change};
+FoundDevice found_device(const ResponseFit& fitted, const Device& structure) {
+  FoundDevice found{.device = fitted.device, .best = {}, .rivals = fitted.rivals, .last_change = fitted.last_change};
   found.best = {.numbers = fitted.numbers,
                 .x = fitted.x,
                 .covariance = fitted.covariance,
@@ -208,13 +208,6 @@ FoundDevice found_device(const ResponseFit& fitted, const Device& structure, con
                 .stiffness = fitted.value,
                 .interval = {fitted.lower, fitted.upper},
                 .motion = structure.parameters().motion};
-  const std::vector<std::string> free = free_parameters(structure, options.fit.free, options.fit.locked);
-  const std::string spring = "body." + structure.bodies()[structure.loop().held].name + ".stiffness";
-  for (const Number& number : fitted.numbers) {
-    if (std::ranges::count(free, number.key) > 0) continue;
-    if (number.key == key_of_lag) found.rivals.push_back({"actuator_lag", {number.key}, RivalMeasure::time});
-    if (number.key == spring) found.rivals.push_back({"ground_spring", {number.key}, RivalMeasure::stiffness});
-  }
   return found;
 }
 
@@ -227,15 +220,15 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
   if (!fit.contradictions.empty() || is_drowned(response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::lines);
   const auto fitted = fit_response({.structure = structure,
-                                 .response = &response,
-                                 .limits = options.limits,
-                                 .free = options.fit.free,
-                                 .locked = options.fit.locked,
-                                 .known = is_known(options),
-                                 .frees_lateness = frees_lateness(options)});
+                                    .response = &response,
+                                    .limits = options.limits,
+                                    .free = options.fit.free,
+                                    .locked = options.fit.locked,
+                                    .known = is_known(options),
+                                    .frees_lateness = frees_lateness(options)});
   std::optional<FoundDevice> found;
   if (fitted) {
-    found = found_device(*fitted, structure, options);
+    found = found_device(*fitted, structure);
     fit.left = fitted->left;
     fit.records = {{measured.source, response.sampling_period.value_or(0.0)}};
   }
@@ -256,10 +249,10 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::motion);
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
   const auto fitted = fit_motion(recordings, measured.response, structure,
-                                        {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
-                                         options.segment,
-                                         options.limits,
-                                         tell});
+                                 {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
+                                  options.segment,
+                                  options.limits,
+                                  tell});
   if (!fitted || !told_limit(fitted->found.best.interval))
     return identified_by_lines(measured, structure, options, std::move(doubts), true);
   fit.left = fitted->left;
@@ -302,12 +295,12 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   require_valid(find_problem(options));
   if (options.limits.empty()) refuse_member("limits", {.code = ProblemCode::no_values});
   const auto fitted = fit_response({.structure = structure,
-                                 .limits = options.limits,
-                                 .free = options.fit.free,
-                                 .locked = options.fit.locked,
-                                 .known = is_known(options)});
+                                    .limits = options.limits,
+                                    .free = options.fit.free,
+                                    .locked = options.fit.locked,
+                                    .known = is_known(options)});
   std::optional<FoundDevice> found;
-  if (fitted) found = found_device(*fitted, structure, options);
+  if (fitted) found = found_device(*fitted, structure);
   MeasuredResponse none;
   none.source = "measured limits";
   FittedLikelihood fit{.motion = structure.parameters().motion};

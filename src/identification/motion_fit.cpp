@@ -145,7 +145,7 @@ std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNum
 }  // namespace
 
 std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const FrequencyResponse& response,
-                                               const Device& structure, const MotionFitOptions& options) {
+                                    const Device& structure, const MotionFitOptions& options) {
   const MotionStart start = motion_start(recordings, response, structure, options.free);
   auto motion = found_motion(start, options.free.locked, {options.segment, options.limits, options.tell});
   if (!motion) return std::nullopt;

@@ -40,7 +40,7 @@ struct MotionFit {
 /// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.
 /// Source: theory, section 10; Venzon & Moolgavkar 1988.
 [[nodiscard]] std::optional<MotionFit> fit_motion(std::span<const Recording> recordings,
-                                                             const FrequencyResponse& response, const Device& structure,
-                                                             const MotionFitOptions& options);
+                                                  const FrequencyResponse& response, const Device& structure,
+                                                  const MotionFitOptions& options);
 
 }  // namespace zwidth::internal

@@ -10,8 +10,8 @@
 #include "identification/evidence/limit_evidence.hpp"
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
-#include "identification/optimiser/minimise.hpp"
 #include "identification/motion_start.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 namespace zwidth::internal {
 

@@ -79,6 +79,7 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
   ResponseFit found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
   const Eigen::VectorXd slope = slope_of(limit, best->z, family.of_device(), likelihood.lowest());
   found.slope = slope.head(count);
+  found.rivals = start.rivals;
   SumOfSquares left;
   if (lines) {
     const Eigen::MatrixXd moved = moved_covariance(likelihood, *best, count);

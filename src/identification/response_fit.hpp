@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/model/added_rival.hpp"
 #include "identification/model/number.hpp"
 #include "identification/verdict/omnibus.hpp"
 #include "zwidth/identification/measured_limit.hpp"
@@ -28,7 +29,7 @@ struct ResponseFitSetting {
 /// A device found by the likelihood of lines and limits, and the range of its limit.
 struct ResponseFit {
   DeviceParameters device;
-  std::vector<Number> numbers;  ///< of the fit, all of the device: a lag and a spring to the ground are rivals
+  std::vector<Number> numbers;  ///< of the fit, all of the device: linear rivals act as numbers of it
   Eigen::VectorXd x;            ///< a coordinate each
   Eigen::MatrixXd covariance;   ///< of x, by the normal matrix at the best
   Eigen::VectorXd slope;        ///< how log K_CR hangs on x
@@ -36,6 +37,7 @@ struct ResponseFit {
   double value = 0.0;           ///< K_CR of the most likely device
   double upper = 0.0;           ///< the largest
   double last_change = 0.0;     ///< as FoundDevice::last_change
+  std::vector<AddedRival> rivals = {};
   Omnibus left =
       {};  ///< whether bands of neighbouring lines are off together by chance, and limits from what is fitted
 };

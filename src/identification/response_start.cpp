@@ -115,8 +115,9 @@ void fit_lag_as_delay(ResponseStart& start) {
 
 ResponseStart start_of_response(const ResponseFitSetting& setting) {
   constexpr double typical_delay = 0.5;  // sampling periods
-  ResponseStart start{setting.structure.parameters(), {}, {}};
-  std::vector<std::string> free = free_parameters(setting.structure, setting.free, setting.locked);
+  ResponseStart start{setting.structure.parameters(), {}};
+  const std::vector<std::string> asked = free_parameters(setting.structure, setting.free, setting.locked);
+  std::vector<std::string> free = asked;
   if ((setting.frees_lateness || is_named(free, key_of_lag)) && !is_named(free, key_of_delay)) {
     const double period = setting.response->sampling_period.value_or(start.device.loop.sampling_period);
     if (start.device.loop.delay == 0.0) start.device.loop.delay = typical_delay * period;
@@ -135,8 +136,7 @@ ResponseStart start_of_response(const ResponseFitSetting& setting) {
   for (const std::string& key : free) {
     if (key != key_of_lag) parts.numbers.push_back(device_number(key, start.device, typical));
   }
-  actuator_lag().add(sizes, parts);
-  ground_spring().add(sizes, parts);
+  start.rivals = add_linear_rivals(sizes, parts);
   start.numbers = std::move(parts.numbers);
   const std::optional<Uncertainty>& file = setting.structure.parameters().uncertainty;
   if (file && setting.known) {
@@ -144,11 +144,16 @@ ResponseStart start_of_response(const ResponseFitSetting& setting) {
     add_given(start, *file, free);
     fit_lag_as_delay(start);
   }
+  std::erase_if(start.rivals, [&](const AddedRival& rival) {
+    return std::ranges::any_of(rival.keys, [&](const std::string& key) {
+      return is_named(asked, key) || std::ranges::count(start.numbers, key, &Number::key) == 0;
+    });
+  });
   return start;
 }
 
 ResponseStart start_of_limits(const ResponseFitSetting& setting) {
-  ResponseStart start{setting.structure.parameters(), {}, {}};
+  ResponseStart start{setting.structure.parameters(), {}};
   const std::optional<Uncertainty> file = std::exchange(start.device.uncertainty, {});
   const bool names_none = frees_all(setting.free);
   std::vector<std::string> keys;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "identification/model/added_rival.hpp"
 #include "identification/model/number.hpp"
 #include "identification/response_fit.hpp"
 #include "zwidth/model/device.hpp"
@@ -13,10 +14,11 @@ namespace zwidth::internal {
 struct ResponseStart {
   DeviceParameters device;
   std::vector<Number> numbers;
-  std::optional<Uncertainty> given;  ///< a prior of these numbers
+  std::optional<Uncertainty> given = {};  ///< a prior of these numbers
+  std::vector<AddedRival> rivals = {};    ///< whose numbers were not asked for
 };
 
-/// The numbers that show in the response, a lag and a spring to the ground among them; where a linear fit ends. Throws Error as
+/// The numbers that show in the response, those of linear rivals among them, from where the initial fit ends. Throws Error as
 /// fit_parameters() does.
 [[nodiscard]] ResponseStart start_of_response(const ResponseFitSetting& setting);
 
