@@ -229,7 +229,7 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
   std::optional<FoundDevice> found;
   if (fitted) {
     found = found_device(*fitted, structure);
-    fit.left = fitted->left;
+    fit.omnibus = fitted->omnibus;
     fit.records = {{measured.source, response.sampling_period.value_or(0.0)}};
   }
   return judged(measured, structure, options, std::move(found), std::move(fit), IdentifyOptions::Method::lines);
@@ -255,7 +255,7 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
                                   tell});
   if (!fitted || !told_limit(fitted->found.best.interval))
     return identified_by_lines(measured, structure, options, std::move(doubts), true);
-  fit.left = fitted->left;
+  fit.omnibus = fitted->omnibus;
   fit.delay = fitted->delay;
   fit.doubts_of_data.insert(fit.doubts_of_data.end(), fitted->contradicted.begin(), fitted->contradicted.end());
   for (const Recording& each : recordings) fit.records.push_back({each.source, each.sampling_period});
@@ -304,7 +304,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   MeasuredResponse none;
   none.source = "measured limits";
   FittedLikelihood fit{.motion = structure.parameters().motion};
-  if (fitted) fit.left = fitted->left;
+  if (fitted) fit.omnibus = fitted->omnibus;
   fit.records = {{none.source, 0.0}};
   return judged(none, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);
 }

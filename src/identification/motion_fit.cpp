@@ -9,9 +9,9 @@
 #include "identification/motion_search.hpp"
 #include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/confidence.hpp"
-#include "identification/verdict/left_over.hpp"
 #include "identification/verdict/limit_moment.hpp"
 #include "identification/verdict/profile.hpp"
+#include "identification/verdict/segment_residuals.hpp"
 #include "identification/verdict/widening.hpp"
 #include "model/loop_keys.hpp"
 
@@ -160,9 +160,9 @@ std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const
   for (Eigen::Index i = 0; i < count; ++i)
     precision(i) = std::pow(numbers[static_cast<std::size_t>(i)].prior_deviation, -2.0);
   MotionFit fit;
-  const auto left = left_over(*motion->evidence, motion->best.z);
-  const double wider = left ? widening(*left, {slope.head(count), precision}) : 1.0;
-  if (left) fit.left = omnibus(*left);
+  const auto segments = segment_residuals(*motion->evidence, motion->best.z);
+  const double wider = segments ? widening(*segments, {slope.head(count), precision}) : 1.0;
+  if (segments) fit.omnibus = omnibus(*segments);
   FoundDevice& found = fit.found;
   found.device = motion->model->family().device_at(motion->best.z, range->moment);
   found.rivals = start.rivals;

@@ -99,7 +99,7 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
   found.value = std::exp(middle);
   found.upper = std::exp(middle + together * (high.value - middle));
   found.last_change = std::max({last_change(*best, slope), low.last_change, high.last_change});
-  found.left = omnibus_of_lines(left);
+  found.omnibus = omnibus_of_lines(left);
   return found;
 }
 

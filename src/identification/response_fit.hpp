@@ -38,7 +38,7 @@ struct ResponseFit {
   double upper = 0.0;           ///< the largest
   double last_change = 0.0;     ///< as FoundDevice::last_change
   std::vector<AddedRival> rivals = {};
-  Omnibus left =
+  Omnibus omnibus =
       {};  ///< whether bands of neighbouring lines are off together by chance, and limits from what is fitted
 };
 

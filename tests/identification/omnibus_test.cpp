@@ -100,7 +100,7 @@ std::optional<Omnibus> left_by_rigid_body(const RecordedBody& body, unsigned see
     best = minimise(all, best->z, {.most_steps = 15});
   }
   if (!best) return std::nullopt;
-  const auto left = left_over(*evidence, best->z);
+  const auto left = segment_residuals(*evidence, best->z);
   if (!left) return std::nullopt;
   return omnibus(*left);
 }

@@ -94,7 +94,7 @@ TEST(ResponseFit, TheIntervalHoldsTheTruth) {
     EXPECT_LT(found->value, found->upper) << seed;
     EXPECT_NEAR(found->value, limit, 0.05 * limit) << seed;
     EXPECT_LT(found->upper / found->lower, 1.2) << seed;
-    EXPECT_GT(found->left.p, 1e-4) << seed;
+    EXPECT_GT(found->omnibus.p, 1e-4) << seed;
     EXPECT_NEAR(found->device.bodies[0].mass, truth.bodies[0].mass, 0.02 * truth.bodies[0].mass) << seed;
   }
   EXPECT_GE(holds, 8);  // of 10 at 95 %: fewer in 1 % of such tests
@@ -147,7 +147,7 @@ TEST(ResponseFit, ATableWithoutVariancesHoldsTheTruth) {
   EXPECT_LE(found->lower, bare_limit(truth));
   EXPECT_GE(found->upper, bare_limit(truth));
   EXPECT_LT(found->upper / found->lower, 1.2);
-  EXPECT_GT(found->left.p, 1e-3);
+  EXPECT_GT(found->omnibus.p, 1e-3);
 }
 
 TEST(ResponseFit, ALimitBesideLinesNarrowsTheInterval) {
@@ -162,7 +162,7 @@ TEST(ResponseFit, ALimitBesideLinesNarrowsTheInterval) {
   EXPECT_LT(std::log(with->upper / with->lower), 0.5 * std::log(without->upper / without->lower));
   EXPECT_LE(with->lower, bare_limit(truth));
   EXPECT_GE(with->upper, bare_limit(truth));
-  EXPECT_GT(with->left.p, 1e-3);
+  EXPECT_GT(with->omnibus.p, 1e-3);
 }
 
 // The paper's locked handle: of its mass and damping the lines tell nothing.
@@ -198,7 +198,7 @@ TEST(ResponseFit, ABodyThatIsMissingStandsOut) {
   const Device structure(rigid);
   const auto found = fit_response({.structure = structure, .response = &lines});
   ASSERT_TRUE(found);
-  EXPECT_LT(found->left.p, 1e-6);
+  EXPECT_LT(found->omnibus.p, 1e-6);
 }
 
 TEST(ResponseFit, LimitsAloneNarrowAFile) {
@@ -218,7 +218,7 @@ TEST(ResponseFit, LimitsAloneNarrowAFile) {
   EXPECT_LT(std::log(narrow->upper / narrow->lower), 0.5 * std::log(wide->upper / wide->lower));
   EXPECT_LE(narrow->lower, bare_limit(truth));
   EXPECT_GE(narrow->upper, bare_limit(truth));
-  EXPECT_GT(narrow->left.p, 0.01);
+  EXPECT_GT(narrow->omnibus.p, 0.01);
 }
 
 TEST(ResponseFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
@@ -284,7 +284,7 @@ TEST(ResponseFit, ALimitThatContradictsAFileStandsOut) {
   const Device structure(file);
   const auto found = fit_response({.structure = structure, .limits = limits, .known = true});
   ASSERT_TRUE(found);
-  EXPECT_LT(found->left.p, 1e-6);
+  EXPECT_LT(found->omnibus.p, 1e-6);
 }
 
 TEST(ResponseFit, NumbersOfNobodySayNothingOfALimit) {

@@ -12,7 +12,7 @@ namespace {
 FittedLikelihood narrow_fit() {
   FittedLikelihood fit;
   fit.limit = Interval{100.0, 150.0};
-  fit.left = Omnibus{.p = 0.2};
+  fit.omnibus = Omnibus{.p = 0.2};
   fit.records = {{"sweep.csv", 1e-3}};
   return fit;
 }
@@ -61,7 +61,7 @@ TEST(Verdict, AWideIntervalNamesTheRivalThatLeavesItOpen) {
 
 TEST(Verdict, DoubtsWhatStandsOut) {
   FittedLikelihood fit = narrow_fit();
-  fit.left = Omnibus{.p = 1e-9, .count = 300};
+  fit.omnibus = Omnibus{.p = 1e-9, .count = 300};
   const Trust outstanding = verdict_of(fit).trust;
   EXPECT_EQ(outstanding.verdict, Trust::Verdict::doubtful);
   ASSERT_EQ(outstanding.findings.size(), 1U);
@@ -96,7 +96,7 @@ TEST(Verdict, DoubtsLinesWhereTheMotionTellsOfNoLimit) {
 TEST(Verdict, RefusesWhatHasNoLimitOrContradictsItself) {
   FittedLikelihood fit = narrow_fit();
   fit.limit.reset();
-  fit.left = Omnibus{.p = 1e-9};
+  fit.omnibus = Omnibus{.p = 1e-9};
   const Trust undetermined = verdict_of(fit).trust;
   EXPECT_TRUE(undetermined.refused());
   ASSERT_EQ(undetermined.findings.size(), 1U);

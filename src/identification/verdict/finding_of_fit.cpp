@@ -11,7 +11,7 @@
 namespace zwidth::internal {
 namespace {
 
-const char* name_of_left(Omnibus::Kind kind) {
+const char* name_of_kind(Omnibus::Kind kind) {
   return kind == Omnibus::Kind::nonlinear ? "nonlinear" : "follows_force";
 }
 
@@ -61,16 +61,16 @@ Finding stopped_search(const FittedLikelihood& fit) {
                        {"threshold", Calibration::most_change}}};
 }
 
-bool stands_out(const Omnibus& left) { return !(left.p >= Calibration::least_p); }
+bool stands_out(const Omnibus& omnibus) { return !(omnibus.p >= Calibration::least_p); }
 
-Finding outstanding(const Omnibus& left, const std::vector<NamedRecord>& records) {
-  const NamedRecord& record = records.at(left.record);
+Finding outstanding(const Omnibus& omnibus, const std::vector<NamedRecord>& records) {
+  const NamedRecord& record = records.at(omnibus.record);
   Finding found{.code = FindingCode::residual_stands_out,
-                .evidence = {{"excess", left.excess}, {"p", left.p}, {"threshold", Calibration::least_p}},
-                .subjects = {{"source", record.source}, {"kind", name_of_left(left.clearest)}}};
-  if (left.count == 0) return found;  // of lines
-  const double from = static_cast<double>(left.first) * record.sampling_period;
-  const double to = from + static_cast<double>(left.count) * record.sampling_period;
+                .evidence = {{"excess", omnibus.excess}, {"p", omnibus.p}, {"threshold", Calibration::least_p}},
+                .subjects = {{"source", record.source}, {"kind", name_of_kind(omnibus.clearest)}}};
+  if (omnibus.count == 0) return found;  // of lines
+  const double from = static_cast<double>(omnibus.first) * record.sampling_period;
+  const double to = from + static_cast<double>(omnibus.count) * record.sampling_period;
   found.evidence.push_back({"from", from, "s"});
   found.evidence.push_back({"to", to, "s"});
   return found;

@@ -20,9 +20,9 @@ namespace zwidth::internal {
 [[nodiscard]] Finding stopped_search(const FittedLikelihood& fit);
 
 /// The test fails.
-[[nodiscard]] bool stands_out(const Omnibus& left);
+[[nodiscard]] bool stands_out(const Omnibus& omnibus);
 /// What that is, and where. The limit with it is not known: no effect.
-[[nodiscard]] Finding outstanding(const Omnibus& left, const std::vector<NamedRecord>& records);
+[[nodiscard]] Finding outstanding(const Omnibus& omnibus, const std::vector<NamedRecord>& records);
 
 /// By more than 4 deviations and a twentieth of a sampling period.
 [[nodiscard]] bool contradicts(const GivenDelay& delay);

@@ -40,8 +40,8 @@ struct FittedLikelihood {
   Motion motion = Motion::linear;
   std::optional<Interval> limit = {};        ///< all within 1.92 of the best log-likelihood; absent: none was found
   double last_change = 0.0;                  ///< FoundDevice::last_change
-  std::optional<Omnibus> left = {};          ///< of what it leaves in time; absent: nothing was fitted
-  std::vector<NamedRecord> records = {};     ///< those that `left` counts
+  std::optional<Omnibus> omnibus = {};       ///< of what it leaves in time; absent: nothing was fitted
+  std::vector<NamedRecord> records = {};     ///< those that `omnibus` counts
   std::vector<RivalEstimate> rivals = {};    ///< rival_table()
   std::optional<LimitPlace> place = {};      ///< of the limit of the most likely device
   std::optional<GivenDelay> delay = {};      ///< where one was given

@@ -1,4 +1,4 @@
-#include "identification/verdict/left_over.hpp"
+#include "identification/verdict/segment_residuals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ Eigen::VectorXd moving_rows(const Eigen::Ref<const Eigen::VectorXd>& recorded, d
 
 }  // namespace
 
-std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, const Eigen::VectorXd& z) {
+std::optional<std::vector<SegmentResiduals>> segment_residuals(const TimeEvidence& evidence, const Eigen::VectorXd& z) {
   const MotionModel& model = evidence.model();
   const Eigen::Index numbers = evidence.numbers();
   std::vector<Eigen::VectorXd> states;
@@ -68,7 +68,7 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
   const auto played = model.play(z.head(numbers), evidence.segments(), states, true);
   if (!played) return std::nullopt;
   const Device device = model.family().recorded_device(z.head(numbers));
-  std::vector<LeftOver> left;
+  std::vector<SegmentResiduals> segments;
   for (std::size_t i = 0; i < played->size(); ++i) {
     const Segment& segment = evidence.segments()[i];
     const ForceMotionRecord& record = model.records()[segment.record];
@@ -102,12 +102,12 @@ std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, con
     const auto counted = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
       return counts.asDiagonal() * columns;
     };
-    left.push_back({segment.record, segment.first + static_cast<std::size_t>(order), repeat_of(record.force),
-                    counted(whitened(noise, position - recorded)), counted(slopes.leftCols(numbers)),
-                    counted(slopes.rightCols(model.states())), counted(whitened(noise, lagged)),
-                    counted(whitened(noise, positions_under(device, record.sampling_period, forces))), counts});
+    segments.push_back({segment.record, segment.first + static_cast<std::size_t>(order), repeat_of(record.force),
+                        counted(whitened(noise, position - recorded)), counted(slopes.leftCols(numbers)),
+                        counted(slopes.rightCols(model.states())), counted(whitened(noise, lagged)),
+                        counted(whitened(noise, positions_under(device, record.sampling_period, forces))), counts});
   }
-  return left;
+  return segments;
 }
 
 }  // namespace zwidth::internal

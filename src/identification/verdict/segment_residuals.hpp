@@ -10,7 +10,7 @@
 namespace zwidth::internal {
 
 /// What a fit leaves of a segment, and what might explain it; all filtered by the record's noise, a row per sample.
-struct LeftOver {
+struct SegmentResiduals {
   std::size_t record = 0;
   std::size_t first = 0;      ///< sample of the record of the first row
   std::size_t period = 0;     ///< samples after which the force repeats; 0: it does not
@@ -27,6 +27,7 @@ struct LeftOver {
 ///
 /// A force f that the model lacks adds G f to the position, G the fitted linear device: f of the square and cube of the command,
 /// sign, size and square of the velocity, square and cube of the position, and a damping that drifts.
-[[nodiscard]] std::optional<std::vector<LeftOver>> left_over(const TimeEvidence& evidence, const Eigen::VectorXd& z);
+[[nodiscard]] std::optional<std::vector<SegmentResiduals>> segment_residuals(const TimeEvidence& evidence,
+                                                                             const Eigen::VectorXd& z);
 
 }  // namespace zwidth::internal
