@@ -6,7 +6,7 @@
 
 #include "identification/model/device_numbers.hpp"
 #include "identification/optimiser/bounded_step.hpp"
-#include "identification/verdict/bare_limit.hpp"
+#include "identification/verdict/log_critical_stiffness.hpp"
 #include "identification/verdict/profile.hpp"
 #include "model/loop_keys.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
@@ -48,7 +48,7 @@ std::vector<Finding> contradicted_numbers(const FoundMotion& found, const Motion
   const auto picture = likelihood.picture(z);
   if (!picture) return {};
   const Eigen::VectorXd step = bounded_step(picture->hessian, picture->gradient, likelihood.lowest() - z);
-  const auto log_then = log_bare_limit(family.device_at(z + step));
+  const auto log_then = log_critical_stiffness(family.device_at(z + step));
   const double then = log_then ? std::exp(*log_then) : 0.0;
   if (then >= interval.lower && then <= interval.upper) return {};
   const Eigen::MatrixXd covariance = covariance_of(picture->hessian);

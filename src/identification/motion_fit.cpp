@@ -7,9 +7,9 @@
 #include "identification/contradicted_numbers.hpp"
 #include "identification/model/number_keys.hpp"
 #include "identification/motion_search.hpp"
-#include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/confidence.hpp"
 #include "identification/verdict/limit_instant.hpp"
+#include "identification/verdict/log_critical_stiffness.hpp"
 #include "identification/verdict/profile.hpp"
 #include "identification/verdict/segment_residuals.hpp"
 #include "identification/verdict/widening.hpp"
@@ -34,7 +34,7 @@ class LimitOfMotion {
 
   /// log K_CR at an instant of a record, 0 to 1; nothing where there is none.
   [[nodiscard]] std::optional<double> at(const Eigen::VectorXd& z, double instant) const {
-    return log_bare_limit(found_.model->family().device_at(z, instant));
+    return log_critical_stiffness(found_.model->family().device_at(z, instant));
   }
 
   /// An end that is more likely than the best was none: the search goes on from there.

@@ -12,9 +12,9 @@
 #include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/optimiser/minimise.hpp"
 #include "identification/response_start.hpp"
-#include "identification/verdict/bare_limit.hpp"
 #include "identification/verdict/confidence.hpp"
 #include "identification/verdict/line_bands.hpp"
+#include "identification/verdict/log_critical_stiffness.hpp"
 #include "identification/verdict/profile.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 
@@ -59,7 +59,7 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
     parts.push_back(std::make_shared<GivenNumbers>(family, setting.structure.parameters(), *start.given));
   const SumOfEvidence likelihood(family.numbers(), parts);
 
-  const auto limit = [&](const Eigen::VectorXd& z) { return log_bare_limit(family.device_at(z)); };
+  const auto limit = [&](const Eigen::VectorXd& z) { return log_critical_stiffness(family.device_at(z)); };
   std::optional<Minimum> best = minimise(likelihood, likelihood.start(family.coordinates_of(start.device)), fine);
   if (!best || !limit(best->z)) return std::nullopt;
   const double shared = setting.response ? shared_noise(*setting.response) : 1.0;

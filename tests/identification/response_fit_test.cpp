@@ -29,7 +29,7 @@ DeviceParameters late_lhifam(double lag) {
   return device;
 }
 
-double bare_limit(DeviceParameters device) {
+double critical_stiffness_of(DeviceParameters device) {
   device.wall.damping = 0.0;
   return critical_stiffness(Device(std::move(device))).stiffness;
 }
@@ -88,7 +88,7 @@ TEST(ResponseFit, TheIntervalHoldsTheTruth) {
     const auto found = fit_response({.structure = structure, .response = &lines, .frees_lateness = true});
     ASSERT_TRUE(found) << seed;
     EXPECT_EQ(found->last_change, 0.0) << seed;
-    const double limit = bare_limit(truth);
+    const double limit = critical_stiffness_of(truth);
     if (found->lower <= limit && limit <= found->upper) ++holds;
     EXPECT_LT(found->lower, found->value) << seed;
     EXPECT_LT(found->value, found->upper) << seed;
@@ -125,7 +125,7 @@ TEST(ResponseFit, ALagIsPartOfIt) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->device.actuator.time_constant, 1.5e-3, 0.2e-3);
   EXPECT_NEAR(found->device.loop.delay, 0.4e-3, 0.2e-3);
-  EXPECT_NEAR(found->value, bare_limit(truth), 0.03 * bare_limit(truth));
+  EXPECT_NEAR(found->value, critical_stiffness_of(truth), 0.03 * critical_stiffness_of(truth));
 }
 
 // A table has no period and may have no variances: what is left over all lines is the noise.
@@ -144,8 +144,8 @@ TEST(ResponseFit, ATableWithoutVariancesHoldsTheTruth) {
   const Device structure = unknown_lhifam();
   const auto found = fit_response({.structure = structure, .response = &table, .frees_lateness = true});
   ASSERT_TRUE(found);
-  EXPECT_LE(found->lower, bare_limit(truth));
-  EXPECT_GE(found->upper, bare_limit(truth));
+  EXPECT_LE(found->lower, critical_stiffness_of(truth));
+  EXPECT_GE(found->upper, critical_stiffness_of(truth));
   EXPECT_LT(found->upper / found->lower, 1.2);
   EXPECT_GT(found->omnibus.p, 1e-3);
 }
@@ -160,8 +160,8 @@ TEST(ResponseFit, ALimitBesideLinesNarrowsTheInterval) {
   ASSERT_TRUE(without);
   ASSERT_TRUE(with);
   EXPECT_LT(std::log(with->upper / with->lower), 0.5 * std::log(without->upper / without->lower));
-  EXPECT_LE(with->lower, bare_limit(truth));
-  EXPECT_GE(with->upper, bare_limit(truth));
+  EXPECT_LE(with->lower, critical_stiffness_of(truth));
+  EXPECT_GE(with->upper, critical_stiffness_of(truth));
   EXPECT_GT(with->omnibus.p, 1e-3);
 }
 
@@ -174,10 +174,10 @@ TEST(ResponseFit, WhatIsGivenIsAsOpenAsTheFileSays) {
   const auto width = [&] {
     const Device structure(file);
     const auto found = fit_response({.structure = structure,
-                                  .response = &lines,
-                                  .free = {"link.stiffness", "link.damping"},
-                                  .locked = {"handle"},
-                                  .known = true});
+                                     .response = &lines,
+                                     .free = {"link.stiffness", "link.damping"},
+                                     .locked = {"handle"},
+                                     .known = true});
     return found ? std::log(found->upper / found->lower) : 0.0;
   };
   const double exact = width();
@@ -216,8 +216,8 @@ TEST(ResponseFit, LimitsAloneNarrowAFile) {
   ASSERT_TRUE(narrow);
   EXPECT_GT(wide->upper / wide->lower, 1.1);
   EXPECT_LT(std::log(narrow->upper / narrow->lower), 0.5 * std::log(wide->upper / wide->lower));
-  EXPECT_LE(narrow->lower, bare_limit(truth));
-  EXPECT_GE(narrow->upper, bare_limit(truth));
+  EXPECT_LE(narrow->lower, critical_stiffness_of(truth));
+  EXPECT_GE(narrow->upper, critical_stiffness_of(truth));
   EXPECT_GT(narrow->omnibus.p, 0.01);
 }
 
@@ -245,8 +245,8 @@ TEST(ResponseFit, OfALagAloneLimitsTellAsOfADelay) {
   EXPECT_EQ(std::ranges::count(found->numbers, "actuator.time_constant", &Number::key), 0);
   EXPECT_EQ(std::ranges::count(found->numbers, "loop.delay", &Number::key), 1);
   EXPECT_NEAR(found->device.loop.delay + found->device.actuator.time_constant, 1e-3, 0.2e-3);
-  EXPECT_LE(found->lower, bare_limit(truth));
-  EXPECT_GE(found->upper, bare_limit(truth));
+  EXPECT_LE(found->lower, critical_stiffness_of(truth));
+  EXPECT_GE(found->upper, critical_stiffness_of(truth));
 }
 
 // A delay and a lag that share a known sum: neither is known, the limit is.
@@ -269,8 +269,9 @@ TEST(ResponseFit, AFileKeepsTheSumOfDelayAndLag) {
 TEST(ResponseFit, RefusesANumberThatTheFileLacks) {
   const Device structure(test::lhifam_parameters());
   const std::vector<MeasuredLimit> limits = {limit_at(structure.parameters(), 0.0, 0.05)};
-  EXPECT_THROW((void)fit_response({.structure = structure, .limits = limits, .free = {"body.nobody.mass"}, .known = true}),
-               Error);
+  EXPECT_THROW(
+      (void)fit_response({.structure = structure, .limits = limits, .free = {"body.nobody.mass"}, .known = true}),
+      Error);
 }
 
 TEST(ResponseFit, ALimitThatContradictsAFileStandsOut) {
