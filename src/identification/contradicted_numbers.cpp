@@ -42,7 +42,7 @@ std::vector<Finding> contradicted_numbers(const FoundMotion& found, const Motion
   const auto order = static_cast<Eigen::Index>(found.evidence->noise().front().filter.size()) - 1;
   const auto evidence = std::make_shared<TimeEvidence>(model, found.evidence->segments(), start.encoder_steps, order);
   evidence->set_noise(found.evidence->noise());
-  const SumOfEvidence likelihood(model.numbers(), {evidence});
+  const Likelihood likelihood(model.numbers(), {evidence});
   Eigen::VectorXd z(count + found.best.z.size());
   z << family.coordinates_of(start.device).head(count), found.best.z;
   const auto picture = likelihood.picture(z);

@@ -65,8 +65,8 @@ bool is_known(const IdentifyOptions& options) {
 }
 
 /// What the data say before anything is fitted.
-FittedLikelihood before_fit(const MeasuredResponse& measured, const Device& structure, std::vector<Finding> doubts) {
-  FittedLikelihood fit{.motion = structure.parameters().motion, .doubts_of_data = std::move(doubts)};
+VerdictInput before_fit(const MeasuredResponse& measured, const Device& structure, std::vector<Finding> doubts) {
+  VerdictInput fit{.motion = structure.parameters().motion, .doubts_of_data = std::move(doubts)};
   if (auto turned = turned_sign(measured.response)) fit.contradictions.push_back(*std::move(turned));
   for (const Finding& each : measured.trust.findings) {
     if (each.code == FindingCode::clipped_for_response) fit.doubts_of_data.push_back(each);
@@ -123,7 +123,7 @@ ParameterEstimate undetermined_estimate(const std::string& key, const Device& st
 }
 
 /// What was found, in the answer and before the judge. `known`: the structure, where its numbers are the device's.
-void take_found(const FoundDevice& found, const Device* known, Identification& result, FittedLikelihood& fit) {
+void take_found(const FoundDevice& found, const Device* known, Identification& result, VerdictInput& fit) {
   result.fit = {.device = device_of(found),
                 .estimates = estimates_of(found),
                 .correlations = correlations_of(found),
@@ -167,7 +167,7 @@ void spread_trust(const Device& structure, const IdentifyOptions& options, Ident
 
 /// The device, its analysis and the verdict on it, of what was found and is known of it.
 Identification judged(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options,
-                      std::optional<FoundDevice> found, FittedLikelihood fit, IdentifyOptions::Method method) {
+                      std::optional<FoundDevice> found, VerdictInput fit, IdentifyOptions::Method method) {
   Identification result{.source = measured.source,
                         .method = method,
                         .response = measured.response,
@@ -215,7 +215,7 @@ Identification identified_by_lines(const MeasuredResponse& measured, const Devic
                                    const IdentifyOptions& options, std::vector<Finding> doubts = {},
                                    bool motion_tells_none = false) {
   const FrequencyResponse response = band_of(measured.response, options.fit);
-  FittedLikelihood fit = before_fit(measured, structure, std::move(doubts));
+  VerdictInput fit = before_fit(measured, structure, std::move(doubts));
   fit.motion_tells_none = motion_tells_none;
   if (!fit.contradictions.empty() || is_drowned(response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::lines);
@@ -244,7 +244,7 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
     done += of_rest * (1.0 - done);
     if (progress) progress(done);
   };
-  FittedLikelihood fit = before_fit(measured, structure, doubts);
+  VerdictInput fit = before_fit(measured, structure, doubts);
   if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
     return judged(measured, structure, options, std::nullopt, std::move(fit), IdentifyOptions::Method::motion);
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
@@ -303,7 +303,7 @@ Identification identify_from_limits(const Device& structure, const IdentifyOptio
   if (fitted) found = found_device(*fitted, structure);
   MeasuredResponse none;
   none.source = "measured limits";
-  FittedLikelihood fit{.motion = structure.parameters().motion};
+  VerdictInput fit{.motion = structure.parameters().motion};
   if (fitted) fit.omnibus = fitted->omnibus;
   fit.records = {{none.source, 0.0}};
   return judged(none, structure, options, found, std::move(fit), IdentifyOptions::Method::lines);

@@ -75,14 +75,14 @@ class Search {
   Search(const MotionModel& model, std::vector<Segment> segments, const MotionStart& start,
          const MotionSearchOptions& options)
       : evidence_(std::make_shared<TimeEvidence>(model, std::move(segments), start.encoder_steps, noise_order)) {
-    std::vector<std::shared_ptr<const PartOfEvidence>> parts{evidence_};
-    if (!options.limits.empty()) parts.push_back(std::make_shared<LimitEvidence>(model.family(), options.limits));
-    all_ = std::make_unique<SumOfEvidence>(model.numbers(), std::move(parts), options.tell);
+    std::vector<std::shared_ptr<const LikelihoodTerm>> terms{evidence_};
+    if (!options.limits.empty()) terms.push_back(std::make_shared<LimitEvidence>(model.family(), options.limits));
+    all_ = std::make_unique<Likelihood>(model.numbers(), std::move(terms), options.tell);
   }
 
-  [[nodiscard]] const SumOfEvidence& likelihood() const { return *all_; }
+  [[nodiscard]] const Likelihood& likelihood() const { return *all_; }
   [[nodiscard]] const TimeEvidence& evidence() const { return *evidence_; }
-  [[nodiscard]] std::unique_ptr<SumOfEvidence> take_likelihood() { return std::move(all_); }
+  [[nodiscard]] std::unique_ptr<Likelihood> take_likelihood() { return std::move(all_); }
   [[nodiscard]] std::shared_ptr<TimeEvidence> take_evidence() { return std::move(evidence_); }
   void set_noise(std::vector<Noise> noise) { evidence_->set_noise(std::move(noise)); }
 
@@ -135,7 +135,7 @@ class Search {
   }
 
   std::shared_ptr<TimeEvidence> evidence_;
-  std::unique_ptr<SumOfEvidence> all_;
+  std::unique_ptr<Likelihood> all_;
 };
 
 /// The elements of z that are a segment's state.

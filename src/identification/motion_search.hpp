@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "identification/evidence/likelihood.hpp"
 #include "identification/evidence/limit_evidence.hpp"
-#include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
 #include "identification/motion_start.hpp"
 #include "identification/optimiser/minimise.hpp"
@@ -19,7 +19,7 @@ namespace zwidth::internal {
 struct FoundMotion {
   std::unique_ptr<MotionModel> model;
   std::shared_ptr<TimeEvidence> evidence;
-  std::unique_ptr<SumOfEvidence> likelihood;
+  std::unique_ptr<Likelihood> likelihood;
   Minimum best;
 };
 

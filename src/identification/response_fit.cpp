@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "identification/evidence/given_numbers.hpp"
+#include "identification/evidence/likelihood.hpp"
 #include "identification/evidence/limit_evidence.hpp"
 #include "identification/evidence/response_evidence.hpp"
-#include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/optimiser/minimise.hpp"
 #include "identification/response_start.hpp"
 #include "identification/verdict/confidence.hpp"
@@ -49,15 +49,15 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
   const ResponseStart start = setting.response ? start_of_response(setting) : start_of_limits(setting);
   if (start.numbers.empty()) return std::nullopt;
   const DeviceFamily family(start.device, start.numbers, setting.locked);
-  std::vector<std::shared_ptr<const PartOfEvidence>> parts;
+  std::vector<std::shared_ptr<const LikelihoodTerm>> terms;
   std::shared_ptr<ResponseEvidence> lines;
-  if (setting.response) parts.push_back(lines = std::make_shared<ResponseEvidence>(family, *setting.response));
+  if (setting.response) terms.push_back(lines = std::make_shared<ResponseEvidence>(family, *setting.response));
   const std::vector<MeasuredLimit> walls(setting.limits.begin(), setting.limits.end());
   const auto limits = std::make_shared<LimitEvidence>(family, walls);
-  if (!walls.empty()) parts.push_back(limits);
+  if (!walls.empty()) terms.push_back(limits);
   if (start.given)
-    parts.push_back(std::make_shared<GivenNumbers>(family, setting.structure.parameters(), *start.given));
-  const SumOfEvidence likelihood(family.numbers(), parts);
+    terms.push_back(std::make_shared<GivenNumbers>(family, setting.structure.parameters(), *start.given));
+  const Likelihood likelihood(family.numbers(), terms);
 
   const auto limit = [&](const Eigen::VectorXd& z) { return log_critical_stiffness(family.device_at(z)); };
   std::optional<Minimum> best = minimise(likelihood, likelihood.start(family.coordinates_of(start.device)), fine);

@@ -25,12 +25,12 @@ bool opens_most(const RivalEstimate& rival, const Interval& limit) {
 
 }  // namespace
 
-Finding undetermined(const FittedLikelihood& fit) {
+Finding undetermined(const VerdictInput& fit) {
   return {.code = FindingCode::nothing_determined,
           .subjects = {{"by", fit.records.size() <= 1 ? "record" : "recordings"}}};
 }
 
-Finding open_interval(const FittedLikelihood& fit) {
+Finding open_interval(const VerdictInput& fit) {
   constexpr double unknown = 1000.0;
   const Interval& limit = *fit.limit;
   Finding found{
@@ -50,11 +50,11 @@ Finding open_interval(const FittedLikelihood& fit) {
   return found;
 }
 
-bool was_stopped(const FittedLikelihood& fit) {
+bool was_stopped(const VerdictInput& fit) {
   return fit.last_change > Calibration::most_change * std::log(fit.limit->upper / fit.limit->lower);
 }
 
-Finding stopped_search(const FittedLikelihood& fit) {
+Finding stopped_search(const VerdictInput& fit) {
   return {.code = FindingCode::search_stopped,
           .evidence = {{"moved", std::expm1(fit.last_change)},
                        {"share", fit.last_change / std::log(fit.limit->upper / fit.limit->lower)},
@@ -90,7 +90,7 @@ Finding contradicted(const GivenDelay& delay) {
           .effect = {{"critical_stiffness", delay.stiffness}}};
 }
 
-std::optional<Finding> shown_rival(const RivalEstimate& rival, const FittedLikelihood& fit) {
+std::optional<Finding> shown_rival(const RivalEstimate& rival, const VerdictInput& fit) {
   constexpr double significant = 3.0;
   const bool is_friction = rival.code == "coulomb_friction";
   if (!is_friction && rival.code != "constant_force") return std::nullopt;

@@ -5,11 +5,11 @@
 
 namespace zwidth::internal {
 
-bool is_explained(const FittedLikelihood& fit) {
+bool is_explained(const VerdictInput& fit) {
   return !fit.motion_tells_none && !(fit.omnibus && stands_out(*fit.omnibus));
 }
 
-Verdict verdict_of(const FittedLikelihood& fit) {
+Verdict verdict_of(const VerdictInput& fit) {
   Verdict verdict;
   Trust& trust = verdict.trust;
   for (const Finding& each : fit.contradictions) trust.refuse(each);

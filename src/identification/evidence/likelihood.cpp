@@ -1,36 +1,36 @@
-#include "identification/evidence/sum_of_evidence.hpp"
+#include "identification/evidence/likelihood.hpp"
 
 #include <cstddef>
 #include <utility>
 
 namespace zwidth::internal {
 
-SumOfEvidence::SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts,
+Likelihood::Likelihood(std::vector<Number> numbers, std::vector<std::shared_ptr<const LikelihoodTerm>> terms,
                              std::function<void()> tell)
-    : numbers_(std::move(numbers)), parts_(std::move(parts)), tell_(std::move(tell)) {}
+    : numbers_(std::move(numbers)), terms_(std::move(terms)), tell_(std::move(tell)) {}
 
-Eigen::VectorXd SumOfEvidence::lowest() const {
+Eigen::VectorXd Likelihood::lowest() const {
   Eigen::VectorXd bounds(count());
   for (Eigen::Index i = 0; i < count(); ++i) bounds(i) = numbers_[static_cast<std::size_t>(i)].lowest();
-  for (const auto& part : parts_) {
-    const Eigen::VectorXd own = part->own_lowest();
+  for (const auto& term : terms_) {
+    const Eigen::VectorXd own = term->own_lowest();
     bounds.conservativeResize(bounds.size() + own.size());
     bounds.tail(own.size()) = own;
   }
   return bounds;
 }
 
-Eigen::VectorXd SumOfEvidence::start(const Eigen::VectorXd& x) const {
+Eigen::VectorXd Likelihood::start(const Eigen::VectorXd& x) const {
   Eigen::VectorXd z = x;
-  for (const auto& part : parts_) {
-    const Eigen::VectorXd own = part->own_start(x);
+  for (const auto& term : terms_) {
+    const Eigen::VectorXd own = term->own_start(x);
     z.conservativeResize(z.size() + own.size());
     z.tail(own.size()) = own;
   }
   return z;
 }
 
-std::optional<double> SumOfEvidence::cost(const Eigen::VectorXd& z) const {
+std::optional<double> Likelihood::cost(const Eigen::VectorXd& z) const {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < count(); ++i) {
     const Number& number = numbers_[static_cast<std::size_t>(i)];
@@ -38,9 +38,9 @@ std::optional<double> SumOfEvidence::cost(const Eigen::VectorXd& z) const {
     sum += 0.5 * left * left;
   }
   Eigen::Index at = count();
-  for (const auto& part : parts_) {
-    const Eigen::Index size = part->own_lowest().size();
-    const auto cost = part->cost(z.head(count()), z.segment(at, size));
+  for (const auto& term : terms_) {
+    const Eigen::Index size = term->own_lowest().size();
+    const auto cost = term->cost(z.head(count()), z.segment(at, size));
     if (!cost) return std::nullopt;
     sum += *cost;
     at += size;
@@ -48,7 +48,7 @@ std::optional<double> SumOfEvidence::cost(const Eigen::VectorXd& z) const {
   return sum;
 }
 
-std::optional<Picture> SumOfEvidence::picture(const Eigen::VectorXd& z) const {
+std::optional<Picture> Likelihood::picture(const Eigen::VectorXd& z) const {
   if (tell_) tell_();
   Picture sum{0.0, Eigen::VectorXd::Zero(z.size()), Eigen::MatrixXd::Zero(z.size(), z.size())};
   for (Eigen::Index i = 0; i < count(); ++i) {
@@ -59,9 +59,9 @@ std::optional<Picture> SumOfEvidence::picture(const Eigen::VectorXd& z) const {
     sum.hessian(i, i) += 1.0 / (number.prior_deviation * number.prior_deviation);
   }
   Eigen::Index at = count();
-  for (const auto& part : parts_) {
-    const Eigen::Index size = part->own_lowest().size();
-    if (!part->add_picture(z.head(count()), z.segment(at, size), at, sum)) return std::nullopt;
+  for (const auto& term : terms_) {
+    const Eigen::Index size = term->own_lowest().size();
+    if (!term->add_picture(z.head(count()), z.segment(at, size), at, sum)) return std::nullopt;
     at += size;
   }
   return sum;

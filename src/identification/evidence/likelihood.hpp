@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "identification/evidence/part_of_evidence.hpp"
+#include "identification/evidence/likelihood_term.hpp"
 #include "identification/model/number.hpp"
 
 namespace zwidth::internal {
@@ -14,10 +14,10 @@ namespace zwidth::internal {
 /// z: the numbers' coordinates, then the own elements of each evidence in turn.
 ///
 ///     cost(z) = sum_i ((x_i - expected_i) / deviation_i)^2 / 2 + sum of the evidences' costs
-class SumOfEvidence : public LeastSquaresProblem {
+class Likelihood : public LeastSquaresProblem {
  public:
   /// `tell` is called at each picture; what it throws ends the work.
-  SumOfEvidence(std::vector<Number> numbers, std::vector<std::shared_ptr<const PartOfEvidence>> parts,
+  Likelihood(std::vector<Number> numbers, std::vector<std::shared_ptr<const LikelihoodTerm>> terms,
                 std::function<void()> tell = {});
 
   [[nodiscard]] Eigen::VectorXd lowest() const override;
@@ -30,7 +30,7 @@ class SumOfEvidence : public LeastSquaresProblem {
   [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(numbers_.size()); }
 
   std::vector<Number> numbers_;
-  std::vector<std::shared_ptr<const PartOfEvidence>> parts_;
+  std::vector<std::shared_ptr<const LikelihoodTerm>> terms_;
   std::function<void()> tell_;
 };
 

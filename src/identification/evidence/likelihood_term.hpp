@@ -8,12 +8,12 @@
 namespace zwidth::internal {
 
 /// A part of the likelihood: what one kind of measurement says of the numbers of a fit, with elements that only it has.
-class PartOfEvidence {
+class LikelihoodTerm {
  public:
-  PartOfEvidence() = default;
-  PartOfEvidence(const PartOfEvidence&) = delete;
-  PartOfEvidence& operator=(const PartOfEvidence&) = delete;
-  virtual ~PartOfEvidence() = default;
+  LikelihoodTerm() = default;
+  LikelihoodTerm(const LikelihoodTerm&) = delete;
+  LikelihoodTerm& operator=(const LikelihoodTerm&) = delete;
+  virtual ~LikelihoodTerm() = default;
 
   /// Bounds of its own elements, one each; minus infinity where there is none.
   [[nodiscard]] virtual Eigen::VectorXd own_lowest() const = 0;

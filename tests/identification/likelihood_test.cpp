@@ -1,4 +1,4 @@
-#include "identification/evidence/sum_of_evidence.hpp"
+#include "identification/evidence/likelihood.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,10 +72,10 @@ std::vector<MeasuredLimit> exact_limits() {
   return made;
 }
 
-TEST(SumOfEvidence, GradientIsTheDifferenceOfCosts) {
+TEST(Likelihood, GradientIsTheDifferenceOfCosts) {
   const DeviceFamily family(lhifam_parameters(), free_numbers(), {});
   ASSERT_EQ(family.of_device(), 6);
-  const SumOfEvidence sum(family.numbers(), {std::make_shared<ResponseEvidence>(family, exact_lines()),
+  const Likelihood sum(family.numbers(), {std::make_shared<ResponseEvidence>(family, exact_lines()),
                                              std::make_shared<LimitEvidence>(family, exact_limits())});
   const Eigen::VectorXd z = sum.start(start_coordinates());
   const auto picture = sum.picture(z);
@@ -92,16 +92,16 @@ TEST(SumOfEvidence, GradientIsTheDifferenceOfCosts) {
   }
 }
 
-TEST(SumOfEvidence, ExactLinesGiveTheNumbersBack) {
+TEST(Likelihood, ExactLinesGiveTheNumbersBack) {
   const DeviceFamily family(lhifam_parameters(), free_numbers(), {});
-  const SumOfEvidence sum(family.numbers(), {std::make_shared<ResponseEvidence>(family, exact_lines())});
+  const Likelihood sum(family.numbers(), {std::make_shared<ResponseEvidence>(family, exact_lines())});
   const auto found = minimise(sum, sum.start(start_coordinates()), {.most_steps = 100, .least_gain = 1e-9});
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->settled);
   EXPECT_LT((found->z.head(6) - true_coordinates()).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-TEST(SumOfEvidence, LimitsBesideAFileNarrowADamping) {
+TEST(Likelihood, LimitsBesideAFileNarrowADamping) {
   std::vector<Number> numbers = free_numbers();
   for (Number& each : numbers) each.prior_deviation = 0.01;  // a file's
   numbers.back().expected = 2.0;                             // but for the link's damping, twice the truth
@@ -110,7 +110,7 @@ TEST(SumOfEvidence, LimitsBesideAFileNarrowADamping) {
   std::vector<MeasuredLimit> limits = exact_limits();
   ASSERT_EQ(limits.size(), 3U);
   for (MeasuredLimit& each : limits) each.stiffness_deviation = 0.02;
-  const SumOfEvidence sum(numbers, {std::make_shared<LimitEvidence>(family, limits)});
+  const Likelihood sum(numbers, {std::make_shared<LimitEvidence>(family, limits)});
   Eigen::VectorXd start = true_coordinates();
   start(5) = 2.0;
   const auto found = minimise(sum, start);
@@ -120,11 +120,11 @@ TEST(SumOfEvidence, LimitsBesideAFileNarrowADamping) {
   EXPECT_LT(std::abs(found->z(5) - 1.0), 2.0 * deviation);
 }
 
-TEST(SumOfEvidence, CostsAdd) {
+TEST(Likelihood, CostsAdd) {
   const DeviceFamily family(lhifam_parameters(), free_numbers(), {});
   const auto lines = std::make_shared<ResponseEvidence>(family, exact_lines());
   const auto limits = std::make_shared<LimitEvidence>(family, exact_limits());
-  const SumOfEvidence both(family.numbers(), {lines, limits});
+  const Likelihood both(family.numbers(), {lines, limits});
   const Eigen::VectorXd x = start_coordinates();
   const double sum = lines->cost(x, lines->own_start(x)).value() + limits->cost(x, Eigen::VectorXd(0)).value();
   EXPECT_NEAR(both.cost(both.start(x)).value(), sum, 1e-12 * std::abs(sum));
