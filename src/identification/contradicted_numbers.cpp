@@ -38,7 +38,7 @@ std::vector<Finding> contradicted_numbers(const FoundMotion& found, const Motion
   if (count == 0) return {};
   numbers.insert(numbers.end(), start.parts.numbers.begin(), start.parts.numbers.end());
   const DeviceFamily family(start.device, numbers, locked);
-  const MotionModel model(family, start.parts.terms, start.records, found.model->parts());
+  const MotionModel model(family, start.parts.terms, start.records, found.model->substeps());
   const auto order = static_cast<Eigen::Index>(found.evidence->noise().front().filter.size()) - 1;
   const auto evidence = std::make_shared<TimeEvidence>(model, found.evidence->segments(), start.encoder_steps, order);
   evidence->set_noise(found.evidence->noise());
