@@ -1,4 +1,4 @@
-#include "identification/verdict/bare_limit.hpp"
+#include "identification/verdict/log_critical_stiffness.hpp"
 
 #include <cmath>
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace zwidth::internal {
 
-std::optional<double> log_bare_limit(DeviceParameters device) {
+std::optional<double> log_critical_stiffness(DeviceParameters device) {
   device.wall.damping = 0.0;
   if (find_problem(device)) return std::nullopt;
   const CriticalStiffness found = critical_stiffness(Device(std::move(device)));

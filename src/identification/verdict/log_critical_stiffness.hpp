@@ -7,6 +7,6 @@
 namespace zwidth::internal {
 
 /// log K_CR, as a fit sees the limit: without the wall's damper; nothing where that is no device, or has no limit.
-[[nodiscard]] std::optional<double> log_bare_limit(DeviceParameters device);
+[[nodiscard]] std::optional<double> log_critical_stiffness(DeviceParameters device);
 
 }  // namespace zwidth::internal
