@@ -15,7 +15,7 @@
 
 namespace zwidth::internal {
 
-/// What a device is found from where no motion is fitted.
+/// What a device is found from where no motion is fitted (fit_motion()): lines of a response, measured limits, or both.
 struct ResponseFitSetting {
   const Device& structure;
   const FrequencyResponse* response = nullptr;  ///< null: limits alone
@@ -37,15 +37,15 @@ struct ResponseFit {
   double value = 0.0;           ///< K_CR of the most likely device
   double upper = 0.0;           ///< the largest
   double last_change = 0.0;     ///< as FoundDevice::last_change
-  std::vector<AddedRival> rivals = {};
-  Omnibus omnibus =
-      {};  ///< whether bands of neighbouring lines are off together by chance, and limits from what is fitted
+  std::vector<AddedRival> rivals = {};  ///< as ResponseStart::rivals
+  /// Whether bands of neighbouring lines are off together by chance, and limits from what is fitted.
+  Omnibus omnibus = {};
 };
 
 /// The most likely device of a structure, and the least and the largest critical stiffness that the data allow.
 ///
-/// Of a response: fit_parameters() is the start; beside the numbers that are free a lag (where lateness is) and a spring to the
-/// ground at the held body are fitted; what the file of a known structure gives only within its [uncertainty] is as open as that.
+/// Of a response: fit_parameters() is the start; beside the numbers that are free those of linear rivals are fitted, a lag where
+/// lateness is free, a spring to the ground at the held body; what the file of a known structure gives only within its [uncertainty] is as open as that.
 /// What is not linear does not show. Neighbouring lines of a window share their noise: the
 /// likelihood counts as so many fewer.
 /// Of limits alone: named numbers are open, all others exact, but for those of the file's [uncertainty], which is the prior. Where

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -126,6 +127,9 @@ TEST(ResponseFit, ALagIsPartOfIt) {
   EXPECT_NEAR(found->device.actuator.time_constant, 1.5e-3, 0.2e-3);
   EXPECT_NEAR(found->device.loop.delay, 0.4e-3, 0.2e-3);
   EXPECT_NEAR(found->value, critical_stiffness_of(truth), 0.03 * critical_stiffness_of(truth));
+  ASSERT_EQ(found->rivals.size(), 2U);  // those of the catalogue that are linear
+  EXPECT_EQ(found->rivals[0].code, "actuator_lag");
+  EXPECT_EQ(found->rivals[1].keys, std::vector<std::string>{"body.handle.stiffness"});
 }
 
 // A table has no period and may have no variances: what is left over all lines is the noise.
@@ -219,6 +223,7 @@ TEST(ResponseFit, LimitsAloneNarrowAFile) {
   EXPECT_LE(narrow->lower, critical_stiffness_of(truth));
   EXPECT_GE(narrow->upper, critical_stiffness_of(truth));
   EXPECT_GT(narrow->omnibus.p, 0.01);
+  EXPECT_TRUE(narrow->rivals.empty());
 }
 
 TEST(ResponseFit, TheUncertaintyOfAFileIsThePriorOfLimits) {
