@@ -28,7 +28,7 @@ struct MotionFitOptions {
 /// A device found by likelihood from its motion, and the range of its limit.
 struct MotionFit {
   FoundDevice found;
-  Omnibus omnibus;                       ///< of what it leaves
+  Omnibus omnibus;                    ///< of what it leaves
   std::vector<FittedMotion> motions;  ///< by recording
   std::optional<GivenDelay> delay;    ///< where the structure's was taken
   std::vector<Finding> contradicted;  ///< contradicted_numbers()

@@ -76,7 +76,7 @@ TEST(Likelihood, GradientIsTheDifferenceOfCosts) {
   const DeviceFamily family(lhifam_parameters(), free_numbers(), {});
   ASSERT_EQ(family.of_device(), 6);
   const Likelihood sum(family.numbers(), {std::make_shared<ResponseEvidence>(family, exact_lines()),
-                                             std::make_shared<LimitEvidence>(family, exact_limits())});
+                                          std::make_shared<LimitEvidence>(family, exact_limits())});
   const Eigen::VectorXd z = sum.start(start_coordinates());
   const auto picture = sum.picture(z);
   ASSERT_TRUE(picture);

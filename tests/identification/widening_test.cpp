@@ -72,8 +72,8 @@ TEST(Widening, AResidualThatRepeatsCountsOnce) {
   const Eigen::Index length = 400;
   std::vector<double> once(static_cast<std::size_t>(length));
   for (double& each : once) each = normal(random);
-  std::vector<SegmentResiduals> left = left_of([&](Eigen::Index k) { return once[static_cast<std::size_t>(k % length)]; },
-                                       static_cast<std::size_t>(length));
+  std::vector<SegmentResiduals> left = left_of(
+      [&](Eigen::Index k) { return once[static_cast<std::size_t>(k % length)]; }, static_cast<std::size_t>(length));
   for (Eigen::Index k = 0; k < rows; ++k)
     left[0].shared(k, 0) = std::sin(2.0 * std::numbers::pi * 7.0 * static_cast<double>(k) / length);
   // Ten periods are worth one: about sqrt(10).

@@ -6,7 +6,7 @@
 namespace zwidth::internal {
 
 Likelihood::Likelihood(std::vector<Number> numbers, std::vector<std::shared_ptr<const LikelihoodTerm>> terms,
-                             std::function<void()> tell)
+                       std::function<void()> tell)
     : numbers_(std::move(numbers)), terms_(std::move(terms)), tell_(std::move(tell)) {}
 
 Eigen::VectorXd Likelihood::lowest() const {

@@ -18,7 +18,7 @@ class Likelihood : public LeastSquaresProblem {
  public:
   /// `tell` is called at each picture; what it throws ends the work.
   Likelihood(std::vector<Number> numbers, std::vector<std::shared_ptr<const LikelihoodTerm>> terms,
-                std::function<void()> tell = {});
+             std::function<void()> tell = {});
 
   [[nodiscard]] Eigen::VectorXd lowest() const override;
   [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& z) const override;
