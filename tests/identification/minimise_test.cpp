@@ -1,4 +1,4 @@
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/fit/bounded_step.hpp"
+#include "identification/optimiser/bounded_step.hpp"
 
 namespace zwidth::internal {
 namespace {

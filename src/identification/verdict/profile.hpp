@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "identification/fit/least_squares_problem.hpp"
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/least_squares_problem.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 namespace zwidth::internal {
 
