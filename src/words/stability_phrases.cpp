@@ -50,8 +50,8 @@ std::span<const Phrase> stability_phrases() {
              "", "shorten the delay of the spring, or run it less often"},
       Phrase{left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
              "{?what=disk|the disk margin}{?what=gain|the gain margin of stiffness and damping "
-             "together}{?what=long_delays|a "
-             "delay margin of many periods}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
+             "together}{?what=long_delays|a delay margin that its search of 16 periods and 80 states did not "
+             "reach}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
              "limit over all passive users}{?what=any_user_slopes|how the limit over all passive users "
              "changes}{?what=relay|a relay's exact oscillation} is left "
              "out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
