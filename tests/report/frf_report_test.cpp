@@ -112,7 +112,7 @@ TEST(FrfText, SaysTheAnswerWithItsIntervalAndEveryRemark) {
 
 TEST(FrfCsv, HasOneRowPerLineWithAllDigits) {
   MeasuredResponse measured = example();
-  measured.trust.doubt({.code = FindingCode::interval_open});
+  measured.trust.doubt({.code = FindingCode::limit_outside_band});
   const FrequencyResponse& response = measured.response;
   std::istringstream rows(frf_csv(measured));
   std::string row;
