@@ -115,7 +115,7 @@ TEST(TwoRates, LimitsSayWhatIsLeftOut) {
   for (const Remark& remark : analysis.remarks) {
     left_out += remark.finding && remark.finding->code == FindingCode::left_out_beside_damper_loop ? 1 : 0;
   }
-  EXPECT_EQ(left_out, 2);  // Q, disk margin
+  EXPECT_EQ(left_out, 3);  // Q, disk margin, gain margin
   EXPECT_EQ(analysis.critical.limit->limited_by.kind, Mechanism::Kind::vibration_mode);
 }
 

@@ -19,7 +19,7 @@ constexpr double lowest_slice = 1e-6;
 constexpr double first_among = 0.03;
 constexpr double last_among = 2.0;
 constexpr double highest_slice = 30.0;
-constexpr double slow_angle = 0.01;  // rad a period inside
+constexpr double slow_angle = 0.1;  // rad a period inside
 constexpr int even_slices = 20;
 constexpr double beyond_stable = 1.5;  // of the largest stable gain outside
 
@@ -54,6 +54,8 @@ Scales scales_of(const TwoRateCurve& curve) {
     if (unstable_poles(alone, 0.5 * (lower + each.gain)) == 0) scales.greatest = std::max(scales.greatest, each.gain);
     lower = each.gain;
   }
+  constexpr double near = 1e3;
+  if (scales.greatest < near * scales.least) scales.least = scales.greatest;
   return scales;
 }
 
