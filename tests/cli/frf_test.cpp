@@ -352,7 +352,8 @@ class MotorBench : public Frf {
     EXPECT_GE(found["critical_stiffness_interval"][1], 301.7) << options;
     EXPECT_NEAR(found["critical_frequency_hz"], 81.2, 1.0) << options;
     EXPECT_EQ(found["crossovers"].size(), 3U) << options;
-    for (const auto& [index, known] : {std::pair{0, 28.56}, std::pair{1, 46.9}}) {
+    using Known = std::pair<std::size_t, double>;
+    for (const auto& [index, known] : {Known{0, 28.56}, Known{1, 46.9}}) {
       EXPECT_LE(found["crossovers"][index]["frequency_interval_hz"][0], known) << options;
       EXPECT_GE(found["crossovers"][index]["frequency_interval_hz"][1], known) << options;
     }
