@@ -128,7 +128,8 @@ void TwoRateStructure::add_branches(TwoRateChain chain) {
   if (nodes.size() < 2) return;
   if (chain.is_closed) {  // it begins where B is greatest
     nodes.pop_back();
-    std::ranges::rotate(nodes, std::ranges::max_element(nodes, {}, [](const Node& each) { return each.wall.damping; }));
+    const auto greatest = std::ranges::max_element(nodes, {}, [](const Node& each) { return each.wall.damping; });
+    std::rotate(nodes.begin(), greatest, nodes.end());
     const Node turn = turn_between(nodes.back(), nodes[1]);
     nodes.front() = turn;
     nodes.push_back(turn);
@@ -336,7 +337,8 @@ bool TwoRateStructure::is_curved(const RegionEdge& edge) const {
 std::vector<Node> TwoRateStructure::nodes_between(std::size_t branch, const Node& first, const Node& last) const {
   std::vector<Node> nodes = branches[branch].nodes();
   const bool rises = nodes.back().wall.damping > nodes.front().wall.damping;
-  const auto [low, high] = std::minmax({first.wall.damping, last.wall.damping});
+  const double low = std::min(first.wall.damping, last.wall.damping);
+  const double high = std::max(first.wall.damping, last.wall.damping);
   std::erase_if(nodes, [&](const Node& each) { return each.wall.damping <= low || each.wall.damping >= high; });
   if (rises != (last.wall.damping > first.wall.damping)) std::ranges::reverse(nodes);
   return nodes;
