@@ -63,7 +63,7 @@ double variance_of(const Terms& terms) {
 
 /// By time, samples of a repeated force at one phase as one.
 Terms by_time(const SegmentResiduals& segment, const Eigen::VectorXd& weights) {
-  const std::size_t rows = static_cast<std::size_t>(weights.size());
+  const auto rows = static_cast<std::size_t>(weights.size());
   const std::size_t length = segment.period == 0 ? rows : std::min(rows, segment.period);
   Terms terms{std::vector<double>(length, 0.0), std::vector<double>(length, 0.0)};
   for (std::size_t k = 0; k < rows; ++k) {
