@@ -115,7 +115,9 @@ TEST(FrfText, SaysTheAnswerWithItsIntervalAndEveryRemark) {
 
 TEST(FrfCsv, HasOneRowPerLineWithAllDigits) {
   MeasuredResponse measured = example();
-  measured.trust.doubt({.code = FindingCode::limit_outside_band});
+  measured.trust.doubt({.code = FindingCode::limit_outside_band,
+                        .evidence = {{"frequency", 50.0}, {"lowest", 1.0}, {"highest", 41.0}},
+                        .subjects = {{"side", "above"}}});
   const FrequencyResponse& response = measured.response;
   std::istringstream rows(frf_csv(measured));
   std::string row;
