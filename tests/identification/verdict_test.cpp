@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -71,15 +72,15 @@ TEST(Verdict, DoubtsWhatStandsOut) {
 // The interval is 0.41 wide by its logarithm.
 TEST(Verdict, DoubtsASearchThatWasStoppedOnItsWay) {
   VerdictInput fit = narrow_fit();
-  fit.last_change = 0.019;
+  fit.last_change = 0.19;
   EXPECT_TRUE(verdict_of(fit).trust.sound());
-  fit.last_change = 0.022;
+  fit.last_change = 0.22;
   const Trust stopped = verdict_of(fit).trust;
   EXPECT_EQ(stopped.verdict, Trust::Verdict::doubtful);
   ASSERT_EQ(stopped.findings.size(), 1U);
   EXPECT_EQ(stopped.findings[0].code, FindingCode::search_stopped);
   EXPECT_EQ(stopped.findings[0].evidence.at(0).name, "moved");
-  EXPECT_NEAR(stopped.findings[0].evidence.at(0).value, 0.0222, 1e-4);
+  EXPECT_NEAR(stopped.findings[0].evidence.at(0).value, std::expm1(0.22), 1e-12);
 }
 
 TEST(Verdict, DoubtsLinesWhereTheMotionTellsOfNoLimit) {

@@ -17,8 +17,9 @@ struct Calibration {
   static constexpr double least_p = 1e-4;
   /// Of the upper end of the critical stiffness's interval to the lower: above, the interval is too wide.
   static constexpr double widest_interval = 1.5;
-  /// Of the interval, by logarithms: a search that was stopped after a step which moved the limit by more has not come to its end.
-  static constexpr double most_change = 0.05;
+  /// Of the interval, by logarithms: a search that was stopped after a step which moved the limit by more has not come to its end. An
+  /// end of the interval that was stopped lies as far out again; at 0.05, 2 of 8 right records were doubted for such a step.
+  static constexpr double most_change = 0.5;
   /// Lags of the force whose correlation with the residuals is tested, samples: forces that came before. Those of the same sample
   /// and later hang on the position's noise where a controller makes them (Ljung 1999, 13.4). Dense where a response begins, a
   /// factor of about 1.4 apart later: neighbours there tell the same of a smooth force.
