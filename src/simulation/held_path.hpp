@@ -68,20 +68,20 @@ class RunningPath {
   }
 
   // Undisturbed, by the schedule.
-  void send() noexcept {
-    line_[oldest_] = asked;  // whole samples behind the next one to leave
+  void send(double force) noexcept {
+    line_[oldest_] = force;  // whole samples behind the next one to leave
     oldest_ = oldest_ + 1 == line_.size() ? 0 : oldest_ + 1;
   }
-  void arrive() noexcept { held = line_[oldest_]; }
+  double arrive() noexcept { return held = line_[oldest_]; }
 
   // With faults: `within` s of a tick, late by so much.
-  void send(std::size_t now, double within, double late, double tick) noexcept {
+  void send(double force, std::size_t now, double within, double late, double tick) noexcept {
     const double arrival = within + (delay_ + late);
     const double whole = std::floor(arrival / tick);
-    under_way_.push({now + static_cast<std::size_t>(whole), std::max(0.0, std::fma(-whole, tick, arrival)), asked});
+    under_way_.push({now + static_cast<std::size_t>(whole), std::max(0.0, std::fma(-whole, tick, arrival)), force});
   }
   [[nodiscard]] double next_arrival(std::size_t tick) const noexcept { return under_way_.next_arrival(tick); }
-  void arrive_late() noexcept { held = under_way_.pop(); }
+  double arrive_late() noexcept { return held = under_way_.pop(); }
 
   double asked = 0.0;  // at the last read
   double held = 0.0;   // that has arrived
