@@ -12,7 +12,7 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-/// Calls visit(key, member) for every number that a key names; a member is a double or an optional<double>.
+/// Calls visit(path, name, member) for every number that a key names; a member is a double or an optional<double>.
 template <typename Parameters, typename Visitor>
 void visit_parameters(Parameters& parameters, Visitor&& visit) {
   const auto visit_table = [&](DeviceTable kind, const std::string& path, auto& table) {
@@ -21,7 +21,7 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(table)>, WallFilter>) {
           if (!is_number_of(table, key.name)) return;
         }
-        visit(std::string(path).append(1, '.').append(key.name), member);
+        visit(path, key.name, member);
       }
     });
   };
@@ -46,6 +46,12 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   if (!parameters.transfer_function) visit_table(DeviceTable::user, "operator", parameters.user);
 }
 
+/// Whether that is path.name.
+bool is_key(std::string_view wanted, const std::string& path, std::string_view name) {
+  return wanted.size() == path.size() + 1 + name.size() && wanted.starts_with(path) && wanted[path.size()] == '.' &&
+         wanted.ends_with(name);
+}
+
 }  // namespace
 
 std::string without_alias(std::string_view key) {
@@ -66,15 +72,17 @@ std::string full_parameter_key(const DeviceParameters& parameters, std::string_v
 
 std::vector<std::string> parameter_keys(const DeviceParameters& parameters) {
   std::vector<std::string> keys;
-  visit_parameters(parameters, [&](const std::string& key, const auto&) { keys.push_back(key); });
+  visit_parameters(parameters, [&](const std::string& path, std::string_view name, const auto&) {
+    keys.push_back(fmt::format("{}.{}", path, name));
+  });
   return keys;
 }
 
 std::optional<double> parameter(const DeviceParameters& parameters, std::string_view key) {
   std::optional<double> found;
   const std::string wanted = full_parameter_key(parameters, key);
-  visit_parameters(parameters, [&](const std::string& each, const auto& value) {
-    if (each == wanted) found = value;
+  visit_parameters(parameters, [&](const std::string& path, std::string_view name, const auto& value) {
+    if (is_key(wanted, path, name)) found = value;
   });
   return found;
 }
@@ -82,8 +90,8 @@ std::optional<double> parameter(const DeviceParameters& parameters, std::string_
 void set_parameter(DeviceParameters& parameters, std::string_view key, double value) {
   bool found = false;
   const std::string wanted = full_parameter_key(parameters, key);
-  visit_parameters(parameters, [&](const std::string& each, auto& member) {
-    if (each != wanted) return;
+  visit_parameters(parameters, [&](const std::string& path, std::string_view name, auto& member) {
+    if (!is_key(wanted, path, name)) return;
     member = value;
     found = true;
   });
