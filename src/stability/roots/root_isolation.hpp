@@ -71,9 +71,10 @@ double polish(const Function& f, const Interval& interval) {
   const auto close_enough = [](double a, double b) {
     return std::abs(b - a) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b);
   };
-  if (!interval.extended && interval.end <= nearest_pi) {
+  const double end = std::min(interval.end, nearest_pi);
+  if (!interval.extended && interval.begin < end) {
     const double first = angle_of(interval.begin);
-    const double last = angle_of(interval.end);
+    const double last = angle_of(end);
     const double at_first = f.value(first);
     const double at_last = f.value(last);
     if ((at_first > 0.0) != (at_last > 0.0) && at_first != 0.0 && at_last != 0.0) {
