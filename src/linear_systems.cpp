@@ -1,6 +1,7 @@
 #include "linear_systems.hpp"
 
 #include <Eigen/Dense>
+#include <cmath>
 
 namespace zwidth::internal {
 
@@ -12,7 +13,21 @@ Eigen::VectorXcd solve_complex(const Eigen::MatrixXcd& matrix, const Eigen::Vect
   return matrix.fullPivLu().solve(right);
 }
 
+Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  return matrix.ldlt().solve(right);
+}
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) { return matrix.fullPivLu().inverse(); }
+
+Eigen::MatrixXd inverse_of_symmetric(const Eigen::MatrixXd& matrix) {
+  return matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+}
+
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  return matrix.colPivHouseholderQr().solve(right);
+}
+
+Eigen::MatrixXd least_squares_of_columns(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
   return matrix.colPivHouseholderQr().solve(right);
 }
 
@@ -39,6 +54,13 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix, double rank_tol
   qr.setThreshold(rank_tolerance);
   const Eigen::MatrixXd first = Eigen::MatrixXd::Identity(matrix.rows(), qr.rank());
   return qr.householderQ() * first;
+}
+
+Eigen::MatrixXd basis_above(const Eigen::MatrixXd& matrix, double least) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+  Eigen::Index rank = 0;
+  while (rank < matrix.cols() && std::abs(qr.matrixQR()(rank, rank)) > least) ++rank;
+  return qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), rank);
 }
 
 Eigen::MatrixXd inverse_of_squares(const Eigen::MatrixXd& matrix) {

@@ -13,8 +13,18 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& righ
 /// x of M x = b by LU factors with complete pivoting.
 Eigen::VectorXcd solve_complex(const Eigen::MatrixXcd& matrix, const Eigen::VectorXcd& right);
 
-/// x of least |M x - b|.
+/// x of M x = b by L D L^T. M is symmetric; its lower triangle is read.
+Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+/// By LU factors with complete pivoting.
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
+
+/// By L D L^T, of a symmetric matrix; its lower triangle is read.
+Eigen::MatrixXd inverse_of_symmetric(const Eigen::MatrixXd& matrix);
+
+/// x of least |M x - b|, or one for each column.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+Eigen::MatrixXd least_squares_of_columns(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
 
 /// x of least |M x - b|, the shortest where M lacks rank, and the length of each row of M's pseudo-inverse: the
 /// standard deviation of that unknown where the entries of b are independent and of deviation 1.
@@ -30,6 +40,9 @@ Eigen::MatrixXd outside_span(const Eigen::MatrixXd& columns, const Eigen::Matrix
 
 /// Orthonormal columns that span the matrix's, of which the rank counts the pivots above `rank_tolerance` of the largest.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix, double rank_tolerance);
+
+/// Orthonormal columns that span those of the matrix whose pivots are above `least`.
+Eigen::MatrixXd basis_above(const Eigen::MatrixXd& matrix, double least);
 
 /// (M^T M)^{-1}. M has full rank.
 Eigen::MatrixXd inverse_of_squares(const Eigen::MatrixXd& matrix);

@@ -93,3 +93,13 @@ set(skipped
   "^RecordedUff\\."
   "^RecordedResponse\\."
   "^Study\\.(ADiskThat|AFolderThatMayNot|IsTheSameForAnyNumberOfRanks|OfSeveralRanks|GoesOnAfterALostRank)")
+# What begins first, for it takes a quarter of a minute or more: at the end of a run one processor would wait for it.
+set(long
+  "^Hostile\\.SlowClients"
+  "CampaignRecords"
+  "^Frame\\.EveryHelp"
+  "^UdpDriver\\.Identification"
+  "^MotorBench\\.ItsMotion"
+  "^ServedDocuments\\.AreThose"
+  "^Bench/IdentifiedDevice\\."
+  "^Study\\.GoesOn")

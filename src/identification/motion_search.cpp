@@ -1,6 +1,6 @@
 #include "identification/motion_search.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +8,7 @@
 
 #include "identification/model/number_keys.hpp"
 #include "identification/verdict/profile.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -180,7 +181,7 @@ bool rubs(const MotionModel& model, const Minimum& found) {
   const Eigen::VectorXd frictions = found.z(places);
   if (!(frictions.array() > least).any()) return false;
   const Eigen::MatrixXd covariance = covariance_of(found.picture.hessian)(places, places);
-  return frictions.dot(covariance.ldlt().solve(frictions)) > clear;
+  return frictions.dot(solve_symmetric(covariance, frictions)) > clear;
 }
 
 /// Whether numbers of the device differ by more than a quarter of a deviation.

@@ -1,6 +1,6 @@
 #include "identification/response_fit.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,6 +16,7 @@
 #include "identification/verdict/line_bands.hpp"
 #include "identification/verdict/log_critical_stiffness.hpp"
 #include "identification/verdict/profile.hpp"
+#include "linear_systems.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 
 namespace zwidth::internal {
@@ -34,9 +35,9 @@ Eigen::MatrixXd moved_covariance(const LeastSquaresProblem& problem, const Minim
     hessian(i, i) = 1.0;
     held.push_back(i);
   }
-  Eigen::MatrixXd inverse = hessian.fullPivLu().inverse();
-  for (const Eigen::Index i : held) inverse(i, i) = 0.0;
-  return inverse.topLeftCorner(count, count);
+  Eigen::MatrixXd covariance = inverse(hessian);
+  for (const Eigen::Index i : held) covariance(i, i) = 0.0;
+  return covariance.topLeftCorner(count, count);
 }
 
 }  // namespace
@@ -90,7 +91,7 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
     left.sum += lines ? 2.0 * limits->cost(found.x, {}).value_or(0.0) : 2.0 * best->picture.cost;
     for (const MeasuredLimit& each : walls) left.freedom += each.frequency_hz ? 2.0 : 1.0;
   }
-  found.covariance = shared * best->picture.hessian.fullPivLu().inverse().topLeftCorner(count, count);
+  found.covariance = shared * inverse(best->picture.hessian).topLeftCorner(count, count);
   // Neighbouring lines that are off together are fewer than they count.
   const double together = left.freedom > 0.0 ? std::sqrt(std::max(1.0, left.sum / left.freedom)) : 1.0;
   const double middle = *limit(best->z);

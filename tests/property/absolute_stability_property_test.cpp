@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <string>
 
+#include "property/property_cases.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -18,9 +19,8 @@ constexpr std::size_t users_per_device = 20;
 constexpr double rounding = 3e-6;  // of the limit towards w = 0, and of a K_CR with a user of widely spread values
 
 std::size_t device_count() {
-  const char* wish = std::getenv("ZWIDTH_PROPERTY_CASES");
-  const std::size_t users = wish != nullptr ? std::strtoul(wish, nullptr, 10) : 10000;
-  return std::max<std::size_t>(1, std::min<std::size_t>(users, 10000) / users_per_device);
+  constexpr std::size_t most = 10000;
+  return std::max<std::size_t>(1, std::min(test::property_cases(2500), most) / users_per_device);
 }
 
 /// The device held by a network of up to three bodies (order 6) and a mass, damper and spring to ground.

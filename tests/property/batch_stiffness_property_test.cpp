@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "property/property_cases.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -24,16 +25,7 @@ constexpr std::string_view kinds[] = {"rigid",           "two_mass",         "us
                                       "virtual_damper",  "operator",         "grounded",      "rotary",
                                       "filtered_damper", "actuator_lag",     "overdamped",    "stiff_link"};
 
-// Devices in all; ZWIDTH_PROPERTY_CASES overrides.
-std::size_t cases_per_kind() {
-  const char* wish = std::getenv("ZWIDTH_PROPERTY_CASES");
-#ifdef NDEBUG
-  const std::size_t all = wish != nullptr ? std::strtoul(wish, nullptr, 10) : 1'000'000;
-#else
-  const std::size_t all = wish != nullptr ? std::strtoul(wish, nullptr, 10) : 2000;
-#endif
-  return std::max<std::size_t>(1, all / std::size(kinds));
-}
+std::size_t cases_per_kind() { return std::max<std::size_t>(1, test::property_cases(20'000) / std::size(kinds)); }
 
 // Every number of devices of one structure.
 struct Columns {

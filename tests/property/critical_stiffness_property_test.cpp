@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 
+#include "property/property_cases.hpp"
 #include "property/random_devices.hpp"
 #include "stability/second_route/pole_count.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
@@ -17,15 +17,8 @@
 namespace zwidth {
 namespace {
 
-// Devices in all; ZWIDTH_PROPERTY_CASES overrides (sanitizer builds run fewer).
 std::size_t cases_per_kind() {
-  const char* wish = std::getenv("ZWIDTH_PROPERTY_CASES");
-#ifdef NDEBUG
-  const std::size_t all = wish != nullptr ? std::strtoul(wish, nullptr, 10) : 100000;
-#else
-  const std::size_t all = wish != nullptr ? std::strtoul(wish, nullptr, 10) : 2000;
-#endif
-  return std::max<std::size_t>(1, all / test::device_kinds.size());
+  return std::max<std::size_t>(1, test::property_cases(10'000) / test::device_kinds.size());
 }
 
 CriticalStiffness critical_stiffness_of(const Device& device) {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "exact_closed_loop.hpp"
+#include "property/property_cases.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -14,15 +14,7 @@ namespace zwidth {
 namespace {
 
 // A count takes milliseconds, of long chains tenths of a second.
-std::size_t cases_per_kind() {
-  const char* wish = std::getenv("ZWIDTH_PROPERTY_CASES");
-#ifdef NDEBUG
-  const std::size_t all = wish != nullptr ? std::strtoul(wish, nullptr, 10) : 100000;
-#else
-  const std::size_t all = wish != nullptr ? std::strtoul(wish, nullptr, 10) : 2000;
-#endif
-  return std::max<std::size_t>(2, all / 2000);
-}
+std::size_t cases_per_kind() { return std::max<std::size_t>(2, test::property_cases(10'000) / 2000); }
 
 class CrowdedPolesProperty : public testing::TestWithParam<std::string_view> {};
 

@@ -198,9 +198,38 @@ def disk(root):
                 yield path, number, "writes a file beside outputs.hpp"
 
 
+# The header of each name of the standard library that public headers may use.
+STANDARD = {
+    "array": "array", "complex": "complex", "function": "functional", "int16_t": "cstdint", "int8_t": "cstdint", "move": "utility",
+    "nullopt": "optional", "numbers": "numbers", "numeric_limits": "limits", "optional": "optional", "runtime_error": "stdexcept",
+    "shared_ptr": "memory", "size_t": "cstddef", "span": "span", "string": "string", "string_view": "string_view",
+    "uint16_t": "cstdint", "uint32_t": "cstdint", "uint64_t": "cstdint", "uint8_t": "cstdint", "unique_ptr": "memory", "vector": "vector",
+}  # fmt: skip
+
+
+def included_by(path, include, seen):
+    """The headers in <> that a public header includes, itself or through others of the project."""
+    seen.add(path)
+    text = path.read_text(encoding="utf-8")
+    found = set(re.findall(r"#include <([^>]+)>", text))
+    for other in re.findall(r'#include "([^"]+)"', text):
+        if (other_path := include / other) not in seen and other_path.exists():
+            found |= included_by(other_path, include, seen)
+    return found
+
+
 def headers(root):
-    """zwidth.hpp has every public header."""
+    """zwidth.hpp has every public header; each includes what it names of the standard library (the build compiles each alone, but with
+    the standard library's headers compiled before)."""
     include = root / "include"
+    for path in files(root, "include"):
+        included = included_by(path, include, set())
+        for number, line in lines(path):
+            for name in re.findall(r"\bstd::(\w+)", line.partition("//")[0]):
+                if name not in STANDARD:
+                    yield path, number, f"std::{name} is not in the table STANDARD of check_rules.py"
+                elif STANDARD[name] not in included:
+                    yield path, number, f"std::{name} without <{STANDARD[name]}>"
     all_of_them = (include / "zwidth/zwidth.hpp").read_text(encoding="utf-8")
     for path in files(root, "include"):
         if path.name != "zwidth.hpp" and f'#include "{path.relative_to(include).as_posix()}"' not in all_of_them:

@@ -1,9 +1,10 @@
 #include "identification/evidence/given_numbers.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 
+#include "eigenvalues.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -19,12 +20,12 @@ GivenNumbers::GivenNumbers(const DeviceFamily& family, const DeviceParameters& f
     }
   }
   const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * covariance * scale.asDiagonal());
+  const SymmetricEigen eigen = symmetric_eigen(scale.asDiagonal() * covariance * scale.asDiagonal());
   Eigen::Index left_out = 0;
-  while (left_out < count && solver.eigenvalues()(left_out) < no_width) ++left_out;
+  while (left_out < count && eigen.values(left_out) < no_width) ++left_out;
   const Eigen::Index kept = count - left_out;
-  whitening_ = solver.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() *
-               solver.eigenvectors().rightCols(kept).transpose() * scale.asDiagonal();
+  whitening_ = eigen.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() *
+               eigen.vectors.rightCols(kept).transpose() * scale.asDiagonal();
 }
 
 Eigen::VectorXd GivenNumbers::values_of(const DeviceParameters& device) const {

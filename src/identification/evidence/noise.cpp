@@ -1,10 +1,11 @@
 #include "identification/evidence/noise.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "identification/model/row_sums.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -106,7 +107,7 @@ Noise noise_of(const std::vector<const Eigen::VectorXd*>& residuals, double step
     normal(i, i) += least / terms * normal(0, 0) + 1e-300;
   }
   const Eigen::VectorXd past =
-      normal.bottomRightCorner(size - 1, size - 1).ldlt().solve(normal.bottomLeftCorner(size - 1, 1));
+      solve_symmetric(normal.bottomRightCorner(size - 1, size - 1), normal.bottomLeftCorner(size - 1, 1));
   Noise noise;
   double gain = 1.0;  // of white noise
   for (Eigen::Index i = 0; i < size - 1; ++i) {

@@ -1,8 +1,10 @@
 #include "identification/optimiser/bounded_step.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <optional>
+
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -27,7 +29,7 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gr
   const Eigen::VectorXd unit = own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   own = (unit.asDiagonal() * own * unit.asDiagonal()).eval();
   own.diagonal().array() += least;
-  step(free) = unit.cwiseProduct(own.ldlt().solve(unit.cwiseProduct(right)));
+  step(free) = unit.cwiseProduct(solve_symmetric(own, unit.cwiseProduct(right)));
   return step;
 }
 

@@ -1,9 +1,10 @@
 #include "identification/verdict/limit_instant.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 
 #include "identification/verdict/confidence.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 
@@ -28,7 +29,7 @@ std::optional<double> limit_instant(
     };
     by(i) = (fall_at(step) - fall_at(-step)) / (2.0 * step);
   }
-  const double variance = by.dot(minimum.picture.hessian.ldlt().solve(by));
+  const double variance = by.dot(solve_symmetric(minimum.picture.hessian, by));
   return half + std::max(0.0, 1.0 - chi_squared_of_95 * variance / (fall * fall)) * (softer - half);
 }
 

@@ -1,11 +1,12 @@
 #include "identification/verdict/line_bands.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstddef>
 
+#include "eigenvalues.hpp"
 #include "identification/evidence/difference_slopes.hpp"
 
 namespace zwidth::internal {
@@ -47,12 +48,12 @@ SumOfSquares squares_of_bands(const DeviceFamily& family, const ResponseEvidence
   }
   const Eigen::MatrixXd left =
       Eigen::MatrixXd::Identity(2 * bands, 2 * bands) - sums_of_slopes * covariance * sums_of_slopes.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(left);
+  const SymmetricEigen eigen = symmetric_eigen(left);
   SumOfSquares result;
   for (Eigen::Index i = 0; i < 2 * bands; ++i) {
-    const double share = solver.eigenvalues()(i);
+    const double share = eigen.values(i);
     if (share < least_share) continue;
-    result.sum += std::pow(solver.eigenvectors().col(i).dot(sums), 2) / share;
+    result.sum += std::pow(eigen.vectors.col(i).dot(sums), 2) / share;
     result.freedom += 1.0;
   }
   result.sum /= shared_noise(response);

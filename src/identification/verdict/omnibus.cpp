@@ -1,6 +1,6 @@
 #include "identification/verdict/omnibus.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <span>
 
 #include "identification/verdict/calibration.hpp"
+#include "linear_systems.hpp"
 #include "signal/fourier.hpp"
 
 namespace zwidth::internal {
@@ -35,10 +36,7 @@ Columns stacked(const std::vector<SegmentResiduals>& segments, Columns SegmentRe
 /// An orthonormal basis of what columns have beyond `least` of their size.
 Columns basis_of(Columns columns, const Eigen::VectorXd& sizes, double least) {
   for (Eigen::Index j = 0; j < columns.cols(); ++j) columns.col(j) /= std::max(sizes(j), 1e-300);
-  Eigen::ColPivHouseholderQR<Columns> decomposition(columns);
-  Eigen::Index rank = 0;
-  while (rank < columns.cols() && std::abs(decomposition.matrixQR()(rank, rank)) > least) ++rank;
-  return decomposition.householderQ() * Columns::Identity(columns.rows(), rank);
+  return basis_above(columns, least);
 }
 
 /// What is fitted: states of each segment, and the numbers.
@@ -123,7 +121,7 @@ std::optional<Tested> tested(Omnibus::Kind kind, const Eigen::VectorXd& residual
   const auto freedom = static_cast<int>(candidates.cols());
   if (freedom == 0) return std::nullopt;
   const Score score = score_of(residuals, candidates, segments);
-  const Eigen::VectorXd direction = score.covariance.ldlt().solve(score.sum);
+  const Eigen::VectorXd direction = solve_symmetric(score.covariance, score.sum);
   const double statistic = score.sum.dot(direction);
   if (!std::isfinite(statistic)) return std::nullopt;
   const boost::math::chi_squared law(freedom);

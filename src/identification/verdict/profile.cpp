@@ -1,11 +1,12 @@
 #include "identification/verdict/profile.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "identification/optimiser/bounded_step.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -125,8 +126,7 @@ Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& hessian) {
   const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
   scaled.diagonal().array() += least;
-  const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
-  return unit.asDiagonal() * inverse * unit.asDiagonal();
+  return unit.asDiagonal() * inverse_of_symmetric(scaled) * unit.asDiagonal();
 }
 
 }  // namespace zwidth::internal

@@ -1,6 +1,6 @@
 #include "identification/verdict/widening.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -8,6 +8,7 @@
 
 #include "identification/verdict/calibration.hpp"
 #include "identification/verdict/confidence.hpp"
+#include "linear_systems.hpp"
 #include "signal/fourier.hpp"
 
 namespace zwidth::internal {
@@ -16,11 +17,11 @@ namespace {
 /// Weights of the residuals in the limit, by segment.
 std::vector<Eigen::VectorXd> weights_of(const std::vector<SegmentResiduals>& segments, const Eigen::VectorXd& slope,
                                         const Eigen::MatrixXd& hessian) {
-  const Eigen::VectorXd direction = hessian.ldlt().solve(slope);
+  const Eigen::VectorXd direction = solve_symmetric(hessian, slope);
   std::vector<Eigen::VectorXd> weights;
   for (const SegmentResiduals& each : segments) {
     const Eigen::VectorXd moved = each.shared * direction;
-    weights.emplace_back(moved - each.own * each.own.colPivHouseholderQr().solve(moved));
+    weights.emplace_back(moved - each.own * least_squares(each.own, moved));
   }
   return weights;
 }
@@ -29,7 +30,7 @@ std::vector<Eigen::VectorXd> weights_of(const std::vector<SegmentResiduals>& seg
 Eigen::MatrixXd hessian_of(const std::vector<SegmentResiduals>& segments, const Eigen::VectorXd& precision) {
   Eigen::MatrixXd hessian = precision.asDiagonal();
   for (const SegmentResiduals& each : segments) {
-    const Eigen::MatrixXd rest = each.shared - each.own * each.own.colPivHouseholderQr().solve(each.shared);
+    const Eigen::MatrixXd rest = each.shared - each.own * least_squares_of_columns(each.own, each.shared);
     hessian.selfadjointView<Eigen::Lower>().rankUpdate(rest.transpose());
   }
   hessian.triangularView<Eigen::StrictlyUpper>() = hessian.transpose();
@@ -107,7 +108,7 @@ double widening(const std::vector<SegmentResiduals>& segments, const LimitSlope&
     of_time += variance_of(by_time(segments[i], weights[i]));
     of_frequency += variance_of(by_frequency(segments[i], weights[i]));
   }
-  const Eigen::VectorXd direction = hessian.ldlt().solve(limit.slope);
+  const Eigen::VectorXd direction = solve_symmetric(hessian, limit.slope);
   const double believed = direction.cwiseAbs2().dot(limit.precision);
   const double ratio = (std::max(of_time, of_frequency) + believed) / (white + believed);
   return std::isfinite(ratio) ? std::sqrt(std::max(1.0, ratio)) : 1.0;
