@@ -71,8 +71,7 @@ void DeviceReading::refuse(const DeviceProblem& problem) {
     key = parent(key);
     found = places_.find(key);
   }
-  InputProblem told{{}, problem.what, problem.allowed, {}};
-  told.problem = problem.problem;
+  InputProblem told = input_problem_of(problem);
   if (problem.problem && problem.problem->code == ProblemCode::no_whole_ratio) {
     told.suggestion = fmt::format("{}", problem.problem->evidence.back().value);
   }
@@ -151,9 +150,7 @@ std::optional<double> TableReader::number_of(const toml::node& node, std::string
   }
   auto value = number_with_unit(node.as_string()->get(), *measure, reading_.motion());
   if (value) return *value;
-  InputProblem told{{}, std::move(value.error().what), std::move(value.error().allowed), value.error().suggestion};
-  told.problem = std::move(value.error().problem);
-  reading_.refuse(node.source(), full_key(key), std::move(told));
+  reading_.refuse(node.source(), full_key(key), input_problem_of(value.error()));
   return std::nullopt;
 }
 
