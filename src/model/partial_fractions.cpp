@@ -152,7 +152,7 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
     if (i < numerator.size()) term.numerator_rest[i] = leading(numerator[i].re - Extended(term.numerator[i]));
     term.denominator_rest[i] = leading(denominator[i].re - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
-      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_not_found});
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
     }
   }
   return term;
@@ -174,6 +174,18 @@ void clear_unseen(ModalForm& form) {
       std::fill_n(term.numerator_rest, term.degree, 0.0);
     }
   }
+}
+
+ComplexX value_of(const ModalTerm& term, const ComplexX& s) {
+  ComplexX numerator;
+  ComplexX denominator{Extended(1.0)};
+  for (std::size_t i = term.degree; i-- > 0;) {
+    numerator = numerator * s;
+    numerator.re += Extended(term.numerator[i]) + Extended(term.numerator_rest[i]);
+    denominator = denominator * s;
+    denominator.re += Extended(term.denominator[i]) + Extended(term.denominator_rest[i]);
+  }
+  return numerator / denominator;
 }
 
 void share_lag(ModalForm& form, double lag) {
