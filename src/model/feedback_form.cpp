@@ -100,6 +100,18 @@ std::vector<double> rough_denominator(const FeedbackPencil<double>& pencil) {
   return result;
 }
 
+Complex<Extended> value_of(const ModalTerm& term, const Complex<Extended>& x) {
+  Complex<Extended> numerator;
+  Complex<Extended> denominator(Extended(1.0));
+  for (std::size_t i = term.degree; i-- > 0;) {
+    numerator = numerator * x;
+    numerator.re += Extended(term.numerator[i]) + Extended(term.numerator_rest[i]);
+    denominator = denominator * x;
+    denominator.re += Extended(term.denominator[i]) + Extended(term.denominator_rest[i]);
+  }
+  return numerator / denominator;
+}
+
 struct ErrorOnCircle {
   double error = 0.0;
   double size = 0.0;  // of the loop
@@ -111,7 +123,7 @@ ErrorOnCircle error_at(const FeedbackForm& form, const FeedbackPencil<Extended>&
   const Complex<Extended> x(Extended(-2.0 * half * half), Extended(std::sin(angle)));
   Complex<Extended> whole = pencil.gain(x);
   Complex<Extended> error = Complex<Extended>() - whole;
-  for (const ModalTerm& term : form.form.terms) error += partial_fractions::value_of(term, x);
+  for (const ModalTerm& term : form.form.terms) error += value_of(term, x);
   whole.re += form.at_once;
   return {magnitude(error), magnitude(whole)};
 }

@@ -51,9 +51,18 @@ double typical_frequency(const ModalTerm& term) {
   return count == 1 ? product : count == 2 ? std::sqrt(product) : std::pow(product, 1.0 / static_cast<double>(count));
 }
 
-// G(jw) of one term.
+// G(jw) of one term, with what rounding to double left out.
 ComplexX extended_response(const ModalTerm& term, double frequency) {
-  return partial_fractions::value_of(term, {Extended(0.0), Extended(frequency)});
+  const ComplexX s(Extended(0.0), Extended(frequency));
+  ComplexX numerator;
+  ComplexX denominator{Extended(1.0)};
+  for (std::size_t i = term.degree; i-- > 0;) {
+    numerator = numerator * s;
+    numerator.re += Extended(term.numerator[i]) + Extended(term.numerator_rest[i]);
+    denominator = denominator * s;
+    denominator.re += Extended(term.denominator[i]) + Extended(term.denominator_rest[i]);
+  }
+  return numerator / denominator;
 }
 
 // The sum of the terms' magnitudes over the magnitude of their sum.

@@ -176,18 +176,6 @@ void clear_unseen(ModalForm& form) {
   }
 }
 
-ComplexX value_of(const ModalTerm& term, const ComplexX& s) {
-  ComplexX numerator;
-  ComplexX denominator{Extended(1.0)};
-  for (std::size_t i = term.degree; i-- > 0;) {
-    numerator = numerator * s;
-    numerator.re += Extended(term.numerator[i]) + Extended(term.numerator_rest[i]);
-    denominator = denominator * s;
-    denominator.re += Extended(term.denominator[i]) + Extended(term.denominator_rest[i]);
-  }
-  return numerator / denominator;
-}
-
 void share_lag(ModalForm& form, double lag) {
   if (!(lag > 0.0)) return;
   for (ModalTerm& term : form.terms) {

@@ -43,7 +43,6 @@ PolynomialX expand_product(const std::vector<ComplexX>& roots);
 PolynomialX multiply(const PolynomialX& a, const PolynomialX& b);
 PolynomialX shifted(const PolynomialX& p, const ComplexX& center);  // from powers of (s - center) to powers of s
 ComplexX product(const std::vector<ComplexX>& roots, const ComplexX& s);
-ComplexX value_of(const ModalTerm& term, const ComplexX& s);  // with what rounding to double left out
 // Monic polynomial from the power sums sigma_1..sigma_k of its roots (Newton's identities).
 PolynomialX from_power_sums(const std::vector<ComplexX>& sums);
 // exp(2 pi i (k + 1/2) / count), k = 0 .. count - 1, in double-double.

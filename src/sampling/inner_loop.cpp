@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "model/feedback_form.hpp"
-#include "model/rate_ratio.hpp"
 #include "sampling/decimation.hpp"
 #include "sampling/extended_sampling.hpp"
 #include "sampling/plant_of_terms.hpp"
@@ -30,11 +29,11 @@ void drop_leading_zeros(PolynomialX& p) {
   while (p.size() > 1 && leading(p.back()) == 0.0) p.pop_back();
 }
 
-// z^-delay_samples numerator/denominator, of the whole device.
+// z^-samples numerator/denominator, of the whole device.
 struct Response {
   PolynomialX numerator;
   PolynomialX denominator{Extended(1.0)};
-  std::size_t delay_samples = 0;
+  std::size_t samples = 0;
 };
 
 Response sampled_response(const ModalForm& form, const Sampling& sampling) {
@@ -49,7 +48,7 @@ Response sampled_response(const ModalForm& form, const Sampling& sampling) {
   }
   response.numerator = extended_common_numerator(terms);
   drop_leading_zeros(response.numerator);
-  response.delay_samples = instants.whole_samples + (instants.with_old > 0.0 ? 1U : 0U);
+  response.samples = instants.whole_samples + (instants.with_old > 0.0 ? 1U : 0U);
   return response;
 }
 
@@ -69,16 +68,17 @@ int poles_outside(const std::vector<Complex<Extended>>& poles) {
   }));
 }
 
-// The closed inner loop from the outer force to the position, delay_samples later.
+// The closed inner loop from the outer force to the position, z^-samples apart.
 struct ClosedInner {
   Feedback loop;
-  std::size_t delay_samples = 0;
+  std::size_t samples = 0;
 };
 
-ClosedInner closed_inner(const ModalForm& form, double outer_delay, const InnerLoop& inner) {
+ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
+  const Response by_outer = sampled_response(form, outer);
+  const bool is_as_late = outer.delay == inner.sampling.delay && outer.period == inner.sampling.period;
+  const Response by_inner = is_as_late ? by_outer : sampled_response(form, inner.sampling);
   const double period = inner.sampling.period;
-  const Response by_outer = sampled_response(form, {period, outer_delay});
-  const Response by_inner = outer_delay == inner.sampling.delay ? by_outer : sampled_response(form, inner.sampling);
   PolynomialX filter{Extended(1.0)};  // delta + c with a damper
   PolynomialX force{Extended(inner.stiffness)};
   if (inner.damping > 0.0) {
@@ -88,23 +88,27 @@ ClosedInner closed_inner(const ModalForm& form, double outer_delay, const InnerL
     force[1] += Extended(inner.damping) * c / Extended(period);
   }
   return {{product(by_outer.numerator, filter), product(by_inner.denominator, filter),
-           product(by_inner.numerator, force), by_inner.delay_samples},
-          by_outer.delay_samples};
+           product(by_inner.numerator, force), by_inner.samples},
+          by_outer.samples};
 }
 
 }  // namespace
 
+std::size_t steps_within(const Sampling& outer, const Sampling& inner) {
+  return static_cast<std::size_t>(std::max(0.0, std::round(outer.period / inner.period)));
+}
+
 SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
-  const std::size_t steps = periods_within(outer.period, inner.sampling.period);
+  const std::size_t steps = steps_within(outer, inner.sampling);
   InnerLoop fast = inner;
   fast.sampling.period = outer.period / static_cast<double>(steps);  // without its rounding
-  const auto [loop, delay_samples] = closed_inner(form, outer.delay, fast);
+  const auto [loop, samples] = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
   const FeedbackForm closed = feedback_form(loop, std::numbers::pi / static_cast<double>(steps));
 
-  const std::size_t late = delay_samples % steps;
+  const std::size_t late = samples % steps;
   SampledPlant plant;
   plant.period = outer.period;
-  plant.delay_samples = delay_samples / steps + (late > 0 ? 1U : 0U);
+  plant.delay_samples = samples / steps + (late > 0 ? 1U : 0U);
   std::vector<ExtendedTerm> terms;
   for (const ModalTerm& term : closed.form.terms) {
     terms.push_back(decimated(extended_term(term), static_cast<std::size_t>(term.integrators), steps, late));

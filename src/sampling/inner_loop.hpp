@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
@@ -14,13 +16,15 @@ struct InnerLoop {
   double stiffness = 0.0;           // K >= 0
 };
 
-// The plant that the outer part of the wall sees with the inner part closed. The inner period is the outer one's N-th part,
-// N >= 1. The device sampled at the inner period is P_outer with the outer part's delay and P_inner with the inner one's;
-// c = 1 - a:
+// How often the inner loop runs while the outer one runs once: rounded; 0 where it is the slower one.
+[[nodiscard]] std::size_t steps_within(const Sampling& outer, const Sampling& inner);
+
+// The plant as the outer part of the wall sees it, behind which the inner part is closed, steps_within() >= 1: with the
+// device's P = z^-l N/D at the inner period, once with either delay, and 1 - a = c
 //
 //     P_cl = P_outer / (1 + (K + (B c/T) delta / (delta + c)) P_inner)
 //
-// The outer force holds for N samples of it, and every N-th of its positions is read. Source: theory, section 8.
+// and of that every steps_within()-th sample behind a force that changes as often. Source: theory, section 8.
 // Throws Error (invalid_argument) for a period or delay outside its domain, (did_not_converge) as modal_form() does.
 [[nodiscard]] SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner);
 

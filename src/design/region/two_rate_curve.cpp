@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/rate_ratio.hpp"
 #include "sampling/inner_loop.hpp"
 #include "stability/loop/damper_response.hpp"
 
@@ -43,7 +42,7 @@ TwoRateCurve::TwoRateCurve(const Device& device) : loop_(device, 1.0), modes_(lo
   const bool damper_inside = is_damper_inside();
   const Sampling& slow = damper_inside ? spring : damper;
   const Sampling& fast = damper_inside ? damper : spring;
-  steps_ = periods_within(slow.period, fast.period);
+  steps_ = steps_within(slow, fast);
   outer_period_ = slow.period;
   inner_period_ = slow.period / static_cast<double>(steps_);
   outer_ = sample(loop_.form(), fast_sampling(slow.period, steps_, slow.delay));
