@@ -38,6 +38,7 @@ enum class ProblemCode : std::uint16_t {
 
   // sequences
   values_not_one_a_body,    ///< as many values as bodies are needed
+  value_not_finite,         ///< a value is not finite
   no_values,                ///< there is no value, sample or design
   weights_not_one_a_value,  ///< as many weights as values are needed
   values_not_rising,        ///< values do not rise

@@ -71,7 +71,8 @@ void DeviceReading::refuse(const DeviceProblem& problem) {
     key = parent(key);
     found = places_.find(key);
   }
-  InputProblem told = input_problem_of(problem);
+  InputProblem told{{}, problem.what, problem.allowed, {}};
+  told.problem = problem.problem;
   if (problem.problem && problem.problem->code == ProblemCode::no_whole_ratio) {
     told.suggestion = fmt::format("{}", problem.problem->evidence.back().value);
   }

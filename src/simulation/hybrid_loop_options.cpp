@@ -87,7 +87,7 @@ std::optional<OptionProblem> motion_problem(const char* member, const std::vecto
                                                 internal::counted("bodies", device.bodies().size())}});
   }
   if (std::all_of(values.begin(), values.end(), is_finite)) return std::nullopt;
-  return option_problem(member, {.code = ProblemCode::not_finite, .evidence = {{"values", 1.0}}});
+  return option_problem(member, {.code = ProblemCode::value_not_finite});
 }
 
 }  // namespace

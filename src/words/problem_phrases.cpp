@@ -51,6 +51,7 @@ std::span<const ProblemPhrase> option_problem_phrases() {
                     "must be finite, >= 0 and not reversed"},
       ProblemPhrase{values_not_one_a_body, "values_not_one_a_body", "has {values:n} values",
                     "one for each of {bodies:n} bodies, or none"},
+      ProblemPhrase{value_not_finite, "value_not_finite", "is not finite", "a finite number for every body"},
       ProblemPhrase{no_values, "no_values", "is empty", "must have one at least"},
       ProblemPhrase{weights_not_one_a_value, "weights_not_one_a_value", "has length {weights:n}",
                     "must have one of each value: {values:n}"},
