@@ -43,7 +43,7 @@ void check(std::span<const double> force, std::span<const double> position, doub
   const auto is_finite = [](double value) { return std::isfinite(value); };
   for (const auto& [channel, samples] : {std::pair{"force", force}, std::pair{"position", position}}) {
     if (std::all_of(samples.begin(), samples.end(), is_finite)) continue;
-    refuse({.code = ProblemCode::samples_of_channel_not_finite, .subjects = {{"channel", channel}}});
+    refuse({.code = ProblemCode::not_finite, .subjects = {{"name", std::string("a sample of ") + channel}}});
   }
   require_positive({"sampling period", sampling_period, "s"});
   if (const auto problem = find_problem(options)) {
