@@ -75,8 +75,8 @@ MeasuredLimit measured_limit(std::string_view text, Motion motion) {
     const std::size_t index = number_called(without_blanks(part.substr(0, equals)));
     const StatedNumber& stated = stated_numbers[index];
     if (values[index]) {
-      throw BadInput(input_problem({.option = limit_option}, {.code = ProblemCode::limit_number_twice,
-                                                              .subjects = {{"number", std::string(stated.key)}}}));
+      throw BadInput(input_problem({.option = limit_option}, {.code = ProblemCode::given_twice,
+                                                              .subjects = {{"name", std::string(stated.key)}}}));
     }
     const auto value = measured_number(without_blanks(part.substr(equals + 1)), stated.measure, motion);
     if (!value) {

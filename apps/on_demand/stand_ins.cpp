@@ -1,8 +1,15 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "on_demand/on_demand.hpp"
 
@@ -15,9 +22,36 @@ namespace {
       why, ZWIDTH_MODULES));
 }
 
+/// The bytes that a shared object has by its tables of segments and sections; 0 where it is none.
+std::uint64_t stated_size(std::ifstream& file) {
+  ElfW(Ehdr) header{};
+  file.read(reinterpret_cast<char*>(&header), sizeof header);
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return 0;
+  std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize;
+  file.seekg(static_cast<std::streamoff>(header.e_phoff));
+  ElfW(Phdr) segment{};
+  for (unsigned i = 0; i < header.e_phnum && file.read(reinterpret_cast<char*>(&segment), sizeof segment); ++i) {
+    end = std::max<std::uint64_t>(end, segment.p_offset + segment.p_filesz);
+  }
+  return end;
+}
+
+/// dlopen() maps a file that is cut short, and the program ends at the first page that is not there.
+void refuse_cut_module(const char* name) {
+  std::error_code no_path;
+  const std::filesystem::path path =
+      std::filesystem::read_symlink("/proc/self/exe", no_path).parent_path() / ZWIDTH_MODULES / name;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return;  // dlopen() says why
+  const std::uint64_t stated = stated_size(file);
+  const std::uint64_t there = std::filesystem::file_size(path);
+  if (there < stated) refuse_module(fmt::format("{} is cut short, {} bytes of {}", name, there, stated));
+}
+
 /// Of the module's file, which stands in the program's run path; it stays loaded.
 template <typename Functions>
 const void* functions_of_module() {
+  refuse_cut_module(Functions::file);
   void* const module = dlopen(Functions::file, RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) refuse_module(dlerror());
   void* const exported = dlsym(module, Functions::name);

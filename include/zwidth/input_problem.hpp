@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "zwidth/option_problem.hpp"
@@ -43,5 +44,14 @@ struct InputProblem {
 
 /// A place's problem, in the words of words/problem_text.hpp. What its phrase has in `backquotes` are options.
 [[nodiscard]] InputProblem input_problem(InputPlace place, Problem problem, std::optional<std::string> suggestion = {});
+
+/// What was found wrong with options, a device or a number with its unit, at a place.
+template <typename FoundProblem>  // OptionProblem, DeviceProblem, UnitProblem
+[[nodiscard]] InputProblem input_problem_of(const FoundProblem& found, InputPlace place = {}) {
+  InputProblem told{std::move(place), found.what, found.allowed, {}};
+  if constexpr (requires { found.suggestion; }) told.suggestion = found.suggestion;
+  told.problem = found.problem;
+  return told;
+}
 
 }  // namespace zwidth

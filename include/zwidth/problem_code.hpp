@@ -10,39 +10,25 @@ enum class ProblemCode : std::uint16_t {
   // bounds
   not_above,                   ///< a quantity is not above its bound
   below_bound,                 ///< a quantity is below its bound
-  not_above_zero,              ///< a number is not above 0
   not_above_zero_or_infinite,  ///< a number is not above 0, or infinite
-  below_zero,                  ///< a number is below 0
-  no_quantity,                 ///< a quantity is not finite
-  no_number,                   ///< a number is not finite
-  no_frequency,                ///< a frequency is not above 0
-  no_duration,                 ///< a duration is not above 0
-  no_finite_force,             ///< a force is not finite
   no_share,                    ///< a share is not from 0 to 1
   no_share_between,            ///< a share is not above 0, or above its bound
-  no_relative_difference,      ///< a relative difference is not between 0 and 1
-  no_relative_variation,       ///< a relative variation is not from 0 to below 1
-  not_positive,                ///< a number is not above 0
   negative,                    ///< a number is below 0
   not_finite_and_positive,     ///< a number is not finite and above 0
   not_finite_and_above,        ///< a number is not finite and above its bound
-  not_finite,                  ///< a number is not finite
+  not_finite,                  ///< a number, or one of several, is not finite
   no_finite_sum,               ///< a sum is not finite
   not_a_number,                ///< a number is NaN
   no_fraction,                 ///< a fraction is not between 0 and 1
-  no_positive_quantity,        ///< a quantity is not above 0
   no_factor,                   ///< a factor is not from above 1 to 1e6
   no_growth_factor,            ///< a factor is not above 1, or above its bound
-  no_ramp,                     ///< a time is not from 0 to its bound
   no_whole_number,             ///< a count is out of its range
   none_asked,                  ///< a count is 0
   count_out_of_range,          ///< a count is out of its range
   count_out_of_range_or_zero,  ///< a count is neither 0 nor in its range
-  count_too_large,             ///< a count is above its bound
   too_many_threads,            ///< more threads than can be started
-  points_out_of_range,         ///< a number of points is out of its range
   too_few,                     ///< a count is below its bound
-  too_many,                    ///< more than there may be
+  too_many,                    ///< a count is above its bound
   too_long,                    ///< a time is above its bound
   not_below_period,            ///< a time is not below the sampling period
   not_between,                 ///< a number is out of its range
@@ -51,12 +37,9 @@ enum class ProblemCode : std::uint16_t {
   range_not_possible,          ///< a range is reversed, infinite or below 0
 
   // sequences
-  no_samples,               ///< there is no sample
-  samples_not_finite,       ///< a sample is not finite
   values_not_one_a_body,    ///< as many values as bodies are needed
   value_not_finite,         ///< a value is not finite
-  no_values,                ///< there is no value
-  no_designs,               ///< there is no design
+  no_values,                ///< there is no value, sample or design
   weights_not_one_a_value,  ///< as many weights as values are needed
   values_not_rising,        ///< values do not rise
 
@@ -88,11 +71,10 @@ enum class ProblemCode : std::uint16_t {
   relay_force_above_limit,           ///< a relay's force is above the actuator's limit
   transfer_function_starts_at_rest,  ///< a transfer function is given a start
   samples_of_trials,                 ///< trials have too few or too many samples
-  no_longer_than_delay,              ///< a trial is over before a force arrives
   duration_out_of_range,             ///< a run has no sample or too many
   excitation_samples_out_of_range,   ///< duration and rate make too few or too many samples
   transform_too_long,                ///< one transform would be of too many samples
-  no_force_would_arrive,             ///< a run is over before a force arrives
+  no_force_would_arrive,             ///< a run or a trial is over before a force arrives
   over_before_user_force,            ///< a run is over before the user pushes
   no_points_kept,                    ///< no point would be kept
   too_many_points_kept,              ///< too many points would be kept
@@ -138,7 +120,6 @@ enum class ProblemCode : std::uint16_t {
   too_few_points_to_fit,      ///< no more points than free parameters
   no_number_of_structure,     ///< no number of the structure is called that
   not_in_response,            ///< a number does not show in a response
-  free_twice,                 ///< a number is free twice
   nothing_free,               ///< no number is free
   too_many_free,              ///< too many numbers are free
   structure_never_fits,       ///< a fit finds no start
@@ -157,10 +138,9 @@ enum class ProblemCode : std::uint16_t {
   too_many_numbers_swept,    ///< a sweep is of one or two numbers
   swept_twice,               ///< a sweep of one number over itself
   too_many_points,           ///< a sweep has too many points
-  seconds_below_zero,        ///< a time is below 0
   no_parameters,             ///< a study without a parameter
   too_many_parameters,       ///< too many parameters vary
-  parameter_given_twice,     ///< one number varies twice
+  given_twice,               ///< a parameter, a key or a value is given twice
   reaches_no_device,         ///< a distribution reaches what is no device
   rows_not_one_a_parameter,  ///< a correlation needs as many rows as parameters
   row_of_other_length,       ///< a correlation needs rows as long as parameters
@@ -172,7 +152,6 @@ enum class ProblemCode : std::uint16_t {
   // uncertainty of the device
   no_parameter_of_device,      ///< no number of the device is called that
   number_without_value,        ///< the device does not have this number
-  key_twice,                   ///< a key stands twice
   uncertainty_says_nothing,    ///< nothing is uncertain
   too_many_uncertain,          ///< too many numbers are uncertain
   covariance_rows_missing,     ///< a covariance needs as many rows as parameters
@@ -185,44 +164,41 @@ enum class ProblemCode : std::uint16_t {
   nothing_changed,             ///< no number changes
 
   // calls
-  no_body_for_user,                   ///< a transfer function has no body
-  no_body_to_start_from,              ///< a transfer function has no body
-  start_offset_without_bodies,        ///< a transfer function has no body
-  recording_without_channel,          ///< a recording has no channel
-  recording_without_two_channels,     ///< a relay is recorded as force and position
-  no_recording,                       ///< there is no recording
-  recordings_of_two_periods,          ///< recordings of two sampling periods
-  drift_not_possible,                 ///< a drift is not from above -1 to 10
-  drift_without_links,                ///< the device has no link
-  raster_without_walls,               ///< a raster has no wall
-  grid_not_rising,                    ///< the stiffnesses of a grid do not rise
-  other_devices_limit,                ///< a limit is of another device
-  no_uncertainty,                     ///< the device has no uncertainty
-  force_per_count_undefined,          ///< a period or a resolution is not possible
-  users_range_not_possible,           ///< a range of users is not possible
-  wall_not_possible,                  ///< a wall's number is not possible
-  half_periods_not_ordered,           ///< half-periods are not in order
-  too_many_bodies_with_friction,      ///< too many bodies rub
-  motion_too_fast,                    ///< a motion is too fast to follow in time
-  force_and_position_of_two_lengths,  ///< force and position have different lengths
-  body_does_not_move,                 ///< a position is constant
-  moves_one_way,                      ///< a motion never reverses
-  too_few_equations,                  ///< filtering, decimation and rests leave too few samples
-  equations_not_told_apart,           ///< a motion does not tell mass, friction and offset apart
-  force_against_motion,               ///< a fitted mass is not above 0
-  period_or_samples_not_possible,     ///< a period or a sample is not possible
-  ring_down_not_possible,             ///< a period, a frequency or a sample is not possible
-  transform_of_nothing,               ///< a transform of no samples
-  transform_of_other_length,          ///< a transform of another length
-  power_density_not_possible,         ///< a rate or a sample is not possible
-  samples_of_channel_not_finite,      ///< a sample is not finite
-  cutoff_not_possible,                ///< a cutoff is not below half the rate
-  count_no_share,                     ///< more than all
-  weights_not_possible,               ///< weights are not possible
-  answers_not_one_a_point,            ///< as many answers as points are needed
-  indices_not_possible,               ///< too few samples, or too many dimensions
-  too_many_samples_in_memory,         ///< too many samples to keep
-  specification_missing,              ///< failures need a specification
+  no_body_for_user,                ///< a transfer function has no body
+  no_body_to_start_from,           ///< a transfer function has no body
+  start_offset_without_bodies,     ///< a transfer function has no body
+  recording_without_channel,       ///< a recording has no channel
+  recording_without_two_channels,  ///< a recording has not two channels
+  no_recording,                    ///< there is no recording
+  recordings_of_two_periods,       ///< recordings of two sampling periods
+  drift_not_possible,              ///< a drift is not from above -1 to 10
+  drift_without_links,             ///< the device has no link
+  raster_without_walls,            ///< a raster has no wall
+  grid_not_rising,                 ///< the stiffnesses of a grid do not rise
+  other_devices_limit,             ///< a limit is of another device
+  no_uncertainty,                  ///< the device has no uncertainty
+  force_per_count_undefined,       ///< a period or a resolution is not possible
+  wall_not_possible,               ///< a wall's number is not possible
+  half_periods_not_ordered,        ///< half-periods are not in order
+  too_many_bodies_with_friction,   ///< too many bodies rub
+  motion_too_fast,                 ///< a motion is too fast to follow in time
+  body_does_not_move,              ///< a position is constant
+  moves_one_way,                   ///< a motion never reverses
+  too_few_equations,               ///< filtering, decimation and rests leave too few samples
+  equations_not_told_apart,        ///< a motion does not tell mass, friction and offset apart
+  force_against_motion,            ///< a fitted mass is not above 0
+  period_or_samples_not_possible,  ///< a period or a sample is not possible
+  ring_down_not_possible,          ///< a period, a frequency or a sample is not possible
+  transform_of_nothing,            ///< a transform of no samples
+  transform_of_other_length,       ///< a transform of another length
+  power_density_not_possible,      ///< a rate or a sample is not possible
+  cutoff_not_possible,             ///< a cutoff is not below half the rate
+  count_no_share,                  ///< more than all
+  weights_not_possible,            ///< weights are not possible
+  answers_not_one_a_point,         ///< as many answers as points are needed
+  indices_not_possible,            ///< too few samples, or too many dimensions
+  too_many_samples_in_memory,      ///< too many samples to keep
+  specification_missing,           ///< failures need a specification
 
   // device files
   of_other_type,             ///< a value is a text, a number or a table where another is needed
@@ -248,7 +224,6 @@ enum class ProblemCode : std::uint16_t {
   no_table_to_override,      ///< an override of a body, link or filter that there is not
   value_and_no_table,        ///< an override below a key that is no table
   one_variant,               ///< one value to compare
-  variant_twice,             ///< a value to compare stands twice
   cannot_be_read,            ///< the system refuses to read a file
   not_a_file,                ///< a directory or a device, or no name
   too_many_bytes_read,       ///< a file or a line is too long
@@ -358,29 +333,24 @@ enum class ProblemCode : std::uint16_t {
   filter_frequency_out_of_range,  ///< a filter's frequency is not below Nyquist
 
   // identification: options, recordings and responses
-  no_frequency_in_hertz,            ///< a frequency is not finite and above 0
   no_rising_band,                   ///< a band does not rise
-  no_overlap,                       ///< an overlap of segments is not from 0 to below 1
+  no_share_below_one,               ///< a share is not from 0 to below 1
   segments_of_periodic_force,       ///< segments of a periodic force
   periods_of_aperiodic_force,       ///< periods of an aperiodic force
   lines_beside_segments,            ///< lines beside segments or a period
   segment_not_in_record,            ///< a segment is too short or longer than the record
   period_not_in_record,             ///< a period is not from 2 samples to half of the record
   periods_all_skipped,              ///< fewer than two periods would be left
-  line_not_possible,                ///< a line is not above 0
   line_beyond_nyquist,              ///< a line is not below half the sampling rate
   line_twice,                       ///< a line is asked for twice
   lines_too_close_for_record,       ///< a record is too short for its lines
-  band_leaves_no_line,              ///< a band holds no line of a response
   period_without_line,              ///< a force excites no line of a period
   no_line_excited,                  ///< a force excites no line of a record
   sample_not_a_number,              ///< a sample of a signal is not finite
   force_and_motion_of_two_lengths,  ///< force and motion have different lengths
   record_of_few_samples,            ///< a record has too few samples
-  period_not_above_zero,            ///< a sampling period is not above 0
   signal_is_constant,               ///< a signal is constant
   force_does_not_repeat,            ///< a force has no period
-  recording_of_other_channels,      ///< a recording has not two channels
   recording_twice,                  ///< two recordings hold the same samples
   response_is_continuous,           ///< a response without a sampling period
   response_of_few_lines,            ///< a response has too few lines
@@ -390,7 +360,6 @@ enum class ProblemCode : std::uint16_t {
   motion_not_fitted,                ///< no motion of this kind is fitted
   limit_part_without_value,         ///< a part of a measured limit has no =
   no_number_of_limit,               ///< a measured limit has no number of that name
-  limit_number_twice,               ///< a measured limit has a number twice
   limit_without_stiffness,          ///< a measured limit has no stiffness
 
   // computations that do not come to their end
@@ -408,7 +377,6 @@ enum class ProblemCode : std::uint16_t {
   state_space_of_other_sizes,      ///< the matrices of a state space do not fit
   state_space_entry_not_possible,  ///< an entry of a state space is out of its range
   modes_too_close_for_digits,      ///< modes too close for 31 digits, and too many bodies for exact arithmetic
-  modes_not_found,                 ///< numbers lie too many powers of ten apart
   poles_not_found,                 ///< numbers lie too many powers of ten apart
   too_many_poles_coincide,         ///< too many poles coincide
   too_many_poles_cancel,           ///< too many poles nearly coincide

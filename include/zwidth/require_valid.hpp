@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "zwidth/error.hpp"
+#include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 
 namespace zwidth {
@@ -14,20 +15,23 @@ namespace zwidth {
 inline void require_valid(const std::optional<OptionProblem>& problem) {
   if (!problem) return;
   const std::string member = problem->member + (problem->member.empty() ? "" : " ");
-  InputProblem told{{}, problem->what, problem->allowed, {}};
-  told.problem = problem->problem;
-  told.place.option = problem->member;
-  throw Error(ErrorCode::invalid_argument, member + problem->what + "; " + problem->allowed, {std::move(told)});
+  throw Error(ErrorCode::invalid_argument, member + problem->what + "; " + problem->allowed,
+              {input_problem_of(*problem, {.option = problem->member})});
+}
+
+/// Throws Error (invalid_argument) "key: what; allowed" where find_problem(parameters) found one, with the key for its
+/// place.
+inline void require_valid(const std::optional<DeviceProblem>& problem) {
+  if (!problem) return;
+  throw Error(ErrorCode::invalid_argument, problem->key + ": " + problem->what + "; " + problem->allowed,
+              {input_problem_of(*problem, {.key = problem->key})});
 }
 
 /// Throws Error (invalid_argument) of a member of the options, in the words of its problem, which do not name it.
 [[noreturn]] inline void refuse_member(const std::string& member, Problem problem) {
-  OptionProblem words = option_problem(member, std::move(problem));
-  const std::string message = words.what + "; " + words.allowed;
-  InputProblem told{{}, std::move(words.what), std::move(words.allowed), {}};
-  told.problem = std::move(words.problem);
-  told.place.option = member;
-  throw Error(ErrorCode::invalid_argument, message, {std::move(told)});
+  InputProblem found = input_problem({.option = member}, std::move(problem));
+  const std::string message = found.what + "; " + found.allowed;
+  throw Error(ErrorCode::invalid_argument, message, {std::move(found)});
 }
 
 }  // namespace zwidth

@@ -41,12 +41,12 @@ std::optional<OptionProblem> find_problem(const ControllerOptions& options, doub
         member, {.code = code, .evidence = {{"value", value}, {"bound", 0.0}}, .subjects = std::move(subjects)});
   };
   if (!std::isfinite(options.position)) {
-    return problem("position", no_number, options.position, {{"in", "m or rad"}});
+    return problem("position", not_finite, options.position, {{"in", "m or rad"}});
   }
-  if (!is_at_least_zero(options.stiffness)) return problem("stiffness", below_zero, options.stiffness);
-  if (!is_at_least_zero(options.damping)) return problem("damping", below_zero, options.damping);
+  if (!is_at_least_zero(options.stiffness)) return problem("stiffness", negative, options.stiffness);
+  if (!is_at_least_zero(options.damping)) return problem("damping", negative, options.damping);
   if (!is_at_least_zero(options.velocity_filter_hz)) {
-    return problem("velocity_filter_hz", below_zero, options.velocity_filter_hz, {{"in", "Hz"}});
+    return problem("velocity_filter_hz", negative, options.velocity_filter_hz, {{"in", "Hz"}});
   }
   if (!is_at_least_zero(options.hysteresis)) {
     return problem("hysteresis", below_bound, options.hysteresis, {{"measure", "position"}});

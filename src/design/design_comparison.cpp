@@ -51,7 +51,7 @@ std::optional<double> stiffness_of(const CriticalStiffness& critical) {
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const std::optional<User>& user) {
-  if (variants.variants.empty()) return option_problem("variants", {.code = ProblemCode::no_designs});
+  if (variants.variants.empty()) return option_problem("variants", {.code = ProblemCode::no_values});
   if (!user) return std::nullopt;
   for (const DeviceVariant& each : variants.variants) {
     if (!each.device.has_bodies() && is_present(*user)) {

@@ -17,7 +17,7 @@ using internal::counted;
 std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options) {
   if (!(std::isfinite(options.robust_threshold) && options.robust_threshold >= 0.0)) {
     return option_problem("robust_threshold",
-                          {.code = ProblemCode::below_zero, .evidence = {{"value", options.robust_threshold}}});
+                          {.code = ProblemCode::negative, .evidence = {{"value", options.robust_threshold}}});
   }
   for (const auto& [name, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
     if (value && !(std::isfinite(*value) && *value > 0.0)) {

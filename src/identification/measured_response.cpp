@@ -81,12 +81,12 @@ void check(std::span<const Recording> recordings, const FrequencyResponseOptions
   require(!recordings.empty(), {.code = ProblemCode::no_recording});
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const Recording& each = recordings[r];
-    require(each.channels.size() == 2, {.code = ProblemCode::recording_of_other_channels,
+    require(each.channels.size() == 2, {.code = ProblemCode::recording_without_two_channels,
                                         .evidence = {counted("channels", each.channels.size())}});
     require(std::isfinite(each.sampling_period) && each.sampling_period > 0.0,
-            {.code = ProblemCode::period_not_above_zero,
+            {.code = ProblemCode::not_finite_and_positive,
              .evidence = {{"value", each.sampling_period}},
-             .subjects = {{"source", each.source}}});
+             .subjects = {{"name", each.source + ": sampling period"}, {"unit", "s"}}});
     for (std::size_t before = 0; before < r; ++before) {
       require(each.channels[1].samples.empty() || each.channels[0].samples != recordings[before].channels[0].samples ||
                   each.channels[1].samples != recordings[before].channels[1].samples,

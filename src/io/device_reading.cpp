@@ -151,9 +151,7 @@ std::optional<double> TableReader::number_of(const toml::node& node, std::string
   }
   auto value = number_with_unit(node.as_string()->get(), *measure, reading_.motion());
   if (value) return *value;
-  InputProblem told{{}, std::move(value.error().what), std::move(value.error().allowed), value.error().suggestion};
-  told.problem = std::move(value.error().problem);
-  reading_.refuse(node.source(), full_key(key), std::move(told));
+  reading_.refuse(node.source(), full_key(key), input_problem_of(value.error()));
   return std::nullopt;
 }
 

@@ -45,7 +45,7 @@ tl::expected<DeviceVariants, std::vector<InputError>> device_variants(const Devi
   if (values.size() < 2) return refused(variants_refusal(all.key, {.code = ProblemCode::one_variant}));
   for (const std::string& value : values) {
     if (std::ranges::count(values, value) > 1) {
-      return refused(variants_refusal(all.key, {.code = ProblemCode::variant_twice, .subjects = {{"value", value}}}));
+      return refused(variants_refusal(all.key, {.code = ProblemCode::given_twice, .subjects = {{"name", value}}}));
     }
   }
   const std::string text = write_device(device.parameters());

@@ -75,7 +75,7 @@ std::optional<InputError> find_problem(const RecordedColumns& recorded) {
   const auto& period = recorded.sampling_period;
   if (period && !(std::isfinite(*period) && *period > 0.0)) {
     return refused(recorded, "sampling_period",
-                   {.code = ProblemCode::not_above_zero,
+                   {.code = ProblemCode::not_finite_and_positive,
                     .evidence = {{"value", *period}},
                     .subjects = {{"in", "s"}, {"unit", "s"}}});
   }

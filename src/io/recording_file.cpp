@@ -48,6 +48,24 @@ InputError too_large(const std::string& path) {
   return {{.file = path == "-" ? "standard input" : path}, {.code = ProblemCode::does_not_fit_in_memory}};
 }
 
+/// What the function for the file's format finds in it.
+template <typename OfFile, typename OfText>
+auto by_format(const std::string& path, const RecordingOptions& options, const Progress& progress, OfFile& of_mat,
+               OfFile& of_uff, OfText& of_text) -> decltype(of_mat(path, options, progress)) try {
+  auto input = open_recording(path, options.format);
+  if (!input) return tl::unexpected(std::move(input.error()));
+  switch (input->format) {
+    case RecordingFormat::mat:
+      return of_mat(path, options, progress);
+    case RecordingFormat::uff:
+      return of_uff(path, options, progress);
+    default:
+      return of_text(std::move(input->lines), options, progress);
+  }
+} catch (const std::bad_alloc&) {
+  return tl::unexpected(too_large(path));
+}
+
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
@@ -72,41 +90,19 @@ std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
 }
 
 tl::expected<Recording, InputError> read_recording(const std::string& path, const RecordingOptions& options,
-                                                   const Progress& progress) try {
+                                                   const Progress& progress) {
   check_recording_options(options);
   if (options.rate && options.time_column) {
     return tl::unexpected(
         InputError{{.file = path == "-" ? "standard input" : path, .key = shortened(*options.time_column)},
                    {.code = ProblemCode::asked_for_beside, .subjects = {{"of", "times"}}}});
   }
-  auto input = open_recording(path, options.format);
-  if (!input) return tl::unexpected(std::move(input.error()));
-  switch (input->format) {
-    case RecordingFormat::mat:
-      return read_mat_recording(path, options, progress);
-    case RecordingFormat::uff:
-      return read_uff_recording(path, options, progress);
-    default:
-      return read_text_recording(std::move(input->lines), options, progress);
-  }
-} catch (const std::bad_alloc&) {
-  return tl::unexpected(too_large(path));
+  return by_format(path, options, progress, read_mat_recording, read_uff_recording, read_text_recording);
 }
 
 tl::expected<RecordingContents, InputError> list_recording(const std::string& path, const RecordingOptions& options,
-                                                           const Progress& progress) try {
-  auto input = open_recording(path, options.format);
-  if (!input) return tl::unexpected(std::move(input.error()));
-  switch (input->format) {
-    case RecordingFormat::mat:
-      return list_mat_recording(path, options, progress);
-    case RecordingFormat::uff:
-      return list_uff_recording(path, options, progress);
-    default:
-      return list_text_recording(std::move(input->lines), options, progress);
-  }
-} catch (const std::bad_alloc&) {
-  return tl::unexpected(too_large(path));
+                                                           const Progress& progress) {
+  return by_format(path, options, progress, list_mat_recording, list_uff_recording, list_text_recording);
 }
 
 }  // namespace zwidth

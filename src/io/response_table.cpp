@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "band_problem.hpp"
 #include "io/input_file.hpp"
 #include "io/prose.hpp"
 #include "io/recording_format.hpp"
@@ -194,17 +195,7 @@ std::optional<OptionProblem> find_problem(const ResponseTableOptions& options) {
   if (not_positive(options.sampling_period)) {
     return not_above_zero("sampling_period", *options.sampling_period, "s");
   }
-  for (const auto& [member, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
-    if (!not_positive(value)) continue;
-    return option_problem(member,
-                          {.code = ProblemCode::frequency_out_of_range, .evidence = {{"hertz", hertz(*value)}}});
-  }
-  if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return option_problem("highest",
-                          {.code = ProblemCode::frequency_out_of_range,
-                           .evidence = {{"hertz", hertz(*options.highest)}, {"lowest", hertz(*options.lowest)}}});
-  }
-  return std::nullopt;
+  return find_band_problem(options.lowest, options.highest);
 }
 
 tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,

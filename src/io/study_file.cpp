@@ -124,9 +124,7 @@ class StudyReader {
     one.distribution = read_distribution(reader, name, one.key);
     if (reading_.count() > refused) return;  // its numbers are not those of the file
     if (const auto problem = find_problem(one.distribution)) {
-      InputProblem told{{}, problem->what, problem->allowed, {}};
-      told.problem = problem->problem;
-      reader.refuse(key_of(problem->member, name), std::move(told));
+      reader.refuse(key_of(problem->member, name), input_problem_of(*problem));
     }
   }
 
@@ -272,7 +270,7 @@ class StudyReader {
         places.push_back(static_cast<std::size_t>(found - parameters.begin()));
         if (std::ranges::count(places, places.back()) > 1) {
           return reader.refuse("parameters",
-                               {.code = ProblemCode::parameter_given_twice, .subjects = {{"name", shortened(key)}}});
+                               {.code = ProblemCode::given_twice, .subjects = {{"name", shortened(key)}}});
         }
       }
       const Evidence wanted = counted("parameters", keys.size());

@@ -191,7 +191,7 @@ tl::expected<TimeAxis, InputError> time_axis(RawColumn times, const RecordingOpt
 }
 
 OptionProblem not_above_zero(std::string member, double value, const std::string& unit) {
-  return option_problem(std::move(member), {.code = ProblemCode::not_above_zero,
+  return option_problem(std::move(member), {.code = ProblemCode::not_finite_and_positive,
                                             .evidence = {{"value", value}},
                                             .subjects = {{"in", unit}, {"unit", unit}}});
 }

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/one_rate.hpp"
-#include "zwidth/error.hpp"
+#include "model/rate_ratio.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 namespace {
@@ -48,13 +48,7 @@ void rename_uncertain(DeviceParameters& parameters, const NewKey& new_key) {
 
 /// Where the damper runs in a loop of its own.
 void refuse_damper_loop(const Device& device, ProblemCode code) {
-  if (!has_damper_loop(device.loop())) return;
-  const DeviceProblem problem = device_problem("loop.damper", {.code = code});
-  InputProblem told{{}, problem.what, problem.allowed, {}};
-  told.problem = problem.problem;
-  told.place.key = problem.key;
-  throw Error(ErrorCode::invalid_argument, problem.key + ": " + problem.what + "; " + problem.allowed,
-              {std::move(told)});
+  if (has_damper_loop(device.loop())) require_valid(std::optional(device_problem("loop.damper", {.code = code})));
 }
 
 }  // namespace

@@ -10,18 +10,15 @@
 
 #include "counted.hpp"
 #include "model/key_members.hpp"
-#include "model/one_rate.hpp"
+#include "model/rate_ratio.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;
 namespace {
-
-// Coefficients are products of up to `degree` frequencies, so they spread further than physical quantities.
-constexpr double smallest_coefficient = 1e-100;
-constexpr double largest_coefficient = 1e100;
 
 Problem out_of_range(const NumberRange& range, KeyType type, double value) {
   const bool is_plain = range == positive_numbers || range == not_negative_numbers;
@@ -331,13 +328,7 @@ std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
 }
 
 Device::Device(DeviceParameters parameters) : parameters_(std::move(parameters)) {
-  if (const auto problem = find_problem(parameters_)) {
-    InputProblem told{{}, problem->what, problem->allowed, {}};
-    told.problem = problem->problem;
-    told.place.key = problem->key;
-    throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed),
-                {std::move(told)});
-  }
+  require_valid(find_problem(parameters_));
 }
 
 std::size_t Device::body_index(const std::string& name) const {

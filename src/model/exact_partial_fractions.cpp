@@ -200,7 +200,7 @@ std::optional<ModalTerm> rounded_term(const Fraction& fraction, const std::vecto
     term.denominator[i] = leading((*denominator)[i]);
     term.denominator_rest[i] = leading((*denominator)[i] - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
-      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_not_found});
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
     }
   }
   for (const std::size_t i : fraction.poles) {

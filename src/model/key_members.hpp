@@ -12,6 +12,10 @@
 
 namespace zwidth::internal {
 
+// Of a coefficient that is not 0, in magnitude: a product of up to `degree` frequencies spreads further than a quantity.
+inline constexpr double smallest_coefficient = 1e-100;
+inline constexpr double largest_coefficient = 1e100;
+
 /// Where a value stands in its table's struct; monostate: what is read and written in a way of its own.
 using KeyMember =
     std::variant<std::monostate, double Body::*, double Link::*, double Loop::*, double Actuator::*, double Sensor::*,

@@ -20,8 +20,7 @@ std::optional<DeviceProblem> find_problem(const Device& device, std::span<const 
       return device_problem(each.key, {.code = ProblemCode::no_number_of_device,
                                        .subjects = {{"numbers", fmt::format("{}", fmt::join(known, ", "))}}});
     }
-    if (std::ranges::find(seen, key) != seen.end())
-      return device_problem(each.key, {.code = ProblemCode::parameter_given_twice});
+    if (std::ranges::find(seen, key) != seen.end()) return device_problem(each.key, {.code = ProblemCode::given_twice});
     if (each.values.size() != changes.front().values.size()) {
       return device_problem(each.key, {.code = ProblemCode::values_of_two_lengths,
                                        .evidence = {internal::counted("values", each.values.size()),

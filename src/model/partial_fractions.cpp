@@ -152,7 +152,7 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
     if (i < numerator.size()) term.numerator_rest[i] = leading(numerator[i].re - Extended(term.numerator[i]));
     term.denominator_rest[i] = leading(denominator[i].re - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
-      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_not_found});
+      throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
     }
   }
   return term;

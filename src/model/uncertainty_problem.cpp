@@ -47,7 +47,7 @@ std::optional<DeviceProblem> find_key_problem(const DeviceParameters& parameters
       return device_problem(place, {.code = ProblemCode::number_without_value, .subjects = {{"name", key}}});
     }
     if (!seen.insert(full).second) {
-      return device_problem(place, {.code = ProblemCode::key_twice, .subjects = {{"name", key}}});
+      return device_problem(place, {.code = ProblemCode::given_twice, .subjects = {{"name", key}}});
     }
   }
   return std::nullopt;

@@ -10,8 +10,6 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double smallest_coefficient = 1e-100;
-constexpr double largest_coefficient = 1e100;
 constexpr double smallest_frequency = 1e-30;  // Hz: its square is still a number
 
 using Found = std::optional<OptionProblem>;

@@ -40,8 +40,9 @@ std::optional<OptionProblem> find_problem(const SafetyLimits& limits) {
                                         internal::counted("most", 1000)}});
   }
   if (!(limits.ramp >= 0.0 && limits.ramp <= longest_ramp)) {
-    return option_problem("ramp",
-                          {.code = ProblemCode::no_ramp, .evidence = {{"value", limits.ramp}, {"most", longest_ramp}}});
+    return option_problem("ramp", {.code = ProblemCode::not_between,
+                                   .evidence = {{"value", limits.ramp}, {"least", 0.0}, {"most", longest_ramp}},
+                                   .subjects = {{"unit", "s"}}});
   }
   return std::nullopt;
 }

@@ -146,4 +146,8 @@ double velocity_filter_pole(double cutoff_hz, double sampling_period) {
   return cutoff_hz > 0.0 ? std::exp(-2.0 * pi * cutoff_hz * sampling_period) : 0.0;
 }
 
+double velocity_filter_gain(double cutoff_hz, double sampling_period) {
+  return cutoff_hz > 0.0 ? -std::expm1(-2.0 * pi * cutoff_hz * sampling_period) : 1.0;
+}
+
 }  // namespace zwidth

@@ -271,7 +271,7 @@ std::vector<Remark> check_signal(const Channel& channel, double sampling_period,
   const auto& samples = channel.samples;
   if (!std::all_of(samples.begin(), samples.end(), [](double value) { return std::isfinite(value); })) {
     throw Error(ErrorCode::invalid_argument,
-                {.code = ProblemCode::samples_of_channel_not_finite, .subjects = {{"channel", channel.name}}});
+                {.code = ProblemCode::not_finite, .subjects = {{"name", "a sample of " + channel.name}}});
   }
   const Signal signal{channel, sampling_period, role};
   std::vector<Remark> remarks;

@@ -123,29 +123,26 @@ struct HybridLoop::State {
 
   double uniform() noexcept { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-  /// Moves the device by one of the schedule's lengths.
-  void move_recurring(std::size_t which) noexcept {
-    const double duration = schedule.lengths[which];
+  /// Moves the device; advance(): by that duration while the user's force stays.
+  template <typename Advance>
+  void move(double duration, const Advance& advance) noexcept {
     const double start = motion.actuated();
     if (user_changes_within(duration)) {
       move_with_user(duration);
     } else {
-      motion.advance_recurring(which);
+      advance();
     }
     work += motion.command() * (motion.actuated() - start);
     within += duration;
   }
 
+  /// By one of the schedule's lengths.
+  void move_recurring(std::size_t which) noexcept {
+    move(schedule.lengths[which], [&] { motion.advance_recurring(which); });
+  }
+
   void move(double duration) noexcept {
-    if (duration <= 0.0) return;
-    const double start = motion.actuated();
-    if (user_changes_within(duration)) {
-      move_with_user(duration);
-    } else {
-      motion.advance(duration);
-    }
-    work += motion.command() * (motion.actuated() - start);
-    within += duration;
+    if (duration > 0.0) move(duration, [&] { motion.advance(duration); });
   }
 
   /// Time of the user force's next change (start, or next sample), s from the start of the current tick.

@@ -26,22 +26,23 @@ Problem number_in(const char* unit, ProblemCode code, double value, bool shown) 
 std::optional<OptionProblem> user_force_problem(const UserForce& force) {
   if (!is_finite(force.amplitude)) {
     return option_problem("user_force.amplitude",
-                          {.code = ProblemCode::no_finite_force, .evidence = {{"value", force.amplitude}}});
+                          {.code = ProblemCode::not_finite, .evidence = {{"value", force.amplitude}}});
   }
   if (!is_duration(force.start)) {
-    return option_problem("user_force.start", number_in("s", ProblemCode::below_zero, force.start, true));
+    return option_problem("user_force.start", number_in("s", ProblemCode::negative, force.start, true));
   }
   if (force.kind == UserForce::Kind::sine && !(is_finite(force.frequency) && force.frequency > 0.0)) {
     return option_problem("user_force.frequency",
-                          number_in("rad/s", ProblemCode::not_above_zero, force.frequency, true));
+                          number_in("rad/s", ProblemCode::not_finite_and_positive, force.frequency, true));
   }
   if (force.kind != UserForce::Kind::recorded) return std::nullopt;
   if (!(is_finite(force.period) && force.period > 0.0)) {
-    return option_problem("user_force.period", number_in("s", ProblemCode::not_above_zero, force.period, true));
+    return option_problem("user_force.period",
+                          number_in("s", ProblemCode::not_finite_and_positive, force.period, true));
   }
-  if (force.samples.empty()) return option_problem("user_force.samples", {.code = ProblemCode::no_samples});
+  if (force.samples.empty()) return option_problem("user_force.samples", {.code = ProblemCode::no_values});
   if (!std::all_of(force.samples.begin(), force.samples.end(), is_finite)) {
-    return option_problem("user_force.samples", {.code = ProblemCode::samples_not_finite});
+    return option_problem("user_force.samples", {.code = ProblemCode::not_finite, .evidence = {{"values", 1.0}}});
   }
   return std::nullopt;
 }
@@ -55,7 +56,7 @@ std::optional<OptionProblem> faults_problem(const Faults& faults, double period)
   }
   if (!is_duration(faults.sampling_jitter)) {
     return option_problem("faults.sampling_jitter",
-                          number_in("s", ProblemCode::below_zero, faults.sampling_jitter, false));
+                          number_in("s", ProblemCode::negative, faults.sampling_jitter, false));
   }
   if (faults.sampling_jitter >= period) {
     return option_problem(
@@ -66,7 +67,7 @@ std::optional<OptionProblem> faults_problem(const Faults& faults, double period)
     return no_share("faults.overrun_probability", faults.overrun_probability);
   }
   if (!is_duration(faults.overrun_delay)) {
-    return option_problem("faults.overrun_delay", number_in("s", ProblemCode::below_zero, faults.overrun_delay, false));
+    return option_problem("faults.overrun_delay", number_in("s", ProblemCode::negative, faults.overrun_delay, false));
   }
   if (faults.overrun_delay > max_delay_samples * period) {
     return option_problem("faults.overrun_delay", {.code = ProblemCode::too_long,

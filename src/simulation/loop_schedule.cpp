@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rate_ratio.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "zwidth/model/damper_timing.hpp"
 
@@ -50,11 +51,11 @@ LoopSchedule loop_schedule(const Loop& loop, bool damper_runs_apart) {
     const DamperTiming damper = damper_timing(loop);
     schedule.paths.push_back({1, 0, damper.delay});
     if (damper.sampling_period <= loop.sampling_period) {
-      ticks = static_cast<std::size_t>(std::llround(loop.sampling_period / damper.sampling_period));
+      ticks = periods_within(loop.sampling_period, damper.sampling_period);
       schedule.paths[LoopSchedule::spring].every = schedule.ticks_per_step = ticks;
       schedule.tick = loop.sampling_period / static_cast<double>(ticks);
     } else {
-      ticks = static_cast<std::size_t>(std::llround(damper.sampling_period / loop.sampling_period));
+      ticks = periods_within(damper.sampling_period, loop.sampling_period);
       schedule.paths[LoopSchedule::damper].every = ticks;
     }
   }

@@ -121,7 +121,7 @@ void add_recorded_trial(RelayResult& result, Recording recording, const RelayAna
 tl::expected<Device, DeviceProblem> with_added_delay(const Device& device, double added) {
   if (!(std::isfinite(added) && added >= 0.0)) {
     return tl::unexpected(
-        device_problem("", {.code = ProblemCode::seconds_below_zero, .evidence = {{"value", added}}}));
+        device_problem("", {.code = ProblemCode::negative, .evidence = {{"value", added}}, .subjects = {{"in", "s"}}}));
   }
   DeviceParameters parameters = device.parameters();
   parameters.loop.delay += added;

@@ -37,13 +37,13 @@ constexpr double scatters_allowed = 3.0;  // of the swing about its mean, in a s
 void check(std::span<const double> force, std::span<const double> position, double sampling_period,
            const RelayAnalysisOptions& options) {
   if (force.size() != position.size()) {
-    refuse({.code = ProblemCode::force_and_position_of_two_lengths,
-            .evidence = {counted("force", force.size()), counted("position", position.size())}});
+    refuse({.code = ProblemCode::force_and_motion_of_two_lengths,
+            .evidence = {counted("force", force.size()), counted("motion", position.size())}});
   }
   const auto is_finite = [](double value) { return std::isfinite(value); };
   for (const auto& [channel, samples] : {std::pair{"force", force}, std::pair{"position", position}}) {
     if (std::all_of(samples.begin(), samples.end(), is_finite)) continue;
-    refuse({.code = ProblemCode::samples_of_channel_not_finite, .subjects = {{"channel", channel}}});
+    refuse({.code = ProblemCode::not_finite, .subjects = {{"name", std::string("a sample of ") + channel}}});
   }
   require_positive({"sampling period", sampling_period, "s"});
   if (const auto problem = find_problem(options)) {
@@ -199,8 +199,8 @@ std::optional<OptionProblem> find_problem(const RelayAnalysisOptions& options) {
                            .subjects = {{"unit", "samples"}}});
   }
   if (!(options.steady_tolerance > 0.0 && options.steady_tolerance < 1.0)) {
-    return option_problem("steady_tolerance", {.code = ProblemCode::no_relative_difference,
-                                               .evidence = {{"value", options.steady_tolerance}}});
+    return option_problem("steady_tolerance",
+                          {.code = ProblemCode::no_fraction, .evidence = {{"value", options.steady_tolerance}}});
   }
   return std::nullopt;
 }

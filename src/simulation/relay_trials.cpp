@@ -99,19 +99,19 @@ std::optional<OptionProblem> find_problem(const RelayOptions& options, const Dev
                           {.code = relay_force_above_limit, .evidence = {{"value", amplitude}, {"most", *limit}}});
   }
   if (!std::isfinite(options.start_offset)) {
-    return problem("start_offset", no_quantity, options.start_offset, {{"measure", "position"}});
+    return problem("start_offset", not_finite, options.start_offset);
   }
   if (!device.has_bodies() && options.start_offset != 0.0) {
     return problem("start_offset", transfer_function_starts_at_rest, options.start_offset);
   }
   if (!(options.variation >= 0.0 && options.variation < 1.0)) {
-    return problem("variation", no_relative_variation, options.variation);
+    return problem("variation", no_share_below_one, options.variation);
   }
   if (options.trials == 0) {
     return option_problem("trials", {.code = too_few, .evidence = {{"value", 0.0}, {"least", 1.0}}});
   }
   if (!(std::isfinite(options.duration) && options.duration > 0.0)) {
-    return problem("duration", no_duration, options.duration);
+    return problem("duration", not_finite_and_positive, options.duration, {{"in", "s"}});
   }
   const double samples = std::round(options.duration / device.loop().sampling_period);
   if (samples < least_relay_samples || samples * static_cast<double>(options.trials) > most_relay_samples) {
@@ -123,8 +123,8 @@ std::optional<OptionProblem> find_problem(const RelayOptions& options, const Dev
                                                     counted("most", most_relay_samples)}});
   }
   if (device.loop().delay >= options.duration) {
-    return option_problem("duration", {.code = no_longer_than_delay,
-                                       .evidence = {{"duration", options.duration}, {"delay", device.loop().delay}}});
+    return option_problem("duration", {.code = no_force_would_arrive,
+                                       .evidence = {{"value", options.duration}, {"delay", device.loop().delay}}});
   }
   return std::nullopt;
 }

@@ -9,7 +9,7 @@
 
 #include "eigenvalues.hpp"
 #include "model/key_members.hpp"
-#include "model/one_rate.hpp"
+#include "model/rate_ratio.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/parameter.hpp"
 

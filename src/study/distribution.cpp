@@ -36,7 +36,7 @@ std::optional<OptionProblem> find_discrete_problem(const Distribution& distribut
       return option_problem("values", {.code = ProblemCode::values_not_rising,
                                        .evidence = {{"value", values[i]}, {"before", values[i - 1]}}});
     }
-    if (!(weights[i] > 0.0)) return entry_problem("weights", ProblemCode::not_positive, weights[i]);
+    if (!(weights[i] > 0.0)) return entry_problem("weights", ProblemCode::not_finite_and_positive, weights[i]);
     sum += weights[i];
   }
   if (!std::isfinite(sum)) return option_problem("weights", {.code = ProblemCode::no_finite_sum});

@@ -126,7 +126,7 @@ std::optional<DeviceProblem> find_problem(const Device& device, const StudyDistr
     }
     if (std::ranges::find(seen, key) != seen.end()) {
       return device_problem(place + ".key",
-                            {.code = ProblemCode::parameter_given_twice, .subjects = {{"name", parameters[i].key}}});
+                            {.code = ProblemCode::given_twice, .subjects = {{"name", parameters[i].key}}});
     }
     seen.push_back(std::move(key));
     if (const auto problem = find_problem(parameters[i].distribution)) {

@@ -51,7 +51,7 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
   for (const auto& [member, value] : {std::pair{"index_samples", options.index_samples},
                                       std::pair{"tightening_samples", options.tightening_samples}}) {
     if (value > most_side_samples) {
-      return option_problem(member, {.code = ProblemCode::count_too_large,
+      return option_problem(member, {.code = ProblemCode::too_many,
                                      .evidence = {counted("value", value), counted("most", most_side_samples)}});
     }
   }

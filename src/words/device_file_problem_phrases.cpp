@@ -93,7 +93,6 @@ std::span<const ProblemPhrase> device_file_problem_phrases() {
       ProblemPhrase{value_and_no_table, "value_and_no_table", "\"{name}\" is one value, not a table",
                     "write {name}=VALUE"},
       ProblemPhrase{one_variant, "one_variant", "has one value", "give two or more"},
-      ProblemPhrase{variant_twice, "variant_twice", "has {value} twice", "give each value once"},
       ProblemPhrase{cannot_be_read, "cannot_be_read", "cannot be read: {reason}",
                     "must be a readable {kind}, or \"-\" for standard input"},
       ProblemPhrase{not_a_file, "not_a_file",

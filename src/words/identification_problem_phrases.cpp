@@ -10,11 +10,9 @@ std::span<const ProblemPhrase> identification_problem_phrases() {
       "{?decimal|a point as the decimal mark: \"K=3.5\"}{?meant|did you mean {meant}?}{!decimal|{!meant|K=STIFFNESS, "
       "B=DAMPING, hz=FREQUENCY, of which K must be there: \"K=3, B=0, hz=40\"}}";
   static constexpr std::array phrases{
-      ProblemPhrase{no_frequency_in_hertz, "no_frequency_in_hertz", "{?entry|has}{!entry|is} {hertz:.6g} Hz",
-                    "must be finite and above 0"},
       ProblemPhrase{no_rising_band, "no_rising_band", "band from {lowest:.6g} to {highest:.6g} rad/s",
                     "rising, from 0 on"},
-      ProblemPhrase{no_overlap, "no_overlap", "is {value:exact}", "must be from 0 to below 1"},
+      ProblemPhrase{no_share_below_one, "no_share_below_one", "is {value:exact}", "must be from 0 to below 1"},
       ProblemPhrase{segments_of_periodic_force, "segments_of_periodic_force", "is given for a periodic force",
                     "must be left out, or the force taken as aperiodic"},
       ProblemPhrase{periods_of_aperiodic_force, "periods_of_aperiodic_force", "is {value:n} for an aperiodic force",
@@ -27,14 +25,12 @@ std::span<const ProblemPhrase> identification_problem_phrases() {
                     "period of {value:n} samples in a record of {samples:n}", "2 up to half the record"},
       ProblemPhrase{periods_all_skipped, "periods_all_skipped", "{value:n} of {periods:n} whole periods skipped",
                     "at least two must remain"},
-      ProblemPhrase{line_not_possible, "line_not_possible", "line at {value:exact} rad/s", "a frequency above 0"},
       ProblemPhrase{line_beyond_nyquist, "line_beyond_nyquist", "line at {hertz:.6g} Hz",
                     "below half the sampling rate, {nyquist:.6g} Hz"},
       ProblemPhrase{line_twice, "line_twice", "line at {hertz:.6g} Hz comes twice", "each once"},
       ProblemPhrase{lines_too_close_for_record, "lines_too_close_for_record",
                     "the record of {duration:.4g} s is too short to tell the lines apart",
                     "at least {least:.4g} s, or fewer lines"},
-      ProblemPhrase{band_leaves_no_line, "band_leaves_no_line", "no line is left in the band asked for", "widen it"},
       ProblemPhrase{period_without_line, "period_without_line",
                     "the force excites no line of a period of {value:n} samples",
                     "leave the period out, or give the force's own{?repeats|: it repeats every {repeats:n} "
@@ -49,8 +45,6 @@ std::span<const ProblemPhrase> identification_problem_phrases() {
                     "{force:n} samples of force, {motion:n} of the motion", "equally many"},
       ProblemPhrase{record_of_few_samples, "record_of_few_samples", "the record has {samples:n} samples",
                     "at least {least:n}"},
-      ProblemPhrase{period_not_above_zero, "period_not_above_zero",
-                    "{?source|{source}: has a }sampling period of {value:exact} s", "above 0"},
       ProblemPhrase{signal_is_constant, "signal_is_constant",
                     "the {signal} is constant: {?signal=force|it excites nothing}{?signal=motion|nothing to "
                     "measure}",
@@ -58,8 +52,6 @@ std::span<const ProblemPhrase> identification_problem_phrases() {
       ProblemPhrase{force_does_not_repeat, "force_does_not_repeat",
                     "the force does not repeat itself, within half the record",
                     "give the period, or take it as aperiodic"},
-      ProblemPhrase{recording_of_other_channels, "recording_of_other_channels",
-                    "the recording has {channels:n} channels", "two, the force and the motion"},
       ProblemPhrase{recording_twice, "recording_twice", "{source}: holds the same samples as {other}",
                     "give each recording once"},
       ProblemPhrase{response_is_continuous, "response_is_continuous", "the critical stiffness of a continuous response",
@@ -78,7 +70,6 @@ std::span<const ProblemPhrase> identification_problem_phrases() {
                     "{least:n}}{!bodies|{!samples|where no position is recorded}}"},
       ProblemPhrase{limit_part_without_value, "limit_part_without_value", "{part} has no =", allowed_limit},
       ProblemPhrase{no_number_of_limit, "no_number_of_limit", "{word} is no number of a limit", allowed_limit},
-      ProblemPhrase{limit_number_twice, "limit_number_twice", "has {number} twice", "each once"},
       ProblemPhrase{limit_without_stiffness, "limit_without_stiffness", "has no K", allowed_limit}};
   return phrases;
 }

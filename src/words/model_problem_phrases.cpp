@@ -93,7 +93,6 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     ""},
       ProblemPhrase{not_in_response, "not_in_response", "{key} does not show in a frequency response",
                     "it cannot be free"},
-      ProblemPhrase{free_twice, "free_twice", "{key} is given twice as free", ""},
       ProblemPhrase{nothing_free, "nothing_free", "no parameter is free", ""},
       ProblemPhrase{too_many_free, "too_many_free", "{free:n} parameters are free",
                     "at most {most:n} can be fitted at once"},

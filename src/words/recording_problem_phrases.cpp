@@ -177,10 +177,10 @@ std::span<const ProblemPhrase> recording_problem_phrases() {
                     "{?quantity=frequency|state the step of frequency between its lines}"
                     "{!quantity=frequency|{?quantity|name it}"
                     "{!quantity|name magnitude and phase, or real and imaginary part}; the columns are {names}}"},
-      ProblemPhrase{frequency_out_of_range, "frequency_out_of_range", "is {hertz:.6g} Hz",
+      ProblemPhrase{frequency_out_of_range, "frequency_out_of_range", "{?entry|has}{!entry|is} {hertz:.6g} Hz",
                     "must be {?lowest|above the lowest, {lowest:.6g} Hz}"
                     "{?nyquist|at most half the sampling rate, {nyquist:.6g} Hz}"
-                    "{?step|finite and not negative}{!lowest|{!nyquist|{!step|above 0}}}"},
+                    "{?step|finite and not negative}{!lowest|{!nyquist|{!step|finite and above 0}}}"},
       ProblemPhrase{response_line_twice, "response_line_twice",
                     "{hertz:.6g} Hz {?line|is also at line {line:n},}{!line|comes twice} with the same value",
                     "must come once, or be measured again"},

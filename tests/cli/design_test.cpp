@@ -216,7 +216,7 @@ TEST_F(Design, RefusesWhatItCannotDoBeforeAnyWork) {
       {"devices/lhifam.toml --compare sensed", "KEY=VALUE,VALUE"},
       {"devices/lhifam.toml --compare sensed=motor", "has one value"},
       {"devices/lhifam.toml --compare sensed=motor,handel", "handel"},
-      {"devices/lhifam.toml --compare sensed=motor,motor", "has motor twice"},
+      {"devices/lhifam.toml --compare sensed=motor,motor", "\"motor\" is given twice"},
       {"devices/lhifam.toml --compare sensed=motor,", "--compare: "},
       {"devices/lhifam.toml --compare sensed=motor,handle --operator=-1,2,3", "operator.mass"},
       {"devices/lhifam.toml --compare sensed=motor,handle --operator 1,2", "--operator"},

@@ -300,7 +300,7 @@ TEST_F(ExportCCommand, WhatDoesNotFitIsRefused) {
     return outcome.errors;
   };
   EXPECT_THAT(refusal("--format c"), HasSubstr("wall.stiffness: is missing"));
-  EXPECT_THAT(refusal("--format c --stiffness -3"), HasSubstr("--stiffness: is -3; a number of N/m > 0"));
+  EXPECT_THAT(refusal("--format c --stiffness -3"), HasSubstr("--stiffness: is -3; must be a number of N/m > 0"));
   EXPECT_THAT(refusal("--format c --stiffness 1e40"), HasSubstr("--stiffness: wall.stiffness is 1e+40"));
   EXPECT_THAT(refusal("--format c --stiffness nan"), HasSubstr("--stiffness"));
   EXPECT_THAT(refusal("--format c --safety-factor 1"), HasSubstr("above 0 and below 1"));

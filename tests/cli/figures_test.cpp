@@ -145,7 +145,7 @@ TEST_F(Figures, PhaseKeepsContinuousWithAVirtualDamperAndALongDelay) {
 
 TEST_F(Figures, BodeRefusals) {
   expect_refusal("zwidth bode devices/lhifam.toml --output a.jpg", 2, "unknown extension; .svg, .png, .pdf or .csv");
-  expect_refusal("zwidth bode devices/lhifam.toml --from 0 -o a.svg", 2, "--from: is 0; a frequency in rad/s > 0");
+  expect_refusal("zwidth bode devices/lhifam.toml --from 0 -o a.svg", 2, "--from: is 0; must be a number of rad/s > 0");
   expect_refusal("zwidth bode devices/lhifam.toml --to nan -o a.svg", 2, "--to: is nan");
   expect_refusal("zwidth bode devices/lhifam.toml --from 100 --to 10 -o a.svg", 2,
                  "--to: is 10 rad/s; above the lowest frequency, 100 rad/s");

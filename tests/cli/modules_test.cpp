@@ -1,6 +1,7 @@
 // What the program loads on demand is its own, or is refused before anything is computed with it.
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -22,7 +23,7 @@ fs::path module_of(const std::string& name) {
 
 class Modules : public Workspace {};
 
-TEST_F(Modules, ThatAreMissingOrOfAnotherBuildAreRefused) {
+TEST_F(Modules, ThatAreMissingCutShortOrOfAnotherBuildAreRefused) {
   const fs::path program = directory() / "other/bin";
   const fs::path modules =
       (program / fs::path(ZWIDTH_MODULES_DIR).lexically_relative(ZWIDTH_PROGRAM_DIR)).lexically_normal();
@@ -44,7 +45,13 @@ TEST_F(Modules, ThatAreMissingOrOfAnotherBuildAreRefused) {
   };
   const fs::path fits = module_of("fits");
   expect_refusals("a part of zwidth cannot be loaded: " + fits.filename().string());
-  fs::copy_file(module_of("kernel"), modules / fits.filename());
+  const auto whole = fs::file_size(fits);
+  fs::copy_file(fits, modules / fits.filename());
+  for (const std::uintmax_t left : {whole - 1, whole / 2, std::uintmax_t{9000}, std::uintmax_t{100}}) {
+    fs::resize_file(modules / fits.filename(), left);
+    expect_refusals(fits.filename().string() + " is cut short, " + std::to_string(left) + " bytes of ");
+  }
+  fs::copy_file(module_of("kernel"), modules / fits.filename(), fs::copy_options::overwrite_existing);
   expect_refusals(fits.filename().string() + " is of another build than the program");
 }
 

@@ -180,7 +180,7 @@ TEST_F(Rig, NoLimitIsReadFromForceThatWasCutOff) {
     EXPECT_EQ(limit["trust"]["verdict"], "sound") << allowed;
     EXPECT_NEAR(limit["measured"]["critical_stiffness"].get<double>() / 8848.70869499712, 1.0, 0.02) << allowed;
   }
-  expect_refused("limit " + lhifam + "--ramp 150", 2, "--ramp: is 150; a time in s, 0 to 10");
+  expect_refused("limit " + lhifam + "--ramp 150", 2, "--ramp: is 150 s; must be from 0 to 10");
   const auto wall = json("wall " + lhifam + "--stiffness 4000 --amplitude 8.8 --force-limit 9 --saturation 9");
   EXPECT_THAT(wall["trust"]["reasons"].dump(), HasSubstr("force was kept back"));
   const auto ramp = json("wall " + lhifam + "--stiffness 4000 --duration 1 --ramp 10");

@@ -144,7 +144,7 @@ TEST_F(ServedErrors, AnErrorSaysWhatWasGivenAndWhatIsAllowed) {
   };
   expect_error("bode", {{"points", "-5"}}, "is -5", "a whole number, 0 or more");
   expect_error("bode", {{"points", -5}}, "is -5", "a whole number, 0 or more");
-  expect_error("bode", {{"points", 1}}, "is 1", "2 to 100000");
+  expect_error("bode", {{"points", 1}}, "is 1", "must be 2 to 100000");
   expect_error("bode", {{"points", 40.5}}, "is 40.5", "a whole number");
   expect_error("bode", {{"from", "abc"}}, "\"abc\" is no number", "a number of rad/s");
   expect_error("export", json::object(), "is missing", "a value");
@@ -179,7 +179,7 @@ TEST_F(ServedErrors, AMeasuredLimitIsRefusedByItsCode) {
                                     {"K=0", "not_finite_and_positive"},
                                     {"K=3, B=-1", "negative"},
                                     {"K=3, hz=0", "not_finite_and_positive"},
-                                    {"K=3, K=4", "limit_number_twice"},
+                                    {"K=3, K=4", "given_twice"},
                                     {"K=3,5", "limit_part_without_value"},
                                     {"K=3, stifness=4", "no_number_of_limit"},
                                     {"K=3 kg", "unit_of_other_measure"},

@@ -83,7 +83,7 @@ TEST_F(UnitsOnTheCommandLine, OfTheWrongKindAreRefused) {
 TEST_F(UnitsOnTheCommandLine, WholeNumbersAreThoseThatAreWritten) {
   const std::string device = " devices/lhifam.toml --json ";
   expect_refusal("zwidth bode" + device + "--points -5", "--points: is -5; a whole number, 0 or more");
-  expect_refusal("zwidth bode" + device + "--points 1", "--points: is 1; 2 to 100000");
+  expect_refusal("zwidth bode" + device + "--points 1", "--points: is 1; must be 2 to 100000");
   for (const char* text : {"abc", "0x20", "1e3", "4.5"}) {
     expect_refusal("zwidth bode" + device + "--points " + text,
                    std::string("--points: is ") + text + "; a whole number, 0 or more");

@@ -69,7 +69,7 @@ TEST(DriveDamper, ASearchSeesTheLimitOfAnyUserFromAbove) {
     for (const double damping : {10.0, 100.0, 500.0}) {
       const double exact = any_users_limit(walled_with(on_drive, 0.0, damping));
       const double nobody = critical_stiffness(walled_with(on_drive, 0.0, damping)).stiffness;
-      const double seen = std::min(nobody, users.limit_seen({damping, 0.0}));
+      const double seen = std::min(nobody, users.limit_on_grid({damping, 0.0}));
       EXPECT_GE(seen, exact * (1.0 - 1e-6)) << damping;
       EXPECT_LE(seen, exact * 1.02) << damping;
     }

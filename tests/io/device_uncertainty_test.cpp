@@ -144,7 +144,7 @@ const BadUncertainty refused[] = {
      "[\"link.stiffness\", \"link.0.stiffness\"]",
      "[[1, 0], [0, 1]]",
      {{"f.toml", 13, 14, "uncertainty.parameters"},
-      {.code = ProblemCode::key_twice, .subjects = {{"name", "link.0.stiffness"}}}}},
+      {.code = ProblemCode::given_twice, .subjects = {{"name", "link.0.stiffness"}}}}},
     {"not_text",
      "[3]",
      "[[1]]",
@@ -239,7 +239,7 @@ TEST(DeviceUncertainty, AssumedNumbersAreOfTheDeviceEachOnce) {
                         {.code = ProblemCode::no_parameter_of_device, .subjects = {{"name", "body.motor.mas"}}}});
   test::expect_refused(problem("[\"link.stiffness\", \"link.0.stiffness\"]"),
                        {{"f.toml", 13, 11, "uncertainty.assumed"},
-                        {.code = ProblemCode::key_twice, .subjects = {{"name", "link.0.stiffness"}}}});
+                        {.code = ProblemCode::given_twice, .subjects = {{"name", "link.0.stiffness"}}}});
   test::expect_refused(
       problem("\"body.motor.mass\""),
       {{"f.toml", 13, 11, "uncertainty.assumed"},

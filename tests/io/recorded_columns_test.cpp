@@ -46,8 +46,8 @@ TEST(RecordedColumns, RefusesWhatIsNoRecording) {
   EXPECT_EQ(refusal(recorded, columns_named({"g"})), "g: no_such_column columns=2 names=f, x");
   EXPECT_EQ(read_recording(recorded, columns_named({"g"})).error().place.file, "bench");
   recorded.sampling_period = missing;
-  EXPECT_EQ(refusal(recorded, options), "sampling_period: not_above_zero value=nan in=s unit=s");
-  EXPECT_EQ(data_of(*find_problem(recorded)), "sampling_period: not_above_zero value=nan in=s unit=s");
+  EXPECT_EQ(refusal(recorded, options), "sampling_period: not_finite_and_positive value=nan in=s unit=s");
+  EXPECT_EQ(data_of(*find_problem(recorded)), "sampling_period: not_finite_and_positive value=nan in=s unit=s");
   recorded.sampling_period.reset();
   EXPECT_FALSE(find_problem(recorded));
   EXPECT_EQ(refusal(recorded, options), "no_times");

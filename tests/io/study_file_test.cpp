@@ -113,7 +113,7 @@ std::vector<RefusedStudy> refused_studies() {
       {parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\n"), "1:1 parameter.0.file", is_missing},
       {parameter_with("key = \"loop.delay\"\ndistribution = \"file\"\nfile = \"none.txt\"\n"), "4:8 parameter.0.file",
        cannot_be_read},
-      {whole + twice, "30:7 parameter.4.key", parameter_given_twice},
+      {whole + twice, "30:7 parameter.4.key", given_twice},
       {indefinite, "28:10 correlation.matrix", not_positive_definite},
       {not_square, "28:10 correlation.matrix", rows_not_one_a_parameter},
       {of_none, "27:14 correlation.parameters", not_a_parameter_of_study},

@@ -43,15 +43,20 @@ TEST(ProblemText, EveryCodeHasWordsOfItsOwnName) {
 }
 
 TEST(ProblemText, GivesANumberWithAllItsDigitsAndItsUnit) {
-  EXPECT_EQ(line({.code = ProblemCode::no_frequency, .evidence = {{"value", -0.1}}}),
-            "is -0.1; a frequency in rad/s > 0");
+  EXPECT_EQ(
+      line(
+          {.code = ProblemCode::not_finite_and_positive, .evidence = {{"value", -0.1}}, .subjects = {{"in", "rad/s"}}}),
+      "is -0.1; must be a number of rad/s > 0");
+  EXPECT_EQ(line({.code = ProblemCode::not_finite_and_positive,
+                  .evidence = {{"value", 0.0}},
+                  .subjects = {{"what", "force"}}}),
+            "is 0; must be a force > 0");
   EXPECT_EQ(line({.code = ProblemCode::not_finite_and_positive,
                   .evidence = {{"value", std::numeric_limits<double>::infinity()}, {"times", 1.0}}}),
             "is inf times; must be finite and > 0");
   EXPECT_EQ(
-      line({.code = ProblemCode::below_zero, .evidence = {{"value", -1e-5}}, .subjects = {{"in", "s"}, {"unit", "s"}}}),
-      "is -1e-05 s; a number of s >= 0");
-  EXPECT_EQ(line({.code = ProblemCode::below_zero, .evidence = {{"value", -2.0}}}), "is -2; a number >= 0");
+      line({.code = ProblemCode::negative, .evidence = {{"value", -1e-5}}, .subjects = {{"in", "s"}, {"unit", "s"}}}),
+      "is -1e-05 s; must be a number of s >= 0");
   EXPECT_EQ(line({.code = ProblemCode::duration_out_of_range,
                   .evidence = {{"value", 0.0}, {"least", 1e-3}, {"most", 2e4}, {"samples", 2e7}}}),
             "is 0 s; 0.001 s to 20000 s, 1 to 20000000 sampling periods");
@@ -87,6 +92,8 @@ TEST(ProblemText, HasVariantsOfCounts) {
 
 TEST(ProblemText, HasVariantsOfWholeSentences) {
   EXPECT_EQ(line({.code = ProblemCode::not_finite}), "is not finite; must be finite");
+  EXPECT_EQ(line({.code = ProblemCode::not_finite, .evidence = {{"values", 1.0}}}),
+            "are not all finite; must be finite");
   EXPECT_EQ(line({.code = ProblemCode::not_finite,
                   .evidence = {{"value", std::numeric_limits<double>::infinity()}, {"entry", 1.0}}}),
             "has inf; must be finite");

@@ -72,7 +72,7 @@ TEST(RecordingProblemText, SaysWhatIsWrongAndWhatToDo) {
        "the phase has no column; name it; the columns are f, mag, x"},
       {{.code = frequency_out_of_range, .evidence = {{"hertz", 40.0}, {"lowest", 50.0}}},
        "is 40 Hz; must be above the lowest, 50 Hz"},
-      {{.code = frequency_out_of_range, .evidence = {{"hertz", -20.0}}}, "is -20 Hz; must be above 0"},
+      {{.code = frequency_out_of_range, .evidence = {{"hertz", -20.0}}}, "is -20 Hz; must be finite and above 0"},
   };
   for (const Told& each : all) {
     const InputProblem told = input_problem({}, each.problem);

@@ -64,15 +64,11 @@ class LimitTable {
         if (!critical.limit) return stiffness(critical.stiffness);
         return fmt::format("{}, {}", stiffness(critical.stiffness),
                            then_what(held, critical.limit->limited_by, critical.limit->frequency));
-      case StiffnessStatus::none_stable:
-        return critical.stable_intervals.empty() ? "none: no wall is stable, however soft"
-                                                 : "none: the softest walls are unstable, stiffer ones are stable";
       case StiffnessStatus::refused:
         return "no number is given";
-      case StiffnessStatus::unbounded:
-        break;
+      default:
+        return critical_stiffness_text(critical, held.device.parameters().motion);
     }
-    return "unbounded: every wall is stable";
   }
 
   void add_springs() {

@@ -52,4 +52,7 @@ struct FilterCoefficients {
 ///     a = exp(-2 pi f_c T)
 [[nodiscard]] double velocity_filter_pole(double cutoff_hz, double sampling_period);
 
+/// The gain 1 - a of that low-pass, with its digits where a is near 1; 1 for 0 Hz.
+[[nodiscard]] double velocity_filter_gain(double cutoff_hz, double sampling_period);
+
 }  // namespace zwidth

@@ -7,7 +7,7 @@
 
 namespace zwidth {
 
-/// The code's name: "count_too_large".
+/// The code's name: "count_out_of_range".
 [[nodiscard]] std::string_view name_of(ProblemCode code);
 
 /// A problem in words.

@@ -143,7 +143,7 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
   const auto finite = [](double value) { return std::isfinite(value) && value >= 0.0; };
   if (options.amplitude && !(finite(*options.amplitude) && *options.amplitude > 0.0)) {
     return option_problem("amplitude",
-                          {.code = ProblemCode::not_positive, .evidence = {{"value", *options.amplitude}}});
+                          {.code = ProblemCode::not_finite_and_positive, .evidence = {{"value", *options.amplitude}}});
   }
   if (options.stiffness && !finite(*options.stiffness)) {
     return option_problem(

@@ -280,7 +280,7 @@ class Changes {
     for (const double damping : tried) {
       const VirtualDamper damper{damping, on_drive.parameters().wall.velocity_filter_hz};
       const double nobody = limit_of_nobody(on_drive, damper);
-      limits.emplace_back(users ? std::min(nobody, users->limit_seen(damper)) : nobody, damping);
+      limits.emplace_back(users ? std::min(nobody, users->limit_on_grid(damper)) : nobody, damping);
     }
     std::ranges::stable_sort(limits, std::greater<>(), &std::pair<double, double>::first);
     std::ranges::transform(limits, tried.begin(), &std::pair<double, double>::second);

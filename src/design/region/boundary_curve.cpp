@@ -33,7 +33,7 @@ BoundaryCurve::BoundaryCurve(FilteredPlant plant, double velocity_filter_hz)
     : plant_(std::move(plant)),
       bounded_plant_(with_one_numerator(plant_)),
       velocity_filter_hz_(velocity_filter_hz),
-      c_(velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * std::numbers::pi * velocity_filter_hz * plant_.period) : 1.0) {}
+      c_(velocity_filter_gain(velocity_filter_hz, plant_.period)) {}
 
 template <typename Real>
 BoundaryCurve::Numerators<Real> BoundaryCurve::numerators(const Real& x, const Real& even, const Real& odd) const {

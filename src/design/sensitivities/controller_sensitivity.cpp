@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "zwidth/sampling/filter_section.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -185,8 +187,8 @@ DamperSensitivity damper_sensitivity(const Device& device, double angle, std::sp
   const double period = device.loop().sampling_period;
   const double damping = device.parameters().wall.damping;
   const double corner = device.parameters().wall.velocity_filter_hz;
-  const double decay = corner > 0.0 ? std::exp(-2.0 * pi * corner * period) : 0.0;     // a
-  const double share = corner > 0.0 ? -std::expm1(-2.0 * pi * corner * period) : 1.0;  // 1 - a
+  const double decay = velocity_filter_pole(corner, period);  // a
+  const double share = velocity_filter_gain(corner, period);  // 1 - a
   const double half = std::sin(0.5 * angle);
   const std::complex<double> difference(2.0 * half * half, angle >= pi ? 0.0 : std::sin(angle));  // 1 - z^-1
   const std::complex<double> denominator = share + decay * difference;                            // 1 - a z^-1

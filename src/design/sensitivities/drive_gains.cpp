@@ -52,31 +52,42 @@ double period_of(DriveFirmware firmware, const Device& device) {
   return device.parameters().loop.sampling_period;
 }
 
-std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device) {
+/// Of a firmware whose velocity loop is the damper: the gain of its position loop first, in N m/rad and N m s/rad of the motor.
+std::vector<DriveNumber> numbers_of_loops(DriveFirmware firmware, const Device& device, double stiffness,
+                                          double damping) {
   const MotorDrive drive = drive_of(device);
-  const MotorWall wall = at_motor(device);
   const double filter_hz = device.parameters().wall.velocity_filter_hz;
   switch (firmware) {
     case DriveFirmware::odrive: {
       const std::string axis = fmt::format("axis{}.controller.config.", drive.id.value_or(0));
-      return {{axis + "pos_gain", wall.stiffness / wall.damping, "turn/s per turn"},
-              {axis + "vel_gain", turn * wall.damping, "N m/(turn/s)"},
+      return {{axis + "pos_gain", stiffness / damping, "turn/s per turn"},
+              {axis + "vel_gain", turn * damping, "N m/(turn/s)"},
               {axis + "vel_integrator_gain", 0.0, "N m/turn"}};
     }
     case DriveFirmware::moteus:
-      return {{"servo.pid_position.kp", turn * wall.stiffness, "N m/turn"},
-              {"servo.pid_position.kd", turn * wall.damping, "N m/(turn/s)"},
+      return {{"servo.pid_position.kp", turn * stiffness, "N m/turn"},
+              {"servo.pid_position.kd", turn * damping, "N m/(turn/s)"},
               {"servo.pid_position.ki", 0.0, "N m/(turn s)"}};
     case DriveFirmware::simplefoc: {
       const bool by_volts = drive.torque_per_volt.has_value();
       const double per_unit = by_volts ? *drive.torque_per_volt : *drive.torque_constant;
-      return {{"P_angle.P", wall.stiffness / wall.damping, "rad/s per rad"},
-              {"PID_velocity.P", wall.damping / per_unit, by_volts ? "V/(rad/s)" : "A/(rad/s)"},
+      return {{"P_angle.P", stiffness / damping, "rad/s per rad"},
+              {"PID_velocity.P", damping / per_unit, by_volts ? "V/(rad/s)" : "A/(rad/s)"},
               {"PID_velocity.I", 0.0, ""},
               {"PID_velocity.D", 0.0, ""},
               {"PID_velocity.output_ramp", 0.0, ""},
               {"LPF_velocity.Tf", filter_hz > 0.0 ? 1.0 / (turn * filter_hz) : 0.0, "s"}};
     }
+    case DriveFirmware::openffboard:
+    case DriveFirmware::vesc:
+      break;
+  }
+  return {};
+}
+
+std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device) {
+  const MotorWall wall = at_motor(device);
+  switch (firmware) {
     case DriveFirmware::openffboard:
       return {
           {"axis.0.esgain",
@@ -89,38 +100,18 @@ std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device
               {"p_pid_kd", 0.0, ""},
               {"p_pid_kd_proc", wall.damping * degree / wall.full_torque, "s/degree"},
               {"p_pid_kd_filter", 1.0, ""}};
+    default:
+      return numbers_of_loops(firmware, device, wall.stiffness, wall.damping);
   }
-  return {};
 }
 
 /// Of the damper alone, at the motor; nothing for a firmware that closes none beside a force that it is sent.
 std::vector<DriveNumber> numbers_of_damper(DriveFirmware firmware, const Device& device) {
-  const MotorDrive drive = drive_of(device);
-  const double damping = device.parameters().wall.damping * std::pow(drive.torque_per_force(), 2);
-  const double filter_hz = device.parameters().wall.velocity_filter_hz;
-  switch (firmware) {
-    case DriveFirmware::odrive: {
-      const std::string axis = fmt::format("axis{}.controller.config.", drive.id.value_or(0));
-      return {{axis + "vel_gain", turn * damping, "N m/(turn/s)"}, {axis + "vel_integrator_gain", 0.0, "N m/turn"}};
-    }
-    case DriveFirmware::moteus:
-      return {{"servo.pid_position.kp", 0.0, "N m/turn"},
-              {"servo.pid_position.kd", turn * damping, "N m/(turn/s)"},
-              {"servo.pid_position.ki", 0.0, "N m/(turn s)"}};
-    case DriveFirmware::simplefoc: {
-      const bool by_volts = drive.torque_per_volt.has_value();
-      return {{"PID_velocity.P", damping / (by_volts ? *drive.torque_per_volt : *drive.torque_constant),
-               by_volts ? "V/(rad/s)" : "A/(rad/s)"},
-              {"PID_velocity.I", 0.0, ""},
-              {"PID_velocity.D", 0.0, ""},
-              {"PID_velocity.output_ramp", 0.0, ""},
-              {"LPF_velocity.Tf", filter_hz > 0.0 ? 1.0 / (turn * filter_hz) : 0.0, "s"}};
-    }
-    case DriveFirmware::openffboard:
-    case DriveFirmware::vesc:
-      break;
-  }
-  return {};
+  const double damping = device.parameters().wall.damping * std::pow(drive_of(device).torque_per_force(), 2);
+  std::vector<DriveNumber> numbers = numbers_of_loops(firmware, device, 0.0, damping);
+  // The force comes in the place of a position loop; moteus takes it beside one without gain.
+  if (!numbers.empty() && firmware != DriveFirmware::moteus) numbers.erase(numbers.begin());
+  return numbers;
 }
 
 bool has_loop(DriveFirmware firmware) { return firmware == DriveFirmware::odrive || firmware == DriveFirmware::moteus; }
@@ -313,7 +304,7 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
     return std::nullopt;
   }
   if (options.sampling_period && !(std::isfinite(*options.sampling_period) && *options.sampling_period > 0.0)) {
-    return option_problem("sampling_period", {.code = ProblemCode::no_positive_quantity,
+    return option_problem("sampling_period", {.code = ProblemCode::not_finite_and_positive,
                                               .evidence = {{"value", *options.sampling_period}},
                                               .subjects = {{"what", "time"}}});
   }

@@ -21,15 +21,14 @@ constexpr int damper_filters = 7;
 constexpr double fastest_cutoff = 0.4;   // of the sampling rate
 constexpr double slowest_cutoff = 0.01;  // the same
 constexpr double worth_a_cutoff = 0.02;  // relative gain of what is felt
-constexpr double hand_hz = 10.0;         // what a hand moves at, at most
-constexpr double tail_of_dampers = 0.025;
+constexpr double hand_hz = 10.0;         // the fastest voluntary motion of a hand
 
 struct Damper {
   VirtualDamper damper;
   WallBound bound = WallBound::none;
 };
 
-/// With nothing but fast to slow velocity filters to choose from.
+/// No velocity filter, then filters from fast to slow.
 std::vector<double> cutoffs(double period) {
   std::vector<double> result{0.0};
   for (int i = 0; i < damper_filters; ++i) {
@@ -39,8 +38,7 @@ std::vector<double> cutoffs(double period) {
   return result;
 }
 
-/// The damping of the damper in a motion as fast as a hand's: behind a slow filter B alone says nothing, which grows as
-/// the filter gets slower.
+/// The damping of the damper in a motion as fast as a hand's. B alone misleads: behind a slower filter a larger B feels the same.
 double felt(VirtualDamper damper, double period) {
   const double frequency = std::min(2.0 * std::numbers::pi * hand_hz, 0.1 * std::numbers::pi / period);
   return damper_response(damper, period, frequency).imag() / frequency;
@@ -112,7 +110,7 @@ class DamperRecommendation {
     };
     const auto& uncertainty = device_.parameters().uncertainty;
     if (uncertainty && !uncertainty->parameters.empty()) {
-      take(drawn(device_, options_), tail_of_dampers, WallBound::uncertainty);
+      take(drawn(device_, options_), draws_that_may_fail, WallBound::uncertainty);
       if (!(found.damper.damping > 0.0)) result.reason = Finding{.code = FindingCode::uncertainty_leaves_no_damper};
     }
     if (options_.modal_frequency_uncertainty > 0.0 && found.damper.damping > 0.0) {

@@ -40,7 +40,7 @@ std::optional<Device> with_damper_on_drive(const Device& device) {
 namespace internal {
 namespace {
 
-constexpr int looks_at_damping = 16;            // evenly in log B
+constexpr int samples_of_damping = 16;          // evenly in log B
 constexpr double least_share_of_damper = 1e-3;  // of the largest
 constexpr double most_share_of_damper = 1.0 - 1e-6;
 constexpr int bits_of_damping = 10;  // of log B: the limit is flat there
@@ -57,19 +57,20 @@ BestDamping best_damping(const Device& device, const std::function<double(double
   const double begin = std::log(least_share_of_damper * largest);
   const double end = std::log(most_share_of_damper * largest);
   std::vector<BestDamping> found;
-  const auto look = [&](double log_damping) {
+  const auto negative_value = [&](double log_damping) {
     tell(progress, 0.0);
     const double damping = std::exp(log_damping);
     found.push_back({damping, value(damping)});
     return -found.back().value;
   };
-  for (int i = 0; i < looks_at_damping; ++i) look(std::lerp(begin, end, double(i) / (looks_at_damping - 1)));
+  for (int i = 0; i < samples_of_damping; ++i)
+    negative_value(std::lerp(begin, end, double(i) / (samples_of_damping - 1)));
   const auto top = std::ranges::max_element(found, {}, &BestDamping::value);
   const double left = top == found.begin() ? begin : std::log(std::prev(top)->damping);
   const double right = std::next(top) == found.end() ? end : std::log(std::next(top)->damping);
   if (top->value > 0.0 && std::isfinite(top->value)) {
     std::uintmax_t steps = most_refinements_of_damping;
-    boost::math::tools::brent_find_minima(look, left, right, bits_of_damping, steps);
+    boost::math::tools::brent_find_minima(negative_value, left, right, bits_of_damping, steps);
   }
   const BestDamping most = *std::ranges::max_element(found, {}, &BestDamping::value);
   return most.value > best.value ? most : best;
@@ -99,7 +100,7 @@ std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, con
         *on_drive,
         [&](double damping) {
           const double nobody = unguarded_stiffness(with(*on_drive, damping)).stiffness;
-          return is_held && damping > 0.0 ? std::min(nobody, two_rates->limit_seen({damping, filter})) : nobody;
+          return is_held && damping > 0.0 ? std::min(nobody, two_rates->limit_on_grid({damping, filter})) : nobody;
         },
         progress);
     const BestDamping together = best_damping(
@@ -109,20 +110,17 @@ std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, con
                          : unguarded_stiffness(with(device, damping)).stiffness;
         },
         progress);
-    const auto [period, delay] = damper_timing(on_drive->loop());
     DriveDamper found;
-    found.sampling_period = period;
-    found.delay = delay;
     found.damping = apart.damping;
     found.velocity_filter_hz = apart.damping > 0.0 ? filter : 0.0;
     found.stiffness = limit_with(*on_drive, apart);
-    if (is_held)
+    if (is_held) {
       found.absolute_stability_limit = known_any_user_limit(with(*on_drive, apart.damping), progress).stiffness;
+    }
     found.one_rate_damping = together.damping;
     found.one_rate_stiffness = limit_with(device, together);
-    found.gain = found.stiffness / found.one_rate_stiffness;
+    complete(found, *on_drive);
     if (!(found.stiffness > 0.0) || !(found.gain > 0.0) || !std::isfinite(found.gain)) return std::nullopt;
-    found.why = finding_of(found, device.parameters().motion);
     return found;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
@@ -130,25 +128,27 @@ std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, con
   }
 }
 
-Finding finding_of(const DriveDamper& on_drive, Motion motion) {
-  const Units units = units_of(motion);
-  Finding why{.code = FindingCode::damper_on_drive,
-              .evidence = {{"sampling_period", on_drive.sampling_period, "s"},
-                           {"rate_hz", 1.0 / on_drive.sampling_period, "Hz"},
-                           {"delay", on_drive.delay, "s"},
-                           {"damping", on_drive.damping, units.damping},
-                           {"stiffness", on_drive.stiffness, units.stiffness},
-                           {"one_rate_damping", on_drive.one_rate_damping, units.damping},
-                           {"one_rate_stiffness", on_drive.one_rate_stiffness, units.stiffness},
-                           {"gain", on_drive.gain}},
-              .key = "loop.damper.sampling_period"};
-  if (on_drive.velocity_filter_hz > 0.0) {
-    why.evidence.push_back({"velocity_filter_hz", on_drive.velocity_filter_hz, "Hz"});
+void complete(DriveDamper& found, const Device& on_drive) {
+  const auto [period, delay] = damper_timing(on_drive.loop());
+  found.sampling_period = period;
+  found.delay = delay;
+  found.gain = found.stiffness / found.one_rate_stiffness;
+  const Units units = units_of(on_drive.parameters().motion);
+  found.why = {.code = FindingCode::damper_on_drive,
+               .evidence = {{"sampling_period", period, "s"},
+                            {"rate_hz", 1.0 / period, "Hz"},
+                            {"delay", delay, "s"},
+                            {"damping", found.damping, units.damping},
+                            {"stiffness", found.stiffness, units.stiffness},
+                            {"one_rate_damping", found.one_rate_damping, units.damping},
+                            {"one_rate_stiffness", found.one_rate_stiffness, units.stiffness},
+                            {"gain", found.gain}},
+               .key = "loop.damper.sampling_period"};
+  std::vector<Evidence>& evidence = found.why.evidence;
+  if (found.velocity_filter_hz > 0.0) evidence.push_back({"velocity_filter_hz", found.velocity_filter_hz, "Hz"});
+  if (found.absolute_stability_limit) {
+    evidence.push_back({"any_user_stiffness", *found.absolute_stability_limit, units.stiffness});
   }
-  if (on_drive.absolute_stability_limit) {
-    why.evidence.push_back({"any_user_stiffness", *on_drive.absolute_stability_limit, units.stiffness});
-  }
-  return why;
 }
 
 }  // namespace internal

@@ -12,7 +12,7 @@ std::optional<OptionProblem> find_problem(const RecommendationOptions& options, 
   if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.quantisation_force &&
       !(*options.quantisation_force > 0.0 && std::isfinite(*options.quantisation_force))) {
-    return option_problem("quantisation_force", {.code = ProblemCode::no_positive_quantity,
+    return option_problem("quantisation_force", {.code = ProblemCode::not_finite_and_positive,
                                                  .evidence = {{"value", *options.quantisation_force}},
                                                  .subjects = {{"what", "force"}}});
   }

@@ -19,23 +19,22 @@ class TwoRateLimits {
 
   [[nodiscard]] bool has_users() const { return has_users_; }
 
-  // Whether a search looks: each limit with any user is then as TwoRateUsers::limit_seen().
+  // Whether a search looks: each limit with any user is then as TwoRateUsers::limit_on_grid().
   void search(bool quickly);
 
   // The end of the stable stiffnesses from 0 on, with every user (where there is such a limit).
   [[nodiscard]] double limit(VirtualDamper damper) const;
 
   // The stiffest wall with this damper that keeps everything asked, no stiffer than one that something else bounds.
-  [[nodiscard]] WallLimits::Stiffest stiffest(VirtualDamper damper,
-                                              const WallLimits::Stiffest& at_most = {infinity, WallBound::none}) const;
+  [[nodiscard]] BoundedStiffness stiffest(VirtualDamper damper,
+                                          const BoundedStiffness& at_most = {infinity, WallBound::none}) const;
 
   // Whether the spring's loop keeps its margins with nobody and with the file's user, and every user the gain margin.
   [[nodiscard]] bool keeps(double stiffness, VirtualDamper damper) const;
 
  private:
+  // As the spring sees them behind this damper: with nobody, and with the file's user.
   [[nodiscard]] std::vector<FilteredPlant> plants(VirtualDamper damper) const;
-  [[nodiscard]] bool loop_keeps(const FilteredPlant& plant, double stiffness) const;
-  void keep_margins(VirtualDamper damper, WallLimits::Stiffest& least) const;
 
   const Device& device_;
   const RecommendationOptions& options_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "design/synthesis/damper_limits.hpp"
+#include "design/synthesis/described_wall.hpp"
 #include "design/synthesis/drive_damper.hpp"
 #include "design/synthesis/two_rate_limits.hpp"
 #include "design/synthesis/wall_check.hpp"
@@ -36,11 +37,10 @@ constexpr double finest_filter_step = 1.1;
 constexpr std::array shares_of_damper{1.0, 0.7, 0.5};
 constexpr double softer_step = 0.8;
 constexpr int most_softer_steps = 12;
-constexpr double tail_of_two_rate_draws = 0.025;  // of the devices drawn, which may fail
 
 struct TwoRateWall {
   VirtualDamper damper;
-  WallLimits::Stiffest stiffest;
+  BoundedStiffness stiffest;
 };
 
 class TwoRateRecommendation {
@@ -133,7 +133,7 @@ class TwoRateRecommendation {
     };
     const auto& uncertainty = device_.parameters().uncertainty;
     if (uncertainty && !uncertainty->parameters.empty()) {
-      take(drawn(device_, options_), tail_of_two_rate_draws, WallBound::uncertainty,
+      take(drawn(device_, options_), draws_that_may_fail, WallBound::uncertainty,
            FindingCode::uncertainty_leaves_no_margins);
     }
     if (options_.modal_frequency_uncertainty > 0.0 && wall.stiffest.stiffness > 0.0) {
@@ -143,7 +143,7 @@ class TwoRateRecommendation {
   }
 
   /// The best wall, no stiffer and no more damped, that the device as it is and all but a share of these devices bear; without
-  /// stiffness where there is none. Users are those of TwoRateUsers::limit_seen().
+  /// stiffness where there is none. Users are those of TwoRateUsers::limit_on_grid().
   [[nodiscard]] TwoRateWall borne(const TwoRateWall& wall, const std::vector<Device>& devices, double may_fail,
                                   WallBound by) const {
     RecommendationOptions asked = options_;
@@ -167,8 +167,7 @@ class TwoRateRecommendation {
         if (limits[i]) stiffest[i] = limits[i]->stiffest(damper, wall.stiffest).stiffness;
       });
       std::ranges::sort(stiffest);
-      WallLimits::Stiffest found{stiffest[failing],
-                                 stiffest[failing] < wall.stiffest.stiffness ? by : wall.stiffest.bound};
+      BoundedStiffness found{stiffest[failing], stiffest[failing] < wall.stiffest.stiffness ? by : wall.stiffest.bound};
       for (int step = 0; step < most_softer_steps && found.stiffness > 0.0; ++step) {
         // Softer at the same margins or less: they must still be kept.
         found = limits_.stiffest(damper, found);
@@ -187,24 +186,8 @@ class TwoRateRecommendation {
   /// With everything that stands behind it; `trust` says what the check found.
   [[nodiscard]] RecommendedWall described(Kind kind, const TwoRateWall& found, Trust& trust) const {
     const Device walled = with_wall(device_, found.stiffest.stiffness, found.damper);
-    RecommendedWall wall;
-    wall.kind = kind;
-    wall.wall = walled.parameters().wall;
     trust.inherit(critical_stiffness(walled).trust);
-    check_wall(walled, options_, limits_.has_users(), trust);
-    if (trust.refused()) return wall;
-    if (!limits_.keeps(found.stiffest.stiffness, found.damper)) {
-      trust.refuse({.code = FindingCode::wall_margins_contradict, .subjects = {{"what", "wall"}}});
-      return wall;
-    }
-    wall.bounded_by.stiffness = found.stiffest.bound;
-    wall.margins = wall_margins(walled);
-    if (limits_.has_users()) {
-      wall.absolute_stability_limit = limits_.limit(found.damper);
-      wall.absolute_stability_margin = *wall.absolute_stability_limit / *wall.wall.stiffness;
-    }
-    wall.force_per_count = force_per_count(walled);
-    return wall;
+    return described_wall(kind, walled, found.stiffest.bound, limits_, options_, trust);
   }
 
   void add(Kind kind, VirtualDamper damper, WallRecommendation& result) const {
@@ -215,13 +198,7 @@ class TwoRateRecommendation {
     if (!(found.stiffest.stiffness > 0.0)) return;
     Trust trust;
     RecommendedWall wall = described(kind, found, trust);
-    if (trust.refused()) {
-      result.trust.doubt({.code = FindingCode::alternative_left_out,
-                          .subjects = {{"what", std::string(words_of(kind))}, {"reason", trust.reasons.front()}}});
-      return;
-    }
-    result.trust.inherit(trust);
-    result.alternatives.push_back(std::move(wall));
+    add_alternative(std::move(wall), trust, result);
   }
 
   void add_alternatives(const TwoRateWall& best, WallRecommendation& result) const {
@@ -233,11 +210,7 @@ class TwoRateRecommendation {
   }
 
   void remark_on(WallRecommendation& result) const {
-    if (!(device_.parameters().sensor.resolution > 0.0)) {
-      Finding finding{
-          .code = FindingCode::force_per_count_unknown, .subjects = {{"what", "wall"}}, .key = "sensor.resolution"};
-      result.remarks.push_back(options_.quantisation_force ? warning(std::move(finding)) : note(std::move(finding)));
-    }
+    remark_on_resolution(device_, options_, result);
     result.remarks.push_back(limits_.has_users()
                                  ? note({.code = FindingCode::any_user_limit_scanned})
                                  : warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
@@ -275,18 +248,14 @@ std::optional<DriveDamper> recommend_drive_damper(const Device& device, const Re
   try {
     const WallRecommendation with = recommend_two_rate_wall(*on_drive, asked);
     if (!with.wall || !(with.wall->wall.damping > 0.0)) return std::nullopt;
-    const auto [period, delay] = damper_timing(on_drive->loop());
     DriveDamper result;
-    result.sampling_period = period;
-    result.delay = delay;
     result.damping = with.wall->wall.damping;
     result.velocity_filter_hz = with.wall->wall.velocity_filter_hz;
     result.stiffness = *with.wall->wall.stiffness;
     result.absolute_stability_limit = with.wall->absolute_stability_limit;
     result.one_rate_damping = found.wall.damping;
     result.one_rate_stiffness = *found.wall.stiffness;
-    result.gain = result.stiffness / result.one_rate_stiffness;
-    result.why = finding_of(result, device.parameters().motion);
+    complete(result, *on_drive);
     return result;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;

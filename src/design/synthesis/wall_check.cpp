@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "design/synthesis/wall_limits.hpp"
+#include "model/rate_ratio.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/loop/damper_response.hpp"
@@ -101,7 +102,7 @@ class StateSpaceLoop {
     for (const WallFilter& filter : wall_.filters) sections_.push_back(filter_section(filter, system_.period));
     if (!has_damper_loop(walled.loop()) || wall_.damping == 0.0) return;
     const auto [period, delay] = damper_timing(walled.loop());
-    steps_ = static_cast<int>(std::lround(walled.loop().sampling_period / period));
+    steps_ = static_cast<int>(periods_within(walled.loop().sampling_period, period));
     const double fast = walled.loop().sampling_period / steps_;
     of_spring_ = sample(state_space(walled), {fast, walled.loop().delay});
     of_damper_ = sample(state_space(walled), {fast, delay});

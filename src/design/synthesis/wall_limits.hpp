@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "design/synthesis/bounded_stiffness.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
@@ -29,13 +30,9 @@ class WallLimits {
  public:
   WallLimits(const Device& device, const RecommendationOptions& options);
 
-  struct Stiffest {
-    double stiffness = 0.0;  // 0: none; infinite: nothing bounds it
-    WallBound bound = WallBound::none;
-  };
   // The stiffest wall with this damper that keeps everything asked, for the goal asked or another.
-  [[nodiscard]] Stiffest stiffest(VirtualDamper damper) { return stiffest(damper, options_.goal); }
-  [[nodiscard]] Stiffest stiffest(VirtualDamper damper, WallGoal goal);
+  [[nodiscard]] BoundedStiffness stiffest(VirtualDamper damper) { return stiffest(damper, options_.goal); }
+  [[nodiscard]] BoundedStiffness stiffest(VirtualDamper damper, WallGoal goal);
 
   // Whether the loop keeps its margins with nobody and with the file's user, and every user the gain margin.
   [[nodiscard]] bool keeps(double stiffness, VirtualDamper damper);
@@ -50,8 +47,7 @@ class WallLimits {
   [[nodiscard]] const Device& device() const { return device_; }
 
  private:
-  [[nodiscard]] bool loop_keeps(double stiffness, VirtualDamper damper) const;
-  [[nodiscard]] Stiffest critically_damped(double at_most, VirtualDamper damper) const;
+  [[nodiscard]] BoundedStiffness critically_damped(double at_most, VirtualDamper damper) const;
 
   Device device_;
   RecommendationOptions options_;

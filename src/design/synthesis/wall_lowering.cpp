@@ -3,14 +3,13 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double tail_of_draws = 0.025;  // of the devices drawn, which may fail
-constexpr int rounds_of_lowering = 3;    // where uncertainty and modal shifts lower it by turns
+constexpr int rounds_of_lowering = 3;  // where uncertainty and modal shifts lower it by turns
 
 }  // namespace
 
 WorstCaseScreening& WallLowering::draws(const std::optional<WallFilter>& notch) {
   auto& end = draws_[notch ? 1 : 0];
-  if (!end) end = std::make_unique<WorstCaseScreening>(drawn(device_, options_), notch, tail_of_draws, options_);
+  if (!end) end = std::make_unique<WorstCaseScreening>(drawn(device_, options_), notch, draws_that_may_fail, options_);
   return *end;
 }
 
@@ -40,7 +39,7 @@ WallLowering::Kept WallLowering::lowered(double stiffness, VirtualDamper damper,
     if (uncertain && lower(draws(notch), WallBound::uncertainty)) changed = modes_are_uncertain;
     if (!(kept.stiffness > 0.0)) {
       kept.why_none =
-          Finding{.code = FindingCode::uncertainty_leaves_no_margins, .evidence = {{"threshold", tail_of_draws}}};
+          Finding{.code = FindingCode::uncertainty_leaves_no_margins, .evidence = {{"threshold", draws_that_may_fail}}};
       return kept;
     }
     if (modes_are_uncertain && lower(modal_shifts(notch), WallBound::modal_frequency_uncertainty)) changed = uncertain;

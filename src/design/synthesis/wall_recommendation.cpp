@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "design/synthesis/damper_limits.hpp"
+#include "design/synthesis/described_wall.hpp"
 #include "design/synthesis/notch_search.hpp"
 #include "design/synthesis/two_rate_recommendation.hpp"
 #include "design/synthesis/wall_check.hpp"
@@ -38,7 +39,7 @@ constexpr double to_be_distinct = 0.01;  // relative, of an alternative
 /// One wall on its way: with the filters of its limits closed.
 struct Candidate {
   VirtualDamper damper;
-  WallLimits::Stiffest stiffest;
+  BoundedStiffness stiffest;
   double value = 0.0;
   std::optional<WallFilter> notch;
 };
@@ -208,7 +209,7 @@ class Recommendation {
   }
 
   [[nodiscard]] WallBound bound_with(const Candidate& candidate, VirtualDamper damper) {
-    const WallLimits::Stiffest there = limits_of(candidate.notch).stiffest(damper);
+    const BoundedStiffness there = limits_of(candidate.notch).stiffest(damper);
     return there.stiffness < candidate.stiffest.stiffness ? there.bound : WallBound::none;
   }
 
@@ -234,27 +235,9 @@ class Recommendation {
     VirtualDamper damper = candidate.damper;
     if (damper.damping == 0.0) damper.velocity_filter_hz = 0.0;
     const Device walled = with_wall(limits.device(), candidate.stiffest.stiffness, damper);
-    RecommendedWall wall;
-    wall.kind = kind;
-    wall.wall = walled.parameters().wall;
+    RecommendedWall wall = described_wall(kind, walled, candidate.stiffest.bound, limits, options_, trust);
     wall.notch = candidate.notch;
-    tell(options_.progress, 0.0);
-    check_wall(walled, options_, limits.has_users(), trust);
-    if (trust.refused()) return wall;
-    if (!limits.keeps(candidate.stiffest.stiffness, damper)) {
-      trust.refuse({.code = FindingCode::wall_margins_contradict, .subjects = {{"what", "wall"}}});
-      return wall;
-    }
-    wall.bounded_by.stiffness = candidate.stiffest.bound;
-    tell(options_.progress, 0.0);
-    wall.margins = wall_margins(walled);
-    tell(options_.progress, 0.0);
-    if (limits.has_users()) {
-      wall.absolute_stability_limit = limits.limit(damper);
-      wall.absolute_stability_margin = *wall.absolute_stability_limit / *wall.wall.stiffness;
-    }
-    wall.contact_damping_ratio = contact_damping_ratio(walled);
-    wall.force_per_count = force_per_count(walled);
+    if (!trust.refused()) wall.contact_damping_ratio = contact_damping_ratio(walled);
     return wall;
   }
 
@@ -271,13 +254,7 @@ class Recommendation {
     if (is_like(*result.wall) || std::ranges::any_of(result.alternatives, is_like)) return;
     Trust trust;
     RecommendedWall wall = described(kind, *candidate, trust);
-    if (trust.refused()) {
-      result.trust.doubt({.code = FindingCode::alternative_left_out,
-                          .subjects = {{"what", std::string(words_of(kind))}, {"reason", trust.reasons.front()}}});
-      return;
-    }
-    result.trust.inherit(trust);
-    result.alternatives.push_back(std::move(wall));
+    add_alternative(std::move(wall), trust, result);
   }
 
   [[nodiscard]] Candidate with_share(const Candidate& best, double share) {
@@ -317,11 +294,7 @@ class Recommendation {
   }
 
   void remark_on_bounds(WallRecommendation& result) const {
-    if (!(device_.parameters().sensor.resolution > 0.0)) {
-      Finding finding{
-          .code = FindingCode::force_per_count_unknown, .subjects = {{"what", "wall"}}, .key = "sensor.resolution"};
-      result.remarks.push_back(options_.quantisation_force ? warning(std::move(finding)) : note(std::move(finding)));
-    }
+    remark_on_resolution(device_, options_, result);
     if (!limits_.has_users()) {
       result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
     }

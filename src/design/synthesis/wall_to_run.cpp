@@ -23,7 +23,7 @@ std::optional<OptionProblem> find_problem(const WallToRunOptions& options, const
   }
   if (options.stiffness && !(std::isfinite(*options.stiffness) && *options.stiffness > 0.0)) {
     return option_problem("stiffness",
-                          {.code = ProblemCode::not_above_zero,
+                          {.code = ProblemCode::not_finite_and_positive,
                            .evidence = {{"value", *options.stiffness}},
                            .subjects = {{"in", std::string(units_of(device.parameters().motion).stiffness)}}});
   }

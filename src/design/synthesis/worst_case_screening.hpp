@@ -15,6 +15,9 @@ namespace zwidth::internal {
 // `options.draws` devices drawn from the uncertainty of one that has uncertain parameters.
 [[nodiscard]] std::vector<Device> drawn(const Device& device, const RecommendationOptions& options);
 
+// The share of them that a wall may fail: the lower end of an interval of 95 %.
+inline constexpr double draws_that_may_fail = 0.025;
+
 // The device with its modes at every modal shift that a wall is held against, see with_modal_shift(); the furthest first.
 inline constexpr std::size_t modal_shifts_held = 41;
 [[nodiscard]] std::vector<Device> with_modal_shifts(const Device& device, double uncertainty);

@@ -30,7 +30,7 @@ RelativeBand band_of(const ExcitationOptions& options, double rate) {
 OptionProblem not_above_zero(const char* member, double value, const char* what) {
   return option_problem(
       member,
-      {.code = ProblemCode::no_positive_quantity, .evidence = {{"value", value}}, .subjects = {{"what", what}}});
+      {.code = ProblemCode::not_finite_and_positive, .evidence = {{"value", value}}, .subjects = {{"what", what}}});
 }
 
 OptionProblem beyond_range(const char* member, double value, NumberRange range, std::vector<Subject> subjects) {

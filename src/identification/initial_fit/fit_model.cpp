@@ -92,7 +92,7 @@ FitModel::FitModel(const Device& structure, const FrequencyResponse& response, c
     const std::string key = full_parameter_key(structure.parameters(), given);
     check_free(structure.parameters(), key);
     if (!seen.insert(key).second) {
-      throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::free_twice, .subjects = {{"key", key}}});
+      throw Error(ErrorCode::invalid_argument, Problem{.code = ProblemCode::given_twice, .subjects = {{"name", key}}});
     }
     Coordinate coordinate{key, Coordinate::kind_of(key), unit_of(measure_of(key), response.points)};
     if (key == key_of_delay) {

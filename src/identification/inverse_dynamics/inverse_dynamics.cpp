@@ -16,7 +16,7 @@
 #include "linear_systems.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/input_problem.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -27,14 +27,6 @@ constexpr std::size_t least_equations = 20;
 constexpr double decimation_factor = 0.8;
 
 [[noreturn]] void fail(const Problem& problem) { throw Error(ErrorCode::invalid_argument, problem); }
-
-[[noreturn]] void refuse_option(std::string member, Problem problem) {
-  InputPlace place;
-  place.option = std::move(member);
-  InputProblem told = input_problem(std::move(place), std::move(problem));
-  const std::string message = told.what + "; " + told.allowed;
-  throw Error(ErrorCode::invalid_argument, message, {std::move(told)});
-}
 
 /// The terms of the model at the record's inner samples, all through the same low-pass.
 struct Terms {
@@ -48,29 +40,28 @@ struct Terms {
 void check(std::span<const double> force, std::span<const double> position, double sampling_period,
            const InverseDynamicsOptions& options) {
   if (force.size() != position.size()) {
-    fail({.code = ProblemCode::force_and_position_of_two_lengths,
-          .evidence = {counted("force", force.size()), counted("position", position.size())}});
+    fail({.code = ProblemCode::force_and_motion_of_two_lengths,
+          .evidence = {counted("force", force.size()), counted("motion", position.size())}});
   }
   if (force.size() < least_samples) {
-    fail({.code = ProblemCode::too_few,
-          .evidence = {counted("value", force.size()), counted("least", least_samples)},
-          .subjects = {{"name", "the record"}, {"unit", "samples"}}});
+    fail({.code = ProblemCode::record_of_few_samples,
+          .evidence = {counted("samples", force.size()), counted("least", least_samples)}});
   }
   for (const auto& [name, samples] : {std::pair{"the force", force}, std::pair{"the position", position}}) {
     if (std::ranges::all_of(samples, [](double value) { return std::isfinite(value); })) continue;
     fail({.code = ProblemCode::not_finite, .subjects = {{"name", name}}});
   }
   if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    fail({.code = ProblemCode::no_duration,
+    fail({.code = ProblemCode::not_finite_and_positive,
           .evidence = {{"value", sampling_period}},
           .subjects = {{"name", "sampling period"}, {"unit", "s"}}});
   }
   if (options.cutoff_hz && !(*options.cutoff_hz > 0.0 && *options.cutoff_hz * sampling_period < 0.5)) {
-    refuse_option("cutoff_hz", {.code = ProblemCode::cutoff_not_possible,
+    refuse_member("cutoff_hz", {.code = ProblemCode::cutoff_not_possible,
                                 .evidence = {{"value", *options.cutoff_hz}, {"nyquist", 0.5 / sampling_period}}});
   }
   if (options.decimation && *options.decimation < 1) {
-    refuse_option("decimation", {.code = ProblemCode::none_asked, .subjects = {{"name", "decimation"}}});
+    refuse_member("decimation", {.code = ProblemCode::none_asked, .subjects = {{"name", "decimation"}}});
   }
   const auto [lowest, highest] = std::ranges::minmax(position);
   if (lowest == highest) fail({.code = ProblemCode::body_does_not_move});

@@ -45,7 +45,9 @@ void check(std::span<const double> force, std::span<const double> output, double
             .evidence = {counted("samples", force.size()), counted("least", fewest_samples)}});
   }
   if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
-    refuse({.code = ProblemCode::period_not_above_zero, .evidence = {{"value", sampling_period}}});
+    refuse({.code = ProblemCode::not_finite_and_positive,
+            .evidence = {{"value", sampling_period}},
+            .subjects = {{"name", "sampling period"}, {"unit", "s"}}});
   }
   check_samples(force, "force");
   check_samples(output, "motion");
@@ -55,7 +57,7 @@ void check(std::span<const double> force, std::span<const double> output, double
   if (constant(force)) refuse({.code = ProblemCode::signal_is_constant, .subjects = {{"signal", "force"}}});
   if (constant(output)) refuse({.code = ProblemCode::signal_is_constant, .subjects = {{"signal", "motion"}}});
   if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
-    refuse_member("overlap", {.code = ProblemCode::no_overlap, .evidence = {{"value", options.overlap}}});
+    refuse_member("overlap", {.code = ProblemCode::no_share_below_one, .evidence = {{"value", options.overlap}}});
   }
   const double lowest = options.lowest.value_or(0.0);
   const double highest = options.highest.value_or(std::numeric_limits<double>::infinity());
@@ -81,7 +83,9 @@ std::vector<double> angles_of(const FrequencyResponseOptions& options, double sa
   std::vector<double> angles;
   for (const double line : options.lines) {
     if (!(std::isfinite(line) && line > 0.0))
-      refuse_member("lines", {.code = ProblemCode::line_not_possible, .evidence = {{"value", line}}});
+      refuse_member("lines", {.code = ProblemCode::not_finite_and_positive,
+                              .evidence = {{"value", line}},
+                              .subjects = {{"name", "line"}, {"unit", "rad/s"}}});
     if (!(line * sampling_period < std::numbers::pi)) {
       refuse_member("lines",
                     {.code = ProblemCode::line_beyond_nyquist,

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "band_problem.hpp"
 #include "counted.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/quantity.hpp"
@@ -12,30 +13,14 @@ namespace {
 
 using internal::counted;
 
-std::optional<OptionProblem> find_band_problem(const FrequencyResponseOptions& options) {
-  const auto wrong = [](const std::optional<double>& frequency) {
-    return frequency && !(std::isfinite(*frequency) && *frequency > 0.0);
-  };
-  for (const auto& [member, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
-    if (wrong(value))
-      return option_problem(member,
-                            {.code = ProblemCode::no_frequency_in_hertz, .evidence = {{"hertz", hertz(*value)}}});
-  }
-  if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return option_problem("highest",
-                          {.code = ProblemCode::frequency_out_of_range,
-                           .evidence = {{"hertz", hertz(*options.highest)}, {"lowest", hertz(*options.lowest)}}});
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& options) {
   using Excitation = FrequencyResponseOptions::Excitation;
   const Excitation excitation = excitation_of(options);
   if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
-    return option_problem("overlap", {.code = ProblemCode::no_overlap, .evidence = {{"value", options.overlap}}});
+    return option_problem("overlap",
+                          {.code = ProblemCode::no_share_below_one, .evidence = {{"value", options.overlap}}});
   }
   if (options.segment_length && *options.segment_length < 2) {
     return option_problem("segment_length", {.code = ProblemCode::too_few,
@@ -55,13 +40,13 @@ std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& option
   const auto wrong =
       std::ranges::find_if_not(options.lines, [](double line) { return std::isfinite(line) && line > 0.0; });
   if (wrong != options.lines.end())
-    return option_problem("lines", {.code = ProblemCode::no_frequency_in_hertz,
+    return option_problem("lines", {.code = ProblemCode::frequency_out_of_range,
                                     .evidence = {{"hertz", hertz(*wrong)}},
                                     .subjects = {{"entry", "line"}}});
   if (!options.lines.empty() && (options.segment_length || options.period)) {
     return option_problem("lines", {.code = ProblemCode::lines_beside_segments});
   }
-  return find_band_problem(options);
+  return internal::find_band_problem(options.lowest, options.highest);
 }
 
 }  // namespace zwidth

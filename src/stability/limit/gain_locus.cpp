@@ -46,9 +46,7 @@ GainLocus::GainLocus(const FilteredPlant& plant, Gain gain, double stiffness, Vi
       gain_(gain),
       stiffness_(stiffness),
       damping_(damper.damping),
-      c_(damper.velocity_filter_hz > 0.0
-             ? -std::expm1(-2.0 * std::numbers::pi * damper.velocity_filter_hz * plant.period)
-             : 1.0) {
+      c_(velocity_filter_gain(damper.velocity_filter_hz, plant.period)) {
   for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
   nyquist_pairs_ = nyquist_zeros(plant) / 2;
   integrators_kept_ = integrators_;

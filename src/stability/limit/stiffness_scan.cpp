@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "stability/second_route/pole_modulus.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -14,23 +15,20 @@ namespace {
 
 using Pole = std::complex<double>;  // z - 1
 
-constexpr double at_one = 1e-9;              // of |z - 1|: such a pole is that of a position that hardly anything holds
+constexpr double at_one = 1e-9;              // of |z - 1|: the pole of a position that nothing holds
 constexpr double first_step_of_scan = 0.25;  // of log K
-constexpr double longest_crossing = 0.1;     // of log K: where a pole crosses, it does so once
+constexpr double longest_crossing = 0.1;     // of log K: within it a pole crosses once
 constexpr double shortest_step = 1e-7;       // of log K
-constexpr double far_inside = -1.0;          // of log |z|: such a pole is not followed
-constexpr double most_growth = 1e6;          // of a pole in the longer period: beyond, the others are rounded
+constexpr double far_inside = -1.0;          // of log |z|: a pole below it needs no finer step
+constexpr double most_growth = 1e6;          // of |z - 1|: beyond, the other eigenvalues are rounded
 constexpr std::size_t most_evaluations = 20000;
-
-// log |z|
-double excess(Pole pole) { return 0.5 * std::log1p(2.0 * pole.real() + std::norm(pole)); }
 
 struct Sample {
   double log_stiffness = 0.0;
   std::vector<Pole> poles;
 };
 
-// The poles of `next` in the order of those of `from`: each pair of the nearest two first.
+// The poles of `next` in the order of those of `from`: the two nearest of all are a pair, then the nearest of the rest.
 std::vector<Pole> matched(const std::vector<Pole>& from, std::vector<Pole> next) {
   struct Pair {
     double distance;
@@ -63,7 +61,7 @@ class StiffnessScan {
     const auto steps = static_cast<int>(std::ceil((last - first) / first_step_of_scan));
     Sample begin = at(first);
     for (const Pole& pole : begin.poles) {
-      if (excess(pole) > 0.0 && std::abs(pole) > at_one) ++found_.initially_unstable;
+      if (log_modulus(pole) > 0.0 && std::abs(pole) > at_one) ++found_.initially_unstable;
     }
     for (int i = 1; i <= steps; ++i) {
       Sample end = at(first + (last - first) * i / steps);
@@ -104,11 +102,11 @@ class StiffnessScan {
     }
   }
 
-  // Whether a pole that these three show crosses the circle only where its excess changes sign.
+  // Whether a pole that these three show crosses the circle only where log |z| changes sign.
   [[nodiscard]] static bool is_settled(Pole begin, Pole middle, Pole end, double length) {
-    const double first = excess(begin);
-    const double last = excess(end);
-    const double between = excess(middle);
+    const double first = log_modulus(begin);
+    const double last = log_modulus(end);
+    const double between = log_modulus(middle);
     if (first < far_inside && between < far_inside && last < far_inside) return true;
     const double bend = std::abs(middle - 0.5 * (begin + end));
     if ((first > 0.0) == (between > 0.0) && (between > 0.0) == (last > 0.0)) {
@@ -119,8 +117,8 @@ class StiffnessScan {
   }
 
   void add_crossing(const Sample& begin, const Sample& end, std::size_t index) {
-    const double first = excess(begin.poles[index]);
-    const double last = excess(end.poles[index]);
+    const double first = log_modulus(begin.poles[index]);
+    const double last = log_modulus(end.poles[index]);
     if ((first > 0.0) == (last > 0.0)) return;
     // Of a pair the one above stands for both.
     const Pole seen = std::abs(first) < std::abs(last) ? begin.poles[index] : end.poles[index];
@@ -131,7 +129,7 @@ class StiffnessScan {
       const Pole expected = begin.poles[index] + share * (end.poles[index] - begin.poles[index]);
       const std::vector<Pole> poles = at(log_stiffness).poles;
       on_circle = *std::ranges::min_element(poles, {}, [&](Pole pole) { return std::norm(pole - expected); });
-      return excess(on_circle);
+      return log_modulus(on_circle);
     };
     std::uintmax_t most_steps = 60;
     const auto [low, high] =

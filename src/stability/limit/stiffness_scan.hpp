@@ -16,16 +16,16 @@ struct ScannedCrossing {
 
 struct ScannedCrossings {
   std::vector<ScannedCrossing> crossings;  // by rising stiffness
-  int initially_unstable = 0;              // poles outside at the least stiffness, but for one that is at z = 1
+  int initially_unstable = 0;              // poles outside at the least stiffness, without one at z = 1
 };
 
-// A stiffness of at most this one that moves no pole by more than a thousandth of its distance from z = 1, but the one there of a
-// position that nothing holds: what happens for arbitrarily small K has happened there.
+// A stiffness, at most this one, so soft that every pole still lies where K = 0 has it, to a thousandth of its distance from
+// z = 1; the pole at z = 1 of a position that nothing holds is left out. A softer spring changes no pole count.
 [[nodiscard]] double soft_stiffness(const ScheduledLoop& loop, double most);
 
-// Every crossing between two stiffnesses, 0 < least < most, or up to where a pole grows a millionfold in the longer period,
-// which does not come back: all poles are followed over K, in steps within which each moves
-// on a straight line but for less than half its distance from the circle, and each crossing is found to rounding.
+// Every crossing between two stiffnesses, 0 < least < most. All poles are followed over K. A step is short enough when each
+// pole deviates from a straight line by less than half its distance from the circle; each crossing is found to rounding.
+// Ends at the stiffness at which a pole grows a millionfold in the longer period: it does not come back.
 // Throws Error (did_not_converge) where that takes too many steps.
 [[nodiscard]] ScannedCrossings scan_stiffness(const ScheduledLoop& loop, double least, double most);
 

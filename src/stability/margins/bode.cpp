@@ -37,7 +37,9 @@ std::function<Complex(double)> telling(std::function<Complex(double)> value, con
 
 std::optional<OptionProblem> find_problem(const char* member, const std::optional<double>& frequency) {
   if (!frequency || (std::isfinite(*frequency) && *frequency > 0.0)) return std::nullopt;
-  return option_problem(member, {.code = ProblemCode::no_frequency, .evidence = {{"value", *frequency}}});
+  return option_problem(member, {.code = ProblemCode::not_finite_and_positive,
+                                 .evidence = {{"value", *frequency}},
+                                 .subjects = {{"in", "rad/s"}}});
 }
 
 }  // namespace
@@ -50,7 +52,7 @@ std::optional<OptionProblem> find_problem(const BodeOptions& options) {
                                  .evidence = {{"value", *options.to}, {"lowest", *options.from}}});
   }
   if (options.points < least_points || options.points > most_points) {
-    return option_problem("points", {.code = ProblemCode::points_out_of_range,
+    return option_problem("points", {.code = ProblemCode::count_out_of_range,
                                      .evidence = {counted("value", options.points), counted("least", least_points),
                                                   counted("most", most_points)}});
   }

@@ -28,7 +28,7 @@ class LoopFraction {
   LoopFraction(const FilteredPlant& plant, const Wall& wall)
       : plant_(plant),
         stiffness_(*wall.stiffness),
-        c_(wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0),
+        c_(velocity_filter_gain(wall.velocity_filter_hz, plant.period)),
         rate_(wall.damping * c_ / plant.period) {
     if (stiffness_ > 0.0) return;
     for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;

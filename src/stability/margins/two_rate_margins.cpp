@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "stability/limit/two_rate_stiffness.hpp"
+#include "stability/margins/stiffness_margin.hpp"
+#include "stability/second_route/pole_modulus.hpp"
 #include "stability/second_route/scheduled_loop.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/state_space.hpp"
@@ -17,10 +19,10 @@ namespace zwidth::internal {
 namespace {
 
 // log |z| of the pole that is largest.
-double largest_excess_of(const ScheduledLoop& loop, double stiffness) {
+double largest_log_modulus(const ScheduledLoop& loop, double stiffness) {
   double largest = -1e3;
   for (const std::complex<double>& delta : loop.poles_minus_one(stiffness)) {
-    largest = std::max(largest, 0.5 * std::log1p(2.0 * delta.real() + std::norm(delta)));
+    largest = std::max(largest, log_modulus(delta));
   }
   return largest;
 }
@@ -34,14 +36,16 @@ class DelaySearch {
   [[nodiscard]] std::optional<double> least(bool of_spring, bool of_damper) const {
     const double longer = std::max(loop_.spring().period, loop_.damper().sampling.period);
     const double step = longer / steps_per_period;
-    const auto excess = [&](double delay) { return excess_with(of_spring ? delay : 0.0, of_damper ? delay : 0.0); };
-    double before = excess(0.0);
+    const auto log_modulus_after = [&](double delay) {
+      return log_modulus_delayed_by(of_spring ? delay : 0.0, of_damper ? delay : 0.0);
+    };
+    double before = log_modulus_after(0.0);
     for (double end = step; end <= most_periods * longer; end += step) {
-      const double after = excess(end);
+      const double after = log_modulus_after(end);
       if (!std::isfinite(after)) return std::nullopt;
       if (after >= 0.0) {
         std::uintmax_t most_steps = 100;
-        return boost::math::tools::toms748_solve(excess, end - step, end, before, after,
+        return boost::math::tools::toms748_solve(log_modulus_after, end - step, end, before, after,
                                                  boost::math::tools::eps_tolerance<double>(48), most_steps)
             .first;
       }
@@ -56,30 +60,20 @@ class DelaySearch {
   static constexpr std::size_t most_delay_states = 80;
 
   // Infinite where the loop would have too many states.
-  [[nodiscard]] double excess_with(double of_spring, double of_damper) const {
+  [[nodiscard]] double log_modulus_delayed_by(double of_spring, double of_damper) const {
     Sampling spring = loop_.spring();
     InnerLoop damper = loop_.damper();
     spring.delay += of_spring;
     damper.sampling.delay += of_damper;
     const ScheduledLoop as_it_runs(continuous_, spring, damper);
     if (as_it_runs.states() > most_delay_states) return std::numeric_limits<double>::infinity();
-    return largest_excess_of(as_it_runs, stiffness_);
+    return largest_log_modulus(as_it_runs, stiffness_);
   }
 
   ContinuousStateSpace continuous_;
   const TwoRateDevice& loop_;
   double stiffness_;
 };
-
-// The least factor above 1 on K alone.
-std::optional<double> factor_to_instability(const CriticalStiffness& critical, double stiffness) {
-  std::optional<double> least;
-  for (const Crossover& each : critical.crossovers) {
-    const double factor = each.stiffness / stiffness;
-    if (factor > 1.0) least = std::min(least.value_or(factor), factor);
-  }
-  return least;
-}
 
 }  // namespace
 
@@ -99,13 +93,13 @@ WallMargins two_rate_margins(const Device& device) {
   WallMargins margins{loop_margins(plant, cut), stiffness, wall.damping, 0.0};
   const ScheduledLoop as_it_runs = loop.as_it_runs(device);
   margins.spectral_radius =
-      std::exp(largest_excess_of(as_it_runs, stiffness) * loop.spring().period / as_it_runs.period());
+      std::exp(largest_log_modulus(as_it_runs, stiffness) * loop.spring().period / as_it_runs.period());
   margins.delay_margin.reset();
   // Those of the force that is cut, not of both together.
   margins.gain_margin.reset();
   margins.lower_gain_margin.reset();
   if (!margins.stable) return margins;
-  margins.stiffness_margin = factor_to_instability(unguarded_stiffness(device), stiffness);
+  margins.stiffness_margin = stiffness_margin(unguarded_stiffness(device).crossovers, &Crossover::stiffness, stiffness);
   const DelaySearch delays(device, loop, stiffness);
   margins.delay_margin = delays.least(true, true);
   margins.spring_delay_margin = delays.least(true, false);

@@ -86,15 +86,10 @@ class SmallLoopGain {
   double c_;
 };
 
-// c of the velocity filter's pole 1 - c; 1 without one.
-double filter_gain(const Wall& wall, double period) {
-  return wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * period) : 1.0;
-}
-
 }  // namespace
 
 std::complex<double> loop_gain(const FilteredPlant& plant, const Wall& wall, double angle) {
-  const double c = filter_gain(wall, plant.period);
+  const double c = velocity_filter_gain(wall.velocity_filter_hz, plant.period);
   const double half = std::sin(angle / 2.0);
   const std::complex<double> delta(-2.0 * half * half, std::sin(angle));
   const double rate = wall.damping * c / plant.period;
@@ -103,7 +98,7 @@ std::complex<double> loop_gain(const FilteredPlant& plant, const Wall& wall, dou
 
 std::vector<UnitGainPoint> unit_gain_points(const FilteredPlant& plant, const Wall& wall) {
   const double stiffness = *wall.stiffness;
-  const double c = filter_gain(wall, plant.period);
+  const double c = velocity_filter_gain(wall.velocity_filter_hz, plant.period);
   const double rate = wall.damping * c / plant.period;
   std::vector<UnitGainPoint> points;
   if (stiffness == 0.0 && rate == 0.0) return points;

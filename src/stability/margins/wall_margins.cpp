@@ -8,6 +8,7 @@
 
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/margins/delay_margin.hpp"
+#include "stability/margins/stiffness_margin.hpp"
 #include "stability/margins/two_rate_margins.hpp"
 #include "stability/margins/unit_gain.hpp"
 #include "stability/second_route/spectral_radius.hpp"
@@ -28,16 +29,6 @@ void check(const Wall& wall) {
                   {.code = ProblemCode::wall_not_possible, .evidence = {{"value", value}}});
     }
   }
-}
-
-// The least factor above 1 on K alone.
-std::optional<double> stiffness_margin(const GainCrossings& by_stiffness, double stiffness) {
-  std::optional<double> least;
-  for (const GainCrossing& crossing : by_stiffness.crossings) {
-    const double factor = crossing.gain / stiffness;
-    if (factor > 1.0) least = std::min(least.value_or(factor), factor);
-  }
-  return least;
 }
 
 // Gain margins: the crossings of the locus of one factor on the whole wall, on both sides of 1.
@@ -92,7 +83,8 @@ LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall) {
     const bool on_crossing = std::any_of(by_stiffness.crossings.begin(), by_stiffness.crossings.end(),
                                          [&](const GainCrossing& crossing) { return crossing.gain == stiffness; });
     margins.stable = !on_crossing && unstable_poles(by_stiffness, stiffness) == 0;
-    if (margins.stable) margins.stiffness_margin = stiffness_margin(by_stiffness, stiffness);
+    if (margins.stable)
+      margins.stiffness_margin = stiffness_margin(by_stiffness.crossings, &GainCrossing::gain, stiffness);
     if (margins.stable && wall.damping == 0.0) {
       find_gain_margins(by_stiffness, stiffness, margins);
     } else if (margins.stable) {

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -120,7 +119,7 @@ WallPolynomials<Number> rounded_wall(const Wall& wall, double period) {
   }
   result.has_damper = wall.damping > 0.0;
   if (wall.velocity_filter_hz > 0.0) {
-    result.low_pass = Number(-std::expm1(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period));
+    result.low_pass = Number(velocity_filter_gain(wall.velocity_filter_hz, period));
   }
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "eigenvalues.hpp"
 #include "model/balance.hpp"
+#include "stability/second_route/pole_modulus.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth {
@@ -81,8 +82,7 @@ std::vector<std::complex<double>> balanced_eigenvalues(const Eigen::MatrixXd& lo
 double largest_excess(const std::vector<std::complex<double>>& poles_minus_one) {
   double largest = -1.0;
   for (const std::complex<double>& delta : poles_minus_one) {
-    // |1 + d| - 1 = (2 Re d + |d|²) / (|1 + d| + 1)
-    largest = std::max(largest, (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0));
+    largest = std::max(largest, modulus_minus_one(delta));
   }
   return largest;
 }

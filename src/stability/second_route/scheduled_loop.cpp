@@ -7,6 +7,8 @@
 #include "eigenvalues.hpp"
 #include "linear_systems.hpp"
 #include "model/balance.hpp"
+#include "model/rate_ratio.hpp"
+#include "stability/second_route/pole_modulus.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
@@ -54,8 +56,8 @@ std::ptrdiff_t floor_quotient(std::ptrdiff_t a, std::size_t b) {
 
 ScheduledLoop::ScheduledLoop(const ContinuousStateSpace& device, const Sampling& spring, const InnerLoop& damper) {
   const bool is_damper_fast = damper.sampling.period <= spring.period;
-  const double longer = std::max(spring.period, damper.sampling.period);
-  ticks_ = static_cast<std::size_t>(std::llround(longer / std::min(spring.period, damper.sampling.period)));
+  const auto [shorter, longer] = std::minmax(spring.period, damper.sampling.period);
+  ticks_ = periods_within(longer, shorter);
   // The spring's period stands; the other is what it is of that, without its rounding.
   tick_ = is_damper_fast ? spring.period / static_cast<double>(ticks_) : spring.period;
   spring_ = path(device, is_damper_fast ? ticks_ : 1, spring.delay);
@@ -136,7 +138,7 @@ std::optional<int> ScheduledLoop::unstable_poles(double stiffness) const {
   int outside = 0;
   for (const std::complex<double>& delta : poles_minus_one(stiffness)) {
     if (!std::isfinite(std::abs(delta))) return std::nullopt;
-    const double excess = (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0);
+    const double excess = modulus_minus_one(delta);
     if (!(std::abs(excess) > std::max(rounding_of_pole * std::abs(delta), rounding_beside_one))) return std::nullopt;
     if (excess > 0.0) ++outside;
   }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <optional>
 
 #include "stability/second_route/winding_number.hpp"
@@ -10,15 +9,13 @@
 namespace zwidth::internal {
 namespace {
 
-using std::numbers::pi;
-
 // The characteristic polynomial, over positive numbers, and over z^L; over z - 1 too where nothing holds the position.
 class Characteristic {
  public:
   using Complex = std::complex<double>;
 
   Characteristic(const FilteredPlant& plant, const Wall& wall) : plant_(plant) {
-    c_ = wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0;
+    c_ = velocity_filter_gain(wall.velocity_filter_hz, plant.period);
     stiffness_ = *wall.stiffness;
     rate_ = wall.damping * c_ / plant.period;
     order_ = plant.delay_samples + 1;

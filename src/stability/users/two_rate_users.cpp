@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/one_rate.hpp"
+#include "model/rate_ratio.hpp"
 #include "stability/users/disc_pieces.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/termination_discs.hpp"
@@ -23,24 +23,35 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int even_looks = 128;       // in the band of the spring's rate, and as many for each of its periods of delay
-constexpr double least_look = 1e-7;   // rad per period of the spring
-constexpr int looks_per_decade = 24;  // towards zero
+// The grid of frequencies: this many evenly in the spring's band, and as many again for each whole period of its delay.
+constexpr int even_frequencies = 128;
+constexpr int grid_frequencies_per_decade = 24;  // below the first of them
+constexpr double least_grid_angle = 1e-7;        // rad per period of the spring
 constexpr int bits_of_minimum = 40;
-constexpr double flat_minimum = 1e-8;     // relative: a minimum between neighbours as near lies an eighth of that lower
-constexpr double same_as_at_zero = 1e-9;  // relative: the limit towards w = 0 is named rather than another frequency
+constexpr double flat_minimum = 1e-8;     // relative: neighbours this near are a minimum to an eighth of that
+constexpr double same_as_at_zero = 1e-9;  // relative: the frequency is then 0
 constexpr double whole_within = 1e-6;     // periods of the damper, of the difference of the delays
+
+// The damper's periods by which the spring's force comes later; nothing where they are no whole number or the damper is slower.
+std::optional<double> whole_periods_later(const Loop& loop) {
+  const auto [period, delay] = damper_timing(loop);
+  if (rate_ratio(loop.sampling_period, period) < 1.0) return std::nullopt;
+  const double later = (loop.delay - delay) / period;
+  const double whole = std::round(later);
+  return std::abs(later - whole) <= whole_within ? std::optional(whole) : std::nullopt;
+}
 
 }  // namespace
 
 class TwoRateDiscs {
  public:
-  TwoRateDiscs(const Device& free, double whole)
+  // `free`: of a loop that knows_all_users().
+  explicit TwoRateDiscs(const Device& free)
       : discs_(with_loop_of_damper(free)),
         period_(free.loop().sampling_period),
         fast_period_(damper_timing(free.loop()).sampling_period),
-        steps_(static_cast<int>(std::lround(rate_ratio(period_, fast_period_)))),
-        whole_(whole) {
+        steps_(static_cast<int>(periods_within(period_, fast_period_))),
+        periods_later_(whole_periods_later(free.loop()).value()) {
     if (!discs_.is_undamped()) pieces_ = DiscPieces(discs_, with_loop_of_damper(free));
   }
   TwoRateDiscs(const TwoRateDiscs&) = delete;
@@ -56,18 +67,18 @@ class TwoRateDiscs {
       return closed(alias_of(frequency, alias, [&](double at) { return discs_.scaled_at({0.0, at}); }), damper);
     });
   }
-  // The same by interpolated sums over aliases beyond the damper's rate.
+  // The same by interpolated sums over the aliases beyond the damper's rate.
   [[nodiscard]] double quick_limit_at(double frequency, VirtualDamper damper) const {
     return limit_of([&](int alias) { return closed(quick_alias_of(frequency, alias), damper); });
   }
 
-  // What the spring's samples show of one frequency of the damper's band, before the damper is closed.
+  // One frequency of the damper's band as the spring's samples show it, before the damper is closed.
   struct Alias {
     TerminationDiscs::Disc disc;  // scaled
-    double positive = 0.0;        // rad/s, its frequency
+    double frequency = 0.0;       // rad/s, without its sign
     bool is_negative = false;
-    double share = 0.0;         // |(1 - z^-N)/(1 - z^-1)|/N
-    std::complex<double> turn;  // its angle, and that of z^-m
+    double gain = 0.0;           // |(1 - z^-N)/(1 - z^-1)|/N
+    std::complex<double> phase;  // e^j of its angle and that of z^-m
   };
   using Aliases = std::vector<Alias>;
   [[nodiscard]] Aliases aliases_at(double frequency) const {
@@ -80,7 +91,7 @@ class TwoRateDiscs {
         [&](int alias) { return closed(aliases[static_cast<std::size_t>(alias - least_alias())], damper); });
   }
 
-  // Of the held device, as they appear in the spring's band.
+  // The frequencies of the held device's modes, as they appear in the spring's band.
   void add_modes(std::vector<double>& frequencies) const {
     for (const Mode& mode : discs_.held_form().modes) {
       const double at = std::abs(std::remainder(mode.frequency, 2.0 * nyquist()));
@@ -132,25 +143,25 @@ class TwoRateDiscs {
     const double fast_nyquist = pi / fast_period_;
     if (at > fast_nyquist) at -= 2.0 * fast_nyquist;
     Alias seen;
-    seen.positive = std::min(std::abs(at), fast_nyquist);
+    seen.frequency = std::min(std::abs(at), fast_nyquist);
     seen.is_negative = at < 0.0;
-    seen.disc = disc_at(seen.positive);
-    const double angle = seen.positive * fast_period_;
+    seen.disc = disc_at(seen.frequency);
+    const double angle = seen.frequency * fast_period_;
     const double sum = std::sin(0.5 * angle * steps_) / std::sin(0.5 * angle);
-    seen.share = std::abs(sum) / steps_;
-    seen.turn = (sum < 0.0 ? -1.0 : 1.0) * std::polar(1.0, -angle * (0.5 * (steps_ - 1) + whole_));
+    seen.gain = std::abs(sum) / steps_;
+    seen.phase = (sum < 0.0 ? -1.0 : 1.0) * std::polar(1.0, -angle * (0.5 * (steps_ - 1) + periods_later_));
     return seen;
   }
 
   [[nodiscard]] Part closed(const Alias& seen, VirtualDamper gains) const {
     const TerminationDiscs::Disc& disc = seen.disc;
     if (!std::isfinite(disc.radius)) return {};
-    const std::complex<double> damper = damper_response(gains, fast_period_, seen.positive);
+    const std::complex<double> damper = damper_response(gains, fast_period_, seen.frequency);
     const double divisor = disc.one + 2.0 * (damper * disc.centre).real() + std::norm(damper) * disc.power;
     if (!(divisor > 0.0)) return {};
-    std::complex<double> centre = seen.share * seen.turn * (disc.centre + std::conj(damper) * disc.power) / divisor;
+    std::complex<double> centre = seen.gain * seen.phase * (disc.centre + std::conj(damper) * disc.power) / divisor;
     if (seen.is_negative) centre = std::conj(centre);
-    return {centre, seen.share * disc.radius / divisor, seen.share * seen.share * disc.power / divisor};
+    return {centre, seen.gain * disc.radius / divisor, seen.gain * seen.gain * disc.power / divisor};
   }
 
   TerminationDiscs discs_;
@@ -158,19 +169,19 @@ class TwoRateDiscs {
   double period_;
   double fast_period_;
   int steps_;
-  double whole_;
+  double periods_later_;  // m
 };
 
 namespace {
 
-std::vector<double> frequencies_to_look_at(const TwoRateDiscs& discs, const Device& device,
-                                           const CriticalStiffness& nobody) {
+std::vector<double> frequency_grid(const TwoRateDiscs& discs, const Device& device, const CriticalStiffness& nobody) {
   const double nyquist = discs.nyquist();
   const double period = device.loop().sampling_period;
   std::vector<double> frequencies;
-  const int even = even_looks * (1 + static_cast<int>(device.loop().delay / period));
+  const int even = even_frequencies * (1 + static_cast<int>(device.loop().delay / period));
   for (int i = 1; i <= even; ++i) frequencies.push_back(nyquist * i / even);
-  for (double angle = pi / even; angle > least_look; angle *= std::pow(10.0, -1.0 / looks_per_decade)) {
+  for (double angle = pi / even; angle > least_grid_angle;
+       angle *= std::pow(10.0, -1.0 / grid_frequencies_per_decade)) {
     frequencies.push_back(angle / period);
   }
   discs.add_modes(frequencies);
@@ -181,19 +192,14 @@ std::vector<double> frequencies_to_look_at(const TwoRateDiscs& discs, const Devi
     }
     frequencies.push_back(each.frequency);
   }
-  std::erase_if(frequencies, [&](double each) { return !(each >= least_look / period && each <= nyquist); });
+  std::erase_if(frequencies, [&](double each) { return !(each >= least_grid_angle / period && each <= nyquist); });
   std::ranges::sort(frequencies);
   return frequencies;
 }
 
 }  // namespace
 
-bool knows_all_users(const Loop& loop) {
-  const auto [period, delay] = damper_timing(loop);
-  if (rate_ratio(loop.sampling_period, period) < 1.0) return false;
-  const double apart = (loop.delay - delay) / period;
-  return std::abs(apart - std::round(apart)) <= whole_within;
-}
+bool knows_all_users(const Loop& loop) { return whole_periods_later(loop).has_value(); }
 
 std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress) {
   if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, virtual_damper(device), progress);
@@ -219,15 +225,13 @@ AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress
 std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                   const CriticalStiffness& nobody) {
   if (!knows_all_users(device.loop())) return std::nullopt;
-  const auto [period, delay] = damper_timing(device.loop());
-  const double apart = (device.loop().delay - delay) / period;
   AbsoluteStabilityLimit limit;
   limit.trust = nobody.trust;
   const Device free = device_without_user(device);
-  const TwoRateDiscs discs(free, std::round(apart));
+  const TwoRateDiscs discs(free);
   if (discs.is_undamped() || nobody.stiffness == 0.0) return limit;
   const VirtualDamper damper{free.parameters().wall.damping, free.parameters().wall.velocity_filter_hz};
-  const std::vector<double> frequencies = frequencies_to_look_at(discs, free, nobody);
+  const std::vector<double> frequencies = frequency_grid(discs, free, nobody);
   std::vector<double> limits;
   for (const double each : frequencies) limits.push_back(discs.quick_limit_at(each, damper));
   double least = std::numeric_limits<double>::infinity();
@@ -241,8 +245,8 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
     const double before = i > 0 ? limits[i - 1] : std::numeric_limits<double>::infinity();
     const double after = i + 1 < limits.size() ? limits[i + 1] : std::numeric_limits<double>::infinity();
     if (!(limits[i] > 0.0) || limits[i] > before || limits[i] > after) continue;
-    if (std::max(before, after) <= limits[i] * (1.0 + flat_minimum))
-      continue;  // towards zero it is constant, and rounding swings
+    // Towards zero the limit is constant, and rounding swings.
+    if (std::max(before, after) <= limits[i] * (1.0 + flat_minimum)) continue;
     std::uintmax_t most_steps = 100;
     const auto [at, compliance] = boost::math::tools::brent_find_minima(
         [&](double frequency) { return -1.0 / discs.quick_limit_at(frequency, damper); },
@@ -259,29 +263,26 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
   return limit;
 }
 
-struct TwoRateUsers::Looks {
+struct TwoRateUsers::Grid {
   TwoRateDiscs discs;
   std::vector<TwoRateDiscs::Aliases> aliases;  // by frequency
 
-  Looks(const Device& free, double apart) : discs(free, apart) {
+  explicit Grid(const Device& free) : discs(free) {
     if (discs.is_undamped()) return;
-    for (const double each : frequencies_to_look_at(discs, free, {})) aliases.push_back(discs.aliases_at(each));
+    for (const double each : frequency_grid(discs, free, {})) aliases.push_back(discs.aliases_at(each));
   }
 };
 
-TwoRateUsers::TwoRateUsers(const Device& device) {
-  const auto [period, delay] = damper_timing(device.loop());
-  looks_ = std::make_unique<Looks>(device_without_user(device), std::round((device.loop().delay - delay) / period));
-}
+TwoRateUsers::TwoRateUsers(const Device& device) : grid_(std::make_unique<Grid>(device_without_user(device))) {}
 TwoRateUsers::TwoRateUsers(TwoRateUsers&&) noexcept = default;
 TwoRateUsers& TwoRateUsers::operator=(TwoRateUsers&&) noexcept = default;
 TwoRateUsers::~TwoRateUsers() = default;
 
-double TwoRateUsers::limit_seen(VirtualDamper damper) const {
-  if (looks_->discs.is_undamped()) return 0.0;
+double TwoRateUsers::limit_on_grid(VirtualDamper damper) const {
+  if (grid_->discs.is_undamped()) return 0.0;
   double least = std::numeric_limits<double>::infinity();
-  for (const TwoRateDiscs::Aliases& each : looks_->aliases) {
-    least = std::min(least, looks_->discs.limit_of_aliases(each, damper));
+  for (const TwoRateDiscs::Aliases& each : grid_->aliases) {
+    least = std::min(least, grid_->discs.limit_of_aliases(each, damper));
     if (!(least > 0.0)) return 0.0;
   }
   return least;

@@ -9,24 +9,24 @@
 
 namespace zwidth::internal {
 
-// The limit over all passive users of a device whose damper runs in a loop of its own and is closed. At each frequency of the
-// damper's rate the plant fills a disc; closing the damper maps it to a disc,
+// The limit over all passive users of a device whose damper runs in a loop of its own. At each frequency of the damper's band
+// the plant fills a disc; closing the damper maps it to a disc,
 //
 //     p -> p/(1 + g p), g = B v:   centre (c + conj(g) A)/D,  radius r/D,   A = |c|² - r²,  D = 1 + 2 Re[g c] + |g|² A
 //
-// and the N aliases of the spring's rate, at each of which a user may be another, add up. Source: theory, section 8.
+// and the discs of the N aliases of the spring's rate add up: the user may be another at each. Source: theory, section 8.
 //
-// Nothing where the damper is the slower one, and where the delays of the two differ by no whole number of the damper's periods:
-// their paths would see the aliases with different phases. The least over all frequencies is found by a scan, and not shown
-// to be the least in between. Throws as absolute_stability_limit().
+// Nothing unless knows_all_users(). The least over all frequencies is that of a grid, refined at its minima; what lies between
+// is not shown to be higher. Throws as absolute_stability_limit().
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                                 const CriticalStiffness& nobody);
 
-// Whether the limit over all passive users of such a device is known: where two_rate_absolute_stability() gives one.
+// Whether the limit over all passive users is known: the damper is as fast as the spring or faster, and their delays differ by
+// whole periods of the damper. Otherwise the two forces see the aliases with different phases.
 [[nodiscard]] bool knows_all_users(const Loop& loop);
 
-// absolute_stability_limit() of the device with the damper of its wall, of one rate or two. Nothing where it is not known; refused
-// where the limit that nobody holds is.
+// absolute_stability_limit() of the device with the damper of its wall, at one rate or two. Nothing where it is not known;
+// refused where the limit of nobody is.
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress = {});
 
 // The same; throws Error (invalid_argument) as require_one_rate() where it is not known.
@@ -43,13 +43,13 @@ class TwoRateUsers {
   TwoRateUsers& operator=(const TwoRateUsers&) = delete;
   ~TwoRateUsers();
 
-  // The least K at the frequencies looked at, never below two_rate_absolute_stability(): refined between none of them, and
-  // without the limit of nobody.
-  [[nodiscard]] double limit_seen(VirtualDamper damper) const;
+  // The least K over a grid of frequencies, without the limit of nobody and without refinement between them: at least
+  // two_rate_absolute_stability().
+  [[nodiscard]] double limit_on_grid(VirtualDamper damper) const;
 
  private:
-  struct Looks;
-  std::unique_ptr<Looks> looks_;
+  struct Grid;
+  std::unique_ptr<Grid> grid_;
 };
 
 }  // namespace zwidth::internal

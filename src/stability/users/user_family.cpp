@@ -34,7 +34,7 @@ struct Found {
 
 void check(const ValueRange& range, const char* name) {
   if (range.least >= 0.0 && range.greatest >= range.least && std::isfinite(range.greatest)) return;
-  throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::users_range_not_possible,
+  throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::range_not_possible,
                                             .evidence = {{"least", range.least}, {"greatest", range.greatest}},
                                             .subjects = {{"name", name}}});
 }
