@@ -287,4 +287,8 @@ double TwoRateUsers::limit_seen(VirtualDamper damper) const {
   return least;
 }
 
+double TwoRateUsers::limit_at(double frequency, VirtualDamper damper) const {
+  return looks_->discs.is_undamped() ? 0.0 : looks_->discs.limit_at(frequency, damper);
+}
+
 }  // namespace zwidth::internal

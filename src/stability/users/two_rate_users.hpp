@@ -47,6 +47,10 @@ class TwoRateUsers {
   // without the limit of nobody.
   [[nodiscard]] double limit_seen(VirtualDamper damper) const;
 
+  // The least K that some user does not allow at this frequency, in rad/s, up to Nyquist of the spring; infinite where there
+  // is none.
+  [[nodiscard]] double limit_at(double frequency, VirtualDamper damper) const;
+
  private:
   struct Looks;
   std::unique_ptr<Looks> looks_;
