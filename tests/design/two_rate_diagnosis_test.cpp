@@ -102,7 +102,7 @@ TEST(TwoRateDiagnosis, NamesAUserWhereTheDeviceAloneIsStable) {
 }
 
 TEST(TwoRateDiagnosis, LooksForNoUserWhereTheirLimitIsNotKnown) {
-  const Diagnosis slower = diagnose(with_own_loop(1e-4, 1e-3, 100.0), {.frequency = 1500.0, .stiffness = 3e5});
+  const Diagnosis slower = diagnose(with_own_loop(5e-4, 1e-3, 100.0), {.frequency = 1500.0, .stiffness = 3e5});
   EXPECT_EQ(find(slower, OscillationCause::passive_user), nullptr);
   EXPECT_TRUE(leaves_out(slower, "any_user"));
   EXPECT_FALSE(slower.absolute_stability_limit_now.has_value());
