@@ -25,6 +25,7 @@
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
@@ -148,12 +149,14 @@ auto fitted(const CLI::App& command, const std::string& name, const Work& work, 
 Identification identified_device(const IdentifyArguments& arguments) {
   if (!arguments.has_recording()) {
     const Structure fitted_structure = structure(arguments.structure, {}, {});
+    worked(arguments.structure.structure, [&] { require_one_rate(fitted_structure.device); });
     const IdentifyOptions options = identify_options(arguments, fitted_structure);
     return fitted(*arguments.response.command, "",
                   [&](const Progress&) { return identify_from_limits(fitted_structure.device, options); }, {});
   }
   const ResponseSource source = response_source(arguments.response);
   const Structure fitted_structure = structure(arguments.structure, source.sampling_period(), source.recordings);
+  worked(arguments.structure.structure, [&] { require_open_damper(fitted_structure.device); });
   IdentifyOptions options = identify_options(arguments, fitted_structure);
   options.response = source.options;
   const auto identified = [&](const Progress& progress) {

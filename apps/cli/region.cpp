@@ -27,6 +27,7 @@ struct RegionArguments {
   DeviceArguments devices;
   OutputArguments output;
   std::optional<std::size_t> raster;
+  bool one_rate = false;
 };
 
 /// Bound to its progress line, which is gone before anything is printed.
@@ -44,11 +45,8 @@ std::optional<Wall> recommended_wall(const Device& device) {
 
 /// Spring and damper both at the slower of two rates: what a damper of its own is drawn against.
 std::optional<WallRegion> region_of_slower_rate(const Device& device) {
-  const Loop& loop = device.loop();
-  if (!has_damper_loop(loop)) return std::nullopt;
-  const bool damper_is_slower = damper_timing(loop).sampling_period > loop.sampling_period;
-  return region(damper_is_slower ? with_loop_of_damper(device) : with_one_rate(device),
-                {.any_user = false, .approximations = false});
+  if (!has_damper_loop(device.loop())) return std::nullopt;
+  return region(at_slower_rate(device), {.any_user = false, .approximations = false});
 }
 
 void run_region(const RegionArguments& arguments) {
@@ -56,7 +54,8 @@ void run_region(const RegionArguments& arguments) {
   outputs.keep(arguments.devices.files, "device file");
   if (arguments.raster && arguments.output.csv.empty())
     throw BadInput("--raster", "is for a csv file", "add --csv FILE");
-  const Device device = std::move(read_devices(arguments.devices).front());
+  const Device read = std::move(read_devices(arguments.devices).front());
+  const Device device = arguments.one_rate ? at_slower_rate(read) : read;
   const WallRegion walls = found_region(*arguments.devices.command, device, arguments.devices.files.front());
   if (walls.trust.refused()) {
     return print_refused(outputs, walls.trust, device.name(),
@@ -88,6 +87,8 @@ void add_region(CLI::App& app) {
   command->add_option("--raster", arguments->raster, "With --csv: N x N walls, each stable or not, instead")
       ->type_name("N")
       ->check(CLI::Range(2, 2000));
+  command->add_flag("--one-rate", arguments->one_rate,
+                    "Spring and damper both at the slower of their two rates, where [loop.damper] runs the damper apart");
   command->footer(
       "Examples:\n"
       "  zwidth region devices/lhifam.toml\n"

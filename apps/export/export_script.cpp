@@ -122,15 +122,17 @@ struct Words {
   std::string_view list_end;
 };
 
-/// Behind the device's name in the first comment.
+/// Behind the device's name in the first comment: whether its numbers are doubtful, and whether a damper is closed in them.
 std::string doubt_of(const DeviceModel& model) {
   const auto note = trust_note(model.analysis.trust);
-  return note ? ". " + *note : std::string();
+  std::string text = note ? ". " + *note : std::string();
+  for (const Remark& remark : model.remarks) text += ". " + remark.what;
+  return text;
 }
 
 std::string filled_in(std::string_view data, const DeviceModel& model, const Notation& notation, const Words& words,
                       const std::string& name) {
-  const Wall& wall = model.device.parameters().wall;
+  const Wall& wall = model.wall;
   const Device& device = model.device;
   const DiscreteStateSpace& discrete = model.discrete;
   const auto matrix = [&](const Eigen::MatrixXd& values) { return literal(values, notation); };
@@ -143,9 +145,9 @@ std::string filled_in(std::string_view data, const DeviceModel& model, const Not
       fmt::arg("B", matrix(model.continuous.B)), fmt::arg("C", matrix(model.continuous.C)),
       fmt::arg("T", discrete.period), fmt::arg("delay", device.loop().delay), fmt::arg("l", discrete.delay_samples),
       fmt::arg("Phi", matrix(discrete.Phi)), fmt::arg("Gamma1", matrix(discrete.Gamma1)),
-      fmt::arg("Gamma2", matrix(discrete.Gamma2)), fmt::arg("terms", matrix(terms.values)),
-      fmt::arg("terms_rest", matrix(terms.rests)), fmt::arg("sum", matrix(sum.values)),
-      fmt::arg("sum_rest", matrix(sum.rests)),
+      fmt::arg("Gamma2", matrix(discrete.Gamma2)), fmt::arg("Cd", matrix(discrete.C)),
+      fmt::arg("terms", matrix(terms.values)), fmt::arg("terms_rest", matrix(terms.rests)),
+      fmt::arg("sum", matrix(sum.values)), fmt::arg("sum_rest", matrix(sum.rests)),
       fmt::arg("at_nyquist", at_nyquist ? fmt::format("{:.17g}", *at_nyquist) : std::string(words.missing)),
       fmt::arg("m", model.sampled.delay_samples), fmt::arg("damping", wall.damping),
       fmt::arg("K", wall.stiffness ? fmt::format("{:.17g}", *wall.stiffness) : std::string(words.missing)),

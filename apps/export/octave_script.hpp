@@ -19,12 +19,13 @@ C = {C};
 sysc = ss(A, B, C, 0);
 
 % Exact sampling behind a zero-order hold, period T, with the delay of {delay:.17g} s split into whole samples l and a rest:
-% x[k+1] = F x[k] + Gamma1 u[k-l] + Gamma2 u[k-l-1], y[k] = C x[k]. Phi = F - I keeps the digits of F.
+% x[k+1] = F x[k] + Gamma1 u[k-l] + Gamma2 u[k-l-1], y[k] = C x[k], C that of the model. Phi = F - I keeps the digits of F.
 model.T = {T:.17g};
 model.delay_samples = {l};
 model.Phi = {Phi};
 model.Gamma1 = {Gamma1};
 model.Gamma2 = {Gamma2};
+model.C = {Cd};
 
 % The same as a sum of modal terms in d = z - 1, ascending: rows of numerator, denominator, numerator, ...
 % The delay is split so that z^-m stands outside the sum, m samples.
@@ -50,7 +51,7 @@ wall.filters = {filters};
 
 inline constexpr std::string_view octave_body = R"(
 % The discrete system with the delayed forces as states
-n = rows(A);
+n = rows(model.Phi);
 delays = model.delay_samples + any(model.Gamma2 != 0);
 F = blkdiag(eye(n) + model.Phi, zeros(delays));
 G = zeros(n + delays, 1);
@@ -65,7 +66,7 @@ if (delays > 0)
   G(n + 1) = 1;
   F(n+2:end, n+1:end-1) = eye(delays - 1);
 end
-sysd = ss(F, G, [C, zeros(1, delays)], 0, model.T);
+sysd = ss(F, G, [model.C, zeros(1, delays)], 0, model.T);
 
 % A double and its rest, [high; low], times a double, and plus another: 32 digits (Dekker 1971)
 function [high, low] = sum_of(a, a_low, b, b_low)

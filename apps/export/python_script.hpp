@@ -19,12 +19,13 @@ C = {C}
 sysc = signal.StateSpace(A, B, C, np.zeros((1, 1)))
 
 # Exact sampling behind a zero-order hold, period T, with the delay of {delay:.17g} s split into whole samples l and a rest:
-# x[k+1] = F x[k] + Gamma1 u[k-l] + Gamma2 u[k-l-1], y[k] = C x[k]. Phi = F - I keeps the digits of F.
+# x[k+1] = F x[k] + Gamma1 u[k-l] + Gamma2 u[k-l-1], y[k] = C_sampled x[k]. Phi = F - I keeps the digits of F.
 T = {T:.17g}
 delay_samples = {l}
 Phi = {Phi}
 Gamma1 = {Gamma1}
 Gamma2 = {Gamma2}
+C_sampled = {Cd}
 
 # The same as a sum of modal terms in d = z - 1, ascending: rows of numerator, denominator, numerator, ...
 # The delay is split so that z^-m stands outside the sum, m samples.
@@ -52,7 +53,7 @@ inline constexpr std::string_view python_body = R"(
 
 def with_delay_states():
     """The discrete system with the delayed forces as states."""
-    n = len(A)
+    n = len(Phi)
     delays = delay_samples + int(np.any(Gamma2))
     inputs = np.zeros((n, delays + 1))  # columns: u[k], u[k-1], ...
     inputs[:, [delay_samples]] = Gamma1
@@ -66,7 +67,7 @@ def with_delay_states():
         F[:n, n:] = inputs[:, 1:]
         G[n, 0] = 1.0
         F[n + 1:, n:-1] = np.eye(delays - 1)
-    return signal.dlti(F, G, np.hstack([C, np.zeros((1, delays))]), np.zeros((1, 1)), dt=T)
+    return signal.dlti(F, G, np.hstack([C_sampled, np.zeros((1, delays))]), np.zeros((1, 1)), dt=T)
 
 
 sysd = with_delay_states()

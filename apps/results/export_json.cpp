@@ -71,9 +71,9 @@ Json with_delay_states_json(const DeviceModel& model) {
           {"C", rows(augmented.C)}};
 }
 
-Json wall_json(const Device& device) {
-  const Wall& wall = device.parameters().wall;
-  const double period = device.loop().sampling_period;
+Json wall_json(const DeviceModel& model) {
+  const Wall& wall = model.wall;
+  const double period = model.discrete.period;
   return {{"equation",
            "u = -C(z) y, C(z) = F(z) (K + B v(z)), v(z) = (1 - a)/T (z - 1)/(z - a), F the product of the filters"},
           {"stiffness", wall.stiffness},
@@ -116,12 +116,12 @@ Json export_json(const DeviceModel& model) {
            {{"equation", "z^-l sum N(d)/D(d), d = z - 1, coefficients ascending"},
             {"delay_samples", model.sampled.delay_samples},
             {"terms", sampled_terms(model.sampled)}}},
-          {"wall", wall_json(device)},
+          {"wall", wall_json(model)},
           {"status", critical.status},
           {"critical_stiffness", critical.stiffness},
           {"crossovers", critical.crossovers},
           {"trust", critical.trust},
-          {"findings", findings_json(critical.trust)}};
+          {"findings", findings_json(critical.trust, model.remarks)}};
 }
 
 }  // namespace zwidth::results

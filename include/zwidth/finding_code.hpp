@@ -34,6 +34,7 @@ enum class FindingCode : std::uint16_t {
   disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
   too_many_states_for_damper,    ///< a damper slower than its spring, whose loop has too many states to follow
   left_out_beside_damper_loop,   ///< what is not given where the damper runs in a loop of its own
+  damper_closed_at_own_rate,     ///< a response or a model is that behind a damper closed in a loop of its own
   critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
   unstable_with_nobody,          ///< the file's user alone keeps the wall stable
   stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
@@ -74,6 +75,7 @@ enum class FindingCode : std::uint16_t {
   every_one_stable,                     ///< every wall or damper is stable: there is no limit to move
   none_stable,                          ///< no wall or damper is stable: there is no limit to move
   limit_is_target,                      ///< the limit is the target already
+  damper_period_follows,                ///< the damper's own period moves with that of the spring
   some_numbers_followed,                ///< of many numbers those that move the limit most are followed
   branch_switches_not_searched,         ///< where another mechanism takes over is not searched for so many bodies
   points_not_sound,                     ///< some points of a sweep are refused or doubtful

@@ -378,6 +378,7 @@ enum class ProblemCode : std::uint16_t {
   state_space_entry_not_possible,  ///< an entry of a state space is out of its range
   modes_too_close_for_digits,      ///< modes too close for 31 digits, and too many bodies for exact arithmetic
   poles_not_found,                 ///< numbers lie too many powers of ten apart
+  inner_loop_poles_not_found,      ///< those of a loop that runs inside another, many of its periods late
   too_many_poles_coincide,         ///< too many poles coincide
   too_many_poles_cancel,           ///< too many poles nearly coincide
   modes_not_told_apart,            ///< modes lie too close together

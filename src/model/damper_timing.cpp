@@ -87,6 +87,12 @@ Device with_loop_of_damper(const Device& device) {
   return Device(std::move(parameters));
 }
 
+Device at_slower_rate(const Device& device) {
+  if (!has_damper_loop(device.loop())) return device;
+  const bool is_damper_slower = damper_timing(device.loop()).sampling_period > device.loop().sampling_period;
+  return is_damper_slower ? with_loop_of_damper(device) : with_one_rate(device);
+}
+
 double internal::rate_ratio(double loop_period, double damper_period) {
   if (damper_period >= loop_period) return 1.0 / std::round(damper_period / loop_period);
   const double fewer = std::floor(loop_period / damper_period);

@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "model/feedback_form.hpp"
 #include "sampling/decimation.hpp"
 #include "sampling/extended_sampling.hpp"
 #include "sampling/plant_of_terms.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "zwidth/sampling/filter_section.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -72,6 +74,7 @@ int poles_outside(const std::vector<Complex<Extended>>& poles) {
 struct ClosedInner {
   Feedback loop;
   std::size_t samples = 0;
+  std::size_t periods_late = 0;  // of the inner loop's own force
 };
 
 ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
@@ -89,7 +92,20 @@ ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const Inn
   }
   return {{product(by_outer.numerator, filter), product(by_inner.denominator, filter),
            product(by_inner.numerator, force), by_inner.samples},
-          by_outer.samples};
+          by_outer.samples,
+          by_inner.samples};
+}
+
+// Each period of delay is a pole more: of many no start is near enough to all.
+FeedbackForm form_of(const ClosedInner& inner, double band) {
+  constexpr std::size_t many_periods = 20;
+  try {
+    return feedback_form(inner.loop, band);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge || inner.periods_late < many_periods) throw;
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::inner_loop_poles_not_found,
+                                              .evidence = {counted("periods", inner.periods_late)}});
+  }
 }
 
 }  // namespace
@@ -102,13 +118,13 @@ SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const I
   const std::size_t steps = steps_within(outer, inner.sampling);
   InnerLoop fast = inner;
   fast.sampling.period = outer.period / static_cast<double>(steps);  // without its rounding
-  const auto [loop, samples] = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
-  const FeedbackForm closed = feedback_form(loop, std::numbers::pi / static_cast<double>(steps));
+  const ClosedInner loop = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
+  const FeedbackForm closed = form_of(loop, std::numbers::pi / static_cast<double>(steps));
 
-  const std::size_t late = samples % steps;
+  const std::size_t late = loop.samples % steps;
   SampledPlant plant;
   plant.period = outer.period;
-  plant.delay_samples = samples / steps + (late > 0 ? 1U : 0U);
+  plant.delay_samples = loop.samples / steps + (late > 0 ? 1U : 0U);
   std::vector<ExtendedTerm> terms;
   for (const ModalTerm& term : closed.form.terms) {
     terms.push_back(decimated(extended_term(term), static_cast<std::size_t>(term.integrators), steps, late));

@@ -2,23 +2,43 @@
 
 #include <utility>
 
+#include "stability/limit/two_rate_stiffness.hpp"
+#include "stability/wall_judgement.hpp"
 #include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
+using namespace internal;
+namespace {
 
-DeviceModel device_model(const Device& device) {
-  require_one_rate(device);
-  ContinuousStateSpace continuous = state_space(device);
-  DiscreteStateSpace discrete = sample(continuous, {device.loop().sampling_period, device.loop().delay});
+DeviceModel model_of(const Device& device, DiscreteStateSpace discrete, SampledPlant sampled) {
   std::optional<DiscreteStateSpace> with_states;
   if (discrete.delay_samples <= most_delay_states) with_states = with_delay_states(discrete);
   return {device,
-          std::move(continuous),
+          state_space(device),
           std::move(discrete),
           std::move(with_states),
           modal_form(device),
-          sampled_plant(device),
-          analyze(device, limit_and_wall_only())};
+          std::move(sampled),
+          device.parameters().wall,
+          analyze(device, limit_and_wall_only()),
+          {}};
+}
+
+}  // namespace
+
+DeviceModel device_model(const Device& device) {
+  const Wall& wall = device.parameters().wall;
+  if (!has_damper_loop(device.loop()) || wall.damping == 0.0) {
+    const Sampling sampling{device.loop().sampling_period, device.loop().delay};
+    return model_of(device, sample(state_space(device), sampling), sampled_plant(device));
+  }
+  const TwoRateDevice loop(device, wall.damping);
+  if (!loop.is_damper_inside()) require_one_rate(device);
+  DeviceModel model = model_of(device, loop.as_it_runs(device).seen_by_spring(), loop.seen_by_spring());
+  model.wall.damping = 0.0;
+  model.wall.velocity_filter_hz = 0.0;
+  model.remarks.push_back(damper_closed_at_own_rate(device));
+  return model;
 }
 
 }  // namespace zwidth

@@ -93,6 +93,9 @@ std::span<const Phrase> design_phrases() {
       Phrase{none_stable, "none_stable", warning, "no {what} is stable as it is",
              "there is no limit of which a multiple could be asked", "ask for the limit to reach itself"},
       Phrase{limit_is_target, "limit_is_target", note, "the limit is the target already", "nothing needs to change"},
+      Phrase{damper_period_follows, "damper_period_follows", note,
+             "the damper's own period moves with that of the spring, in the same ratio",
+             "loop.sampling_period stands for both", "give both periods where one alone is to change"},
       Phrase{
           some_numbers_followed, "some_numbers_followed", note,
           "{followed:n} of {all:n} numbers are followed, those that move the limit most, by a factor of {factor:g} at "

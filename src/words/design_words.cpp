@@ -52,6 +52,10 @@ std::string words_of(const DiagnosisChange& change) {
     case damper_on_drive:
       return fmt::format("a damper on the drive, B = {:.4g}, {:.4g} µs late", change.damping_then.value_or(0.0),
                          1e6 * change.delay_then.value_or(0.0));
+    case half_damper_delay:
+      return "half the damper's delay";
+    case twice_damper_rate:
+      return "twice the damper's rate";
     case notch:
       break;
   }

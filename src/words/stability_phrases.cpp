@@ -53,9 +53,13 @@ std::span<const Phrase> stability_phrases() {
              "together}{?what=long_delays|a delay margin that its search of 16 periods and 80 states did not "
              "reach}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
              "limit over all passive users}{?what=any_user_slopes|how the limit over all passive users "
-             "changes}{?what=relay|a relay's exact oscillation} is left "
+             "changes}{?what=relay|a relay's exact oscillation}{?what=steps|a cycle of the encoder's steps} is left "
              "out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
              "apart"},
+      Phrase{
+          damper_closed_at_own_rate, "damper_closed_at_own_rate", note,
+          "the sampled plant is the one that the spring sees: the damper of {damping} is closed at its own {rate_hz}",
+          "no wall with another damper follows from it"},
       Phrase{critical_damping_left_out, "critical_damping_left_out", note,
              "the largest damper without a spring is left out", "{reason}",
              "simulate such a damper before it is rendered"},

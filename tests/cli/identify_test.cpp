@@ -149,6 +149,10 @@ TEST_F(Identify, RefusesWhatItCannotUse) {
   }
   expect_refusal(record + "--structure two-body --sampling-period 0", "--sampling-period: is 0");
   expect_refusal(record + "--structure devices/lhifam.toml --sampling-period 0", "--sampling-period: is 0");
+  for (const char* output : {"", " --json"}) {
+    expect_refusal(record + "--structure devices/lhifam_drive_damper.toml" + output,
+                   "devices/lhifam_drive_damper.toml: loop.damper");
+  }
   expect_refusal(locked + "--figure fit.bmp", "unknown extension");
   expect_refusal(locked + "--json --output-device -", "standard output, which --json takes");
   expect_refusal(locked + "--output-device recordings/locked_chirp.csv", "would overwrite the recording");

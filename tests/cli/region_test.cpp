@@ -72,6 +72,19 @@ TEST_F(Region, OfASlowDamperIsDrawnAroundBothAtItsRate) {
   EXPECT_THAT(contents("a.svg"), HasSubstr("both at 2 kHz: up to 14.83 MN/m"));
 }
 
+TEST_F(Region, OfOneRateHasBothAtTheSlower) {
+  const std::string device = "zwidth region devices/lhifam_rigid.toml --json --set ";
+  const auto area = [&](const std::string& options) {
+    const Outcome outcome = run(device + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return nlohmann::json::parse(outcome.output)["stiffest"];
+  };
+  const auto slow = area("loop.sampling_period=0.5e-3");
+  EXPECT_EQ(area("loop.sampling_period=50e-6 --set loop.damper.sampling_period=0.5e-3 --one-rate"), slow);
+  EXPECT_EQ(area("loop.sampling_period=0.5e-3 --set loop.damper.sampling_period=50e-6 --one-rate"), slow);
+  EXPECT_EQ(area("loop.sampling_period=0.5e-3 --one-rate"), slow);
+}
+
 TEST_F(Region, RefusesWhatItCannotDoBeforeAnyWork) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"devices/lhifam.toml -o a.bmp", "--output: a.bmp: unknown extension"},

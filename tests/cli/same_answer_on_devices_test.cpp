@@ -32,6 +32,7 @@
 #include "results/wall_recommendation_json.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/study_file.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/study/study_run.hpp"
 
 namespace zwidth::cli {
@@ -108,6 +109,7 @@ Answer coded_wall(const Device& device) {
 }
 
 Answer ceilings(const Device& device) {
+  if (has_damper_loop(device.loop())) return {"", 2};  // CHAI3D runs the damper with the spring
   const SafeWall wall = safe_wall(device, {.safety_factor = 0.5, .damping = SafeWallOptions::Damping::ceiling});
   if (wall.status != SafeWall::Status::chosen) return {"", 1};
   return {report::export_chai3d(device, wall, 0.5)};

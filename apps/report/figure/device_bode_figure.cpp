@@ -10,6 +10,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -33,11 +34,13 @@ std::vector<std::string> loop_notes(const Device& device) {
   std::vector<std::string> notes{loop + sampling_text(device)};
   const Wall& wall = device.parameters().wall;
   if (wall.damping > 0.0) {
-    notes.push_back(fmt::format("The virtual damper of {}{} is closed in the sampled response.",
-                                quantity(wall.damping, units_of(device.parameters().motion).damping),
-                                wall.velocity_filter_hz > 0.0
-                                    ? fmt::format(" behind its {} filter", quantity(wall.velocity_filter_hz, "Hz"))
-                                    : ""));
+    const double period = damper_timing(device.loop()).sampling_period;
+    notes.push_back(fmt::format(
+        "The virtual damper of {}{} is closed in the sampled response{}.",
+        quantity(wall.damping, units_of(device.parameters().motion).damping),
+        wall.velocity_filter_hz > 0.0 ? fmt::format(" behind its {} filter", quantity(wall.velocity_filter_hz, "Hz"))
+                                      : "",
+        has_damper_loop(device.loop()) ? fmt::format(", every {} in a loop of its own", quantity(period, "s")) : ""));
   }
   if (const auto filters = wall_filters_text(wall)) {
     notes.push_back("The sampled response is seen through the filters of the wall: " + *filters + ".");

@@ -69,6 +69,8 @@ struct DesignTargets {
 /// passes the target twice within one step is passed over. For the absolute stability limit of more than four bodies only those
 /// numbers are followed that move it most, by a factor of 10 at most: a remark says how many. Each needed value is
 /// confirmed by critical_stiffness(Device) or absolute_stability_limit(), and judged for any passive user.
+/// With a damper in a loop of its own its delay is a number too, its period keeps its ratio to the spring's, and for the absolute
+/// stability limit a delay that leaves that limit unknown has no value.
 /// K is the B of a damper alone where `limit_of` says so: critical_damping() and absolute_stability_damping().
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] DesignTargets design_targets(const Device& device, const DesignTargetOptions& options);

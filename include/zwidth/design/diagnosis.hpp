@@ -80,6 +80,8 @@ struct DiagnosisChange {
     other_damper,         ///< the best of some virtual dampers
     notch,                ///< a notch at the frequency observed
     damper_on_drive,      ///< with_damper_on_drive(), with the best of some virtual dampers
+    half_damper_delay,    ///< half the delay of a damper in a loop of its own
+    twice_damper_rate,    ///< twice the rate of a damper in a loop of its own
   };
   Kind kind = Kind::more_body_damping;   ///< which change
   std::optional<std::size_t> link = {};  ///< of stiffer_link: from 0
@@ -138,6 +140,9 @@ struct Diagnosis {
 /// whatever its frequency (steps that are far from a sine swing far from the crossover, and a resonance swings by many)
 /// up to what an error within half a step keeps up there, |C P/(1 + C P)| 2 q/pi, or three steps. Where the amplitude
 /// is not given the frequency alone tells; two causes that fit nearly as well make the answer doubtful.
+/// With a damper in a loop of its own the poles are those over the longer period, and the observed frequency may lie up to
+/// Nyquist of the shorter one; no user is looked for where the limit over all of them is not known, and no cycle of the
+/// encoder's steps: remarks say so.
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Diagnosis diagnose(const Device& device, const DiagnosisOptions& options);
 

@@ -30,4 +30,8 @@ void require_open_damper(const Device& device);
 /// The same device whose loop has the damper's own period and delay: what a damper without a spring is judged by.
 [[nodiscard]] Device with_loop_of_damper(const Device& device);
 
+/// The same device whose spring and damper both run at the slower of its two rates, with that one's delay: what a damper of its
+/// own is compared with. The device itself where the damper runs with its spring.
+[[nodiscard]] Device at_slower_rate(const Device& device);
+
 }  // namespace zwidth

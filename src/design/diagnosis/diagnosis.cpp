@@ -9,9 +9,12 @@
 
 #include "design/diagnosis/diagnosis_changes.hpp"
 #include "design/diagnosis/oscillation_causes.hpp"
+#include "design/sensitivities/loops_of_wall.hpp"
 #include "design/sensitivities/number_limit.hpp"
 #include "design/synthesis/absolute_stability_check.hpp"
+#include "design/synthesis/users_at_frequency.hpp"
 #include "design/synthesis/wall_limits.hpp"
+#include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -106,7 +109,7 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
   tell(loop.progress, 0.6);
   if (auto steps = quantisation_candidate(loop)) candidates.push_back(*std::move(steps));
   tell(loop.progress, 0.8);
-  if (can_be_held(loop.device)) candidates.push_back(user_candidate(loop));
+  if (knows_users_of(loop.device)) candidates.push_back(user_candidate(loop));
   rank(candidates, loop);
 }
 
@@ -114,6 +117,13 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
   const std::vector<OscillationCandidate>& candidates = diagnosis.candidates;
   if (!loop.stiffness) {
     diagnosis.remarks.push_back(note({.code = FindingCode::wall_stiffness_unknown, .key = "wall.stiffness"}));
+  }
+  if (has_two_loops(loop.device)) {
+    const bool has_steps = loop.device.parameters().sensor.resolution > 0.0;
+    if (has_steps && loop.stiffness) diagnosis.remarks.push_back(left_out_beside_damper_loop("steps"));
+    if (can_be_held(loop.device) && !knows_users_of(loop.device)) {
+      diagnosis.remarks.push_back(left_out_beside_damper_loop("any_user"));
+    }
   }
   if (!diagnosis.cause && diagnosis.nearest) {
     diagnosis.trust.doubt({.code = FindingCode::no_cause_fits});
@@ -196,7 +206,9 @@ void doubt_recorded(const DominantOscillation& found, Trust& trust) {
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device) {
-  const double nyquist = pi / device.loop().sampling_period;
+  // The position is looked at by whichever of spring and damper runs oftener.
+  const double period = std::min(device.loop().sampling_period, damper_timing(device.loop()).sampling_period);
+  const double nyquist = pi / period;
   if (!(options.frequency > 0.0 && options.frequency <= nyquist * (1.0 + 1e-9))) {
     return option_problem("frequency", {.code = ProblemCode::oscillation_beyond_nyquist,
                                         .evidence = {{"frequency_hz", options.frequency / (2.0 * pi)},
@@ -217,7 +229,6 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
 }
 
 Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
-  require_one_rate(device);
   require_valid(find_problem(options, device));
   Diagnosis diagnosis;
   diagnosis.frequency = options.frequency;
@@ -250,7 +261,6 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
 }
 
 Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options) {
-  require_one_rate(device);
   require_valid(find_problem(options, device, recording));
   Diagnosis diagnosis;
   if (const auto found = recorded_oscillation(recording)) {

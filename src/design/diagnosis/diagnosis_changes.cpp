@@ -39,7 +39,8 @@ double limit_of(OscillationCause cause, const Device& device, WallNumber number,
     case OscillationCause::with_user:
       return number_limit(device, number).value;
     case OscillationCause::passive_user:
-      return absolute_stability_limit_of(device, number, progress).value;
+      if (const auto limit = absolute_stability_limit_of(device, number, progress)) return limit->value;
+      break;
     case OscillationCause::friction: {
       double least = number_limit(device, number).value;
       const std::vector<double> shares = friction_shares(device);
@@ -82,14 +83,8 @@ class Changes {
         });
       }
     }
-    if (now.loop.delay > 0.0) {
-      add(Kind::half_delay, "loop.delay", now.loop.delay, half * now.loop.delay,
-          [](DeviceParameters& then) { then.loop.delay *= half; });
-    }
-    if (now.wall.filters.empty()) {
-      add(Kind::twice_sampling_rate, "loop.sampling_period", now.loop.sampling_period, half * now.loop.sampling_period,
-          [](DeviceParameters& then) { then.loop.sampling_period *= half; });
-    }
+    time();
+    time_damper();
     if (now.actuator.time_constant > 0.0) {
       add(Kind::half_actuator_lag, "actuator.time_constant", now.actuator.time_constant,
           half * now.actuator.time_constant, [](DeviceParameters& then) { then.actuator.time_constant *= half; });
@@ -181,6 +176,34 @@ class Changes {
     changes_.push_back(std::move(made->change));
   }
 
+  /// What a damper alone has of its own, the loop's numbers do not move.
+  void time() {
+    const Loop& loop = loop_.device.loop();
+    const bool is_damper_alone = loop_.number == WallNumber::damping && loop.damper;
+    if (loop.delay > 0.0 && !(is_damper_alone && loop.damper->delay)) {
+      add(Kind::half_delay, "loop.delay", loop.delay, half * loop.delay,
+          [](DeviceParameters& then) { then.loop.delay *= half; });
+    }
+    if (loop_.device.parameters().wall.filters.empty() && !(is_damper_alone && loop.damper->sampling_period)) {
+      add(Kind::twice_sampling_rate, "loop.sampling_period", loop.sampling_period, half * loop.sampling_period,
+          [](DeviceParameters& then) { then.loop.sampling_period *= half; });
+    }
+  }
+
+  /// The same of the damper's own loop, where it does anything.
+  void time_damper() {
+    const std::optional<LoopDamper>& damper = loop_.device.loop().damper;
+    if (!damper || loop_.device.parameters().wall.damping == 0.0) return;
+    if (damper->delay.value_or(0.0) > 0.0) {
+      add(Kind::half_damper_delay, "loop.damper.delay", *damper->delay, half * *damper->delay,
+          [](DeviceParameters& then) { *then.loop.damper->delay *= half; });
+    }
+    if (damper->sampling_period) {
+      add(Kind::twice_damper_rate, "loop.damper.sampling_period", *damper->sampling_period,
+          half * *damper->sampling_period, [](DeviceParameters& then) { *then.loop.damper->sampling_period *= half; });
+    }
+  }
+
   void soften() {
     if (!loop_.stiffness) return;
     const bool is_damper = loop_.number == WallNumber::damping;
@@ -213,6 +236,7 @@ class Changes {
     const Wall& wall = loop_.device.parameters().wall;
     const double unit = unit_of_dampers();
     if (!(unit > 0.0)) return;
+    if (has_damper_loop(loop_.device.loop())) return damp_own_loop();
     std::optional<AbsoluteStabilitySearch> search;  // what users do does not depend on the damper
     if (users_.now()) search.emplace(loop_.device, loop_.progress);
     AbsoluteStabilitySearch* const users = search ? &*search : nullptr;
@@ -235,6 +259,26 @@ class Changes {
       return;
     }
     if (!users_.now()) changes_.push_back(std::move(ladder.front().change));
+  }
+
+  /// The same of a device whose damper runs in a loop of its own: the first of the most promising that lowers no user's.
+  void damp_own_loop() {
+    if (is_quantisation()) return;  // with such a damper its cycle is not known
+    std::vector<double> tried;
+    for (const double factor : dampers) tried.push_back(factor * unit_of_dampers());
+    for (const double damping : most_promising_first(loop_.device, std::move(tried))) {
+      auto made = recomputed(
+          {.kind = Kind::other_damper,
+           .key = "wall.damping",
+           .value_now = loop_.device.parameters().wall.damping,
+           .value_then = damping},
+          [&](DeviceParameters& then) { then.wall.damping = damping; }, nullptr);
+      if (!made) continue;
+      judge(*made, nullptr);
+      if (!is_safe(made->change)) continue;
+      changes_.push_back(std::move(made->change));
+      return;
+    }
   }
 
   /// The same with the damper in a loop of its own; of a damper alone that damper.
@@ -275,7 +319,7 @@ class Changes {
   [[nodiscard]] std::vector<double> most_promising_first(const Device& on_drive, std::vector<double> tried) const {
     if (tried.size() < 2) return tried;
     std::optional<TwoRateUsers> users;
-    if (users_.now()) users.emplace(on_drive);
+    if (users_.now() && knows_all_users(on_drive.loop())) users.emplace(on_drive);
     std::vector<std::pair<double, double>> limits;
     for (const double damping : tried) {
       const VirtualDamper damper{damping, on_drive.parameters().wall.velocity_filter_hz};

@@ -7,18 +7,18 @@
 #include <numbers>
 #include <utility>
 
+#include "design/diagnosis/loop_poles.hpp"
+#include "design/sensitivities/loops_of_wall.hpp"
 #include "design/sensitivities/number_limit.hpp"
-#include "design/synthesis/wall_limits.hpp"
+#include "design/synthesis/users_at_frequency.hpp"
 #include "infinity.hpp"
 #include "stability/loop/damper_response.hpp"
-#include "stability/users/disc_stiffness.hpp"
-#include "stability/users/termination_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/filter_section.hpp"
-#include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -31,7 +31,6 @@ constexpr double counts_of_quantisation = 3.0;  // an amplitude that needs no re
 // Of a predicted amplitude. A body that hardly slips swings less than its first harmonic says.
 constexpr double most_of_amplitude = 3.0;
 constexpr double least_of_amplitude = 0.1;
-constexpr double growing = 1e-9;     // |z| - 1 of a pole that grows
 constexpr double beside_user = 0.1;  // relative, frequencies around the one observed
 constexpr double of_user_limit = 0.98;
 constexpr double far = 2.0;          // factor of what would have to be otherwise, from which on it is another device
@@ -40,32 +39,6 @@ constexpr int shares = 80;
 constexpr int bisections = 40;
 
 double apart(double a, double b) { return std::abs(std::log(a / b)); }
-
-/// Of the loop, but that of a position that nothing holds.
-std::vector<std::complex<double>> poles_of(const Device& device) {
-  std::vector<std::complex<double>> poles = closed_loop_poles_minus_one(
-      sample(state_space(device), {device.loop().sampling_period, device.loop().delay}), device.parameters().wall);
-  if (is_position_free(device.parameters())) {
-    poles.erase(std::ranges::min_element(poles, {}, [](std::complex<double> delta) { return std::norm(delta); }));
-  }
-  return poles;
-}
-
-double excess_of(std::complex<double> delta) {
-  return (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0);
-}
-
-/// Frequency of the pole that is least stable, rad/s.
-double critical_pole_frequency(const Device& device) {
-  double most = -infinity;
-  double frequency = 0.0;
-  for (const std::complex<double>& delta : poles_of(device)) {
-    if (excess_of(delta) <= most) continue;
-    most = excess_of(delta);
-    frequency = std::abs(std::arg(1.0 + delta)) / device.loop().sampling_period;
-  }
-  return frequency;
-}
 
 Evidence frequency_of(double frequency, std::string_view name = "frequency_hz") {
   return {name, hertz(frequency), "Hz"};
@@ -145,13 +118,12 @@ void take_if_nearer(const ObservedLoop& loop, const NumberLimit::Crossing& cross
 }
 
 /// The frequency at which some user could make it oscillate with the least otherwise, and what that is.
-void look_for_nearest_user(const ObservedLoop& loop, const TerminationDiscs& discs, OscillationCandidate& candidate) {
-  const double period = loop.device.loop().sampling_period;
+void look_for_nearest_user(const ObservedLoop& loop, const UsersAtFrequency& users, OscillationCandidate& candidate) {
   const std::optional<double> gain = gain_of(loop);
   for (int i = -users_looked_at; i <= users_looked_at; ++i) {
     const double at = loop.frequency * std::pow(far, static_cast<double>(i) / users_looked_at);
-    if (at > pi / period) break;
-    const double least = least_gain(discs.at(at), response_of(loop.device, loop.number, at));
+    if (at > users.nyquist()) break;
+    const double least = users.least_gain_at(at);
     if (!std::isfinite(least) || least == 0.0) continue;
     OscillationCandidate other = candidate;
     other.frequency = at;
@@ -207,9 +179,7 @@ std::optional<double> gain_of(const ObservedLoop& loop) {
   return loop.number == WallNumber::stiffness ? loop.stiffness : loop.device.parameters().wall.damping;
 }
 
-bool is_stable(const Device& device) {
-  return std::ranges::all_of(poles_of(device), [](const auto& delta) { return excess_of(delta) <= growing; });
-}
+bool is_stable(const Device& device) { return LoopPoles(device).is_stable(); }
 
 Device with_friction_as_damping(const Device& device, double share) {
   DeviceParameters parameters = device.parameters();
@@ -258,12 +228,7 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
     }
     return candidate;
   }
-  double unstable = 0.0;
-  for (const std::complex<double>& delta : poles_of(device)) {
-    const double frequency = std::abs(std::arg(1.0 + delta)) / device.loop().sampling_period;
-    if (excess_of(delta) <= growing || frequency == 0.0) continue;
-    if (unstable == 0.0 || apart(frequency, loop.frequency) < apart(unstable, loop.frequency)) unstable = frequency;
-  }
+  const double unstable = LoopPoles(device).unstable_frequency(loop.frequency).value_or(0.0);
   if (unstable == 0.0) {
     candidate.why = {.code = FindingCode::loop_stable};
     for (const NumberLimit::Crossing& each : critical.crossings) {
@@ -287,22 +252,20 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
 }
 
 OscillationCandidate user_candidate(const ObservedLoop& loop) {
-  const TerminationDiscs discs(loop.device, loop.progress);
-  const double period = loop.device.loop().sampling_period;
+  const UsersAtFrequency users(loop.device, loop.number, loop.progress);
   const std::optional<double> gain = gain_of(loop);
   OscillationCandidate candidate;
   candidate.cause = OscillationCause::passive_user;
   candidate.frequency = loop.frequency;
   double least = infinity;
   for (const double share : {0.0, -beside_user, beside_user}) {
-    const double at = std::min(loop.frequency * (1.0 + share), pi / period);
-    least = std::min(least, least_gain(discs.at(at), response_of(loop.device, loop.number, at)));
+    least = std::min(least, users.least_gain_at(std::min(loop.frequency * (1.0 + share), users.nyquist())));
     if (share == 0.0 && gain && least <= *gain) break;
   }
   if (!std::isfinite(least)) {
     candidate.why = {.code = loop.number == WallNumber::stiffness ? FindingCode::no_user_destabilises_wall
                                                                   : FindingCode::no_user_destabilises_damper};
-    look_for_nearest_user(loop, discs, candidate);
+    look_for_nearest_user(loop, users, candidate);
     return candidate;
   }
   set_gain(loop, least, candidate);
@@ -312,12 +275,15 @@ OscillationCandidate user_candidate(const ObservedLoop& loop) {
     candidate.fits = false;
     candidate.why.evidence.push_back({"with_nobody", 1.0});
   } else if (!candidate.fits) {
-    look_for_nearest_user(loop, discs, candidate);
+    look_for_nearest_user(loop, users, candidate);
   }
   return candidate;
 }
 
-std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& loop) {
+std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& observed) {
+  if (has_two_loops(observed.device)) return std::nullopt;
+  ObservedLoop loop = observed;
+  loop.device = in_one_loop(observed.device);
   const DeviceParameters& parameters = loop.device.parameters();
   const double step = parameters.sensor.resolution;
   const std::optional<double> gain = gain_of(loop);
@@ -395,7 +361,7 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
       const double middle = low > 0.0 ? std::sqrt(low * high) : 0.5 * high;
       (is_stable(with_friction_as_damping(loop.device, middle)) ? low : high) = middle;
     }
-    const double frequency = critical_pole_frequency(with_friction_as_damping(loop.device, high));
+    const double frequency = LoopPoles(with_friction_as_damping(loop.device, high)).critical_frequency();
     if (frequency > 0.0 && (!best || apart(frequency, loop.frequency) < apart(candidate.frequency, loop.frequency))) {
       best = high;
       candidate.frequency = frequency;

@@ -29,9 +29,10 @@ struct ObservedLoop {
 // Of the linear loop with or without the user.
 [[nodiscard]] OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause cause,
                                                     const Device& device);
+// `loop`: of a device that knows_users_of().
 [[nodiscard]] OscillationCandidate user_candidate(const ObservedLoop& loop);
-// Absent without an encoder, or where K is not known.
-[[nodiscard]] std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& loop);
+// Absent without an encoder, where K is not known, and where spring and damper run in loops of their own.
+[[nodiscard]] std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& observed);
 // Absent without friction, or where K is not known.
 [[nodiscard]] std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop);
 

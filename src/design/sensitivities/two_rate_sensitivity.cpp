@@ -49,18 +49,6 @@ std::optional<std::complex<double>> derivative(const Function& value, double uni
   return std::nullopt;
 }
 
-// The numbers of the file: its own ones of the damper's loop too. A whole ratio of the periods moves by no derivative.
-std::vector<DesignParameter> numbers_of_two_rates(const Device& device) {
-  std::vector<DesignParameter> numbers = design_parameters(device);
-  const auto delay =
-      std::ranges::find(numbers, DesignParameter::Kind::delay, [](const DesignParameter& each) { return each.kind; });
-  const std::optional<LoopDamper>& damper = device.loop().damper;
-  if (damper && damper->delay) {
-    numbers.insert(delay + 1, {DesignParameter::Kind::delay, 0, "loop.damper.delay", *damper->delay});
-  }
-  return numbers;
-}
-
 class LimitOfTwoRates {
  public:
   LimitOfTwoRates(const Device& device, TwoRateCurve::Node limit) : parameters_(device.parameters()), limit_(limit) {
@@ -132,6 +120,17 @@ class LimitOfTwoRates {
 };
 
 }  // namespace
+
+std::vector<DesignParameter> numbers_of_two_rates(const Device& device) {
+  std::vector<DesignParameter> numbers = design_parameters(device);
+  const auto delay =
+      std::ranges::find(numbers, DesignParameter::Kind::delay, [](const DesignParameter& each) { return each.kind; });
+  const std::optional<LoopDamper>& damper = device.loop().damper;
+  if (damper && damper->delay) {
+    numbers.insert(delay + 1, {DesignParameter::Kind::delay, 0, "loop.damper.delay", *damper->delay});
+  }
+  return numbers;
+}
 
 void set_with_ratio(DeviceParameters& parameters, std::string_view key, double value) {
   std::optional<LoopDamper>& damper = parameters.loop.damper;

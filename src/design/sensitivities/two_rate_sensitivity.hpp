@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "design/sensitivities/design_parameter.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -11,6 +12,9 @@ namespace zwidth::internal {
 
 /// set_parameter() that keeps the ratio of two rates: with loop.sampling_period the damper's own period is scaled.
 void set_with_ratio(DeviceParameters& parameters, std::string_view key, double value);
+
+/// design_parameters() and the damper's own delay, where the file has one. The ratio of the two periods is whole, and no number.
+[[nodiscard]] std::vector<DesignParameter> numbers_of_two_rates(const Device& device);
 
 /// stiffness_sensitivities() at the limit of a device whose damper runs in a loop of its own. With the gain inside q and that
 /// outside g (TwoRateCurve) the loop is critical where F = g + 1/(C_out P) = 0, of K and the angle:

@@ -14,12 +14,12 @@ AbsoluteStabilityCheck::Limit of_stiffness(const AbsoluteStabilityLimit& limit) 
   return {limit.stiffness, limit.frequency, limit.truncation, limit.trust};
 }
 
-/// What `limit` gives; absent where it is not found or refused.
+/// What `limit` gives; absent where it is not known, not found or refused.
 template <typename Limit>
 std::optional<AbsoluteStabilityCheck::Limit> found(const Limit& limit) {
   try {
-    AbsoluteStabilityCheck::Limit result = limit();
-    if (result.trust.refused()) return std::nullopt;
+    std::optional<AbsoluteStabilityCheck::Limit> result = limit();
+    if (result && result->trust.refused()) return std::nullopt;
     return result;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::did_not_converge) return std::nullopt;
@@ -29,11 +29,14 @@ std::optional<AbsoluteStabilityCheck::Limit> found(const Limit& limit) {
 
 }  // namespace
 
-AbsoluteStabilityCheck::Limit absolute_stability_limit_of(const Device& device, WallNumber number,
-                                                          const Progress& progress) {
-  if (number == WallNumber::stiffness) return of_stiffness(known_any_user_limit(device, progress));
+std::optional<AbsoluteStabilityCheck::Limit> absolute_stability_limit_of(const Device& device, WallNumber number,
+                                                                         const Progress& progress) {
+  if (number == WallNumber::stiffness) {
+    const auto limit = any_user_limit(device, progress);
+    return limit ? std::optional(of_stiffness(*limit)) : std::nullopt;
+  }
   const AbsoluteStabilityDamping limit = absolute_stability_damping(device, progress);
-  return {limit.damping, limit.frequency, limit.truncation, limit.trust};
+  return AbsoluteStabilityCheck::Limit{limit.damping, limit.frequency, limit.truncation, limit.trust};
 }
 
 AbsoluteStabilityCheck::AbsoluteStabilityCheck(const Device& device, WallNumber number, const Progress& progress)
@@ -56,7 +59,7 @@ AbsoluteStabilityCheck::Judgement AbsoluteStabilityCheck::of(const Device& chang
 AbsoluteStabilityCheck::Judgement AbsoluteStabilityCheck::of(const Device& changed,
                                                              AbsoluteStabilitySearch& users) const {
   if (!now_) return {};
-  return judged(found([&] { return of_stiffness(users.limit(virtual_damper(changed), progress_)); }));
+  return judged(found([&] { return std::optional(of_stiffness(users.limit(virtual_damper(changed), progress_))); }));
 }
 
 }  // namespace zwidth::internal

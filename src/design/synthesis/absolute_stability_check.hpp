@@ -41,8 +41,9 @@ class AbsoluteStabilityCheck {
   std::optional<Limit> now_;
 };
 
-// The limit with any passive user; throws where it is not found.
-[[nodiscard]] AbsoluteStabilityCheck::Limit absolute_stability_limit_of(const Device& device, WallNumber number,
-                                                                        const Progress& progress);
+// The limit with any passive user; nothing where it is not known (any_user_limit()). Throws where it is not found.
+[[nodiscard]] std::optional<AbsoluteStabilityCheck::Limit> absolute_stability_limit_of(const Device& device,
+                                                                                       WallNumber number,
+                                                                                       const Progress& progress);
 
 }  // namespace zwidth::internal

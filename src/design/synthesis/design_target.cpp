@@ -13,14 +13,15 @@
 #include "counted.hpp"
 #include "design/sensitivities/design_parameter.hpp"
 #include "design/sensitivities/number_limit.hpp"
+#include "design/sensitivities/two_rate_sensitivity.hpp"
 #include "design/synthesis/absolute_stability_check.hpp"
 #include "design/synthesis/drive_damper.hpp"
 #include "design/synthesis/followed_numbers.hpp"
 #include "design/synthesis/limit_along_parameter.hpp"
 #include "infinity.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
-#include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -73,6 +74,10 @@ class Search {
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
     DesignTarget target{parameter.key, parameter.value, std::nullopt, {}, {}, {}};
+    if (!knows_users_along(parameter)) {
+      target.why = {.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user"}}};
+      return target;
+    }
     LimitAlongParameter moved(device_, parameter, options_.goal, options_.limit_of);
     const Point now{parameter.value, limit_now_};
     std::vector<Walk> walks;
@@ -225,9 +230,19 @@ class Search {
     return at_left >= 0.0 ? left : right;  // a jump
   }
 
+  // The delay of one of two loops alone takes the limit with any user to where it is not known.
+  [[nodiscard]] bool knows_users_along(const DesignParameter& parameter) const {
+    const bool asks = options_.goal == StiffnessGoal::absolute_stability_limit;
+    if (!asks || options_.limit_of == WallNumber::damping || !has_damper_loop(device_.loop())) return true;
+    if (parameter.kind != DesignParameter::Kind::delay) return true;
+    constexpr double part_of_period = 0.3;
+    const double delay = parameter.value + part_of_period * damper_timing(device_.loop()).sampling_period;
+    return knows_all_users(with(parameter, delay).loop());
+  }
+
   [[nodiscard]] Device with(const DesignParameter& parameter, double value) const {
     DeviceParameters moved = device_.parameters();
-    set_parameter(moved, parameter.key, value);
+    set_with_ratio(moved, parameter.key, value);
     return Device(std::move(moved));
   }
 
@@ -304,13 +319,13 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 }
 
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
-  require_one_rate(device);
   require_valid(find_problem(options, device));
   DesignTargets result;
   const NumberLimit own = number_limit(device, options.limit_of);
   result.trust = own.trust;
   if (result.trust.refused()) return result;
-  std::vector<DesignParameter> parameters = design_parameters(device);
+  const bool has_two_loops = has_damper_loop(device.loop());
+  std::vector<DesignParameter> parameters = has_two_loops ? numbers_of_two_rates(device) : design_parameters(device);
   // Who holds the device is no part of it.
   std::erase_if(parameters, [&](const DesignParameter& each) {
     const bool is_the_limit =
@@ -323,12 +338,13 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   result.absolute_stability_limit_now = users.now();
   double limit = own.value;
   if (options.goal == StiffnessGoal::absolute_stability_limit) {
+    auto any_user = users.limit_now();
     // Where it is not found, this says why.
-    const AbsoluteStabilityCheck::Limit any_user =
-        users.limit_now() ? *users.limit_now() : absolute_stability_limit_of(device, options.limit_of, while_judging);
-    result.trust.inherit(any_user.trust);
+    if (!any_user) any_user = absolute_stability_limit_of(device, options.limit_of, while_judging);
+    if (!any_user) require_one_rate(device);
+    result.trust.inherit(any_user->trust);
     if (result.trust.refused()) return result;
-    limit = std::min(limit, any_user.value);
+    limit = std::min(limit, any_user->value);
   }
   result.limit_now = limit;
   result.target = target_of(options, limit);
@@ -337,6 +353,9 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
         warning({.code = limit > 0.0 ? FindingCode::every_one_stable : FindingCode::none_stable,
                  .subjects = {{"what", options.limit_of == WallNumber::stiffness ? "wall" : "damper"}}}));
     return result;
+  }
+  if (has_two_loops && device.loop().damper->sampling_period) {
+    result.remarks.push_back(note({.code = FindingCode::damper_period_follows, .key = "loop.damper.sampling_period"}));
   }
   if (limit == *result.target) {
     result.remarks.push_back(note({.code = FindingCode::limit_is_target, .evidence = {{"target", limit}}}));

@@ -6,15 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numbers>
 #include <utility>
 
-#include "design/sensitivities/number_limit.hpp"
-#include "stability/users/disc_stiffness.hpp"
-#include "stability/users/termination_discs.hpp"
+#include "design/sensitivities/two_rate_sensitivity.hpp"
+#include "design/synthesis/users_at_frequency.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -32,11 +29,11 @@ constexpr double towards_rest = 1e-2;  // rad per sample, where the limit is rea
 double influence_of(const Device& device, const DesignParameter& parameter, WallNumber number, double frequency) {
   DeviceParameters moved = device.parameters();
   moved.uncertainty.reset();
-  set_parameter(moved, parameter.key, little_more * parameter.value);
-  if (parameter.value == 0.0 || find_problem(moved)) return 0.0;
+  set_with_ratio(moved, parameter.key, little_more * parameter.value);
+  if (parameter.value == 0.0 || find_problem(moved) || !knows_users_of(Device(moved))) return 0.0;
   const auto reached_by = [number, frequency](const Device& each) {
-    const double at = std::min(frequency, std::numbers::pi / each.loop().sampling_period);
-    return least_gain(TerminationDiscs(each).at(at), response_of(each, number, at));
+    const UsersAtFrequency users(each, number);
+    return users.least_gain_at(std::min(frequency, users.nyquist()));
   };
   try {
     const double influence = std::abs(std::log(reached_by(Device(std::move(moved))) / reached_by(device)));

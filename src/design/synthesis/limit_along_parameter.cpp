@@ -8,11 +8,14 @@
 #include <utility>
 
 #include "design/sensitivities/number_limit.hpp"
+#include "design/sensitivities/two_rate_sensitivity.hpp"
 #include "stability/limit/gain_crossings.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "stability/users/disc_stiffness.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/parameter.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::internal {
@@ -28,11 +31,12 @@ constexpr double bound_certain = 1e-6;       // relative, of a bound
 std::optional<LimitAlongParameter::Limit> LimitAlongParameter::at(double value, const Interest& interest) {
   DeviceParameters moved = device_.parameters();
   moved.uncertainty.reset();
-  set_parameter(moved, parameter_.key, value);
+  set_with_ratio(moved, parameter_.key, value);
   if (find_problem(moved)) return std::nullopt;
   const Device device(std::move(moved));
   try {
     if (number_ == WallNumber::damping) return of_damper(device, interest);
+    if (has_damper_loop(device.loop())) return of_two_loops(device, interest);
     Limit limit{stiffness_limit(filtered_plant(device), virtual_damper(device), interest.most), false};
     if (goal_ == StiffnessGoal::critical_stiffness) return limit;
     limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
@@ -51,6 +55,20 @@ LimitAlongParameter::Limit LimitAlongParameter::of_damper(const Device& device, 
   if (goal_ == StiffnessGoal::critical_stiffness) return limit;
   limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
   if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, absolute_stability_damping(device).damping);
+  return limit;
+}
+
+std::optional<LimitAlongParameter::Limit> LimitAlongParameter::of_two_loops(const Device& device,
+                                                                            const Interest& interest) const {
+  const CriticalStiffness nobody = unguarded_stiffness(device);
+  if (nobody.trust.refused()) return std::nullopt;
+  Limit limit{std::min(nobody.stiffness, interest.most), false};
+  if (goal_ == StiffnessGoal::critical_stiffness) return limit;
+  limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
+  if (limit.is_bound) return limit;
+  const auto any_user = any_user_limit(device);
+  if (!any_user || any_user->trust.refused()) return std::nullopt;
+  limit.stiffness = std::min(limit.stiffness, any_user->stiffness);
   return limit;
 }
 

@@ -12,7 +12,8 @@
 
 namespace zwidth::internal {
 
-// The limit of a device with one number moved, for many values of it.
+// The limit of a device with one number moved, for many values of it. Of two loops the damper's period keeps its ratio to that of
+// the spring.
 class LimitAlongParameter {
  public:
   // All must outlive this.
@@ -35,6 +36,7 @@ class LimitAlongParameter {
 
  private:
   [[nodiscard]] Limit of_damper(const Device& device, const Interest& interest) const;
+  [[nodiscard]] std::optional<Limit> of_two_loops(const Device& device, const Interest& interest) const;
   [[nodiscard]] double of_any_user(const Device& device, double enough, Limit& limit);
 
   const Device& device_;

@@ -189,6 +189,9 @@ std::optional<OptionProblem> find_problem(const NotchOptions& options, const Dev
     return option_problem("goal", {.code = ProblemCode::any_user_goal_needs_bodies,
                                    .evidence = {counted("most", most_bodies_for_absolute_stability)}});
   }
+  if (has_damper_loop(device.loop())) {
+    return option_problem("notch", {.code = ProblemCode::filters_beside_damper_loop});
+  }
   if (seen_modes(device).empty()) {
     return option_problem("notch", {.code = ProblemCode::no_mode_to_tune_to});
   }
@@ -216,7 +219,6 @@ double stiffest_wall(const Device& device, const NotchOptions& options) {
 }
 
 NotchDesign design_notch(const Device& device, const NotchOptions& options) {
-  require_one_rate(device);
   require_valid(find_problem(options, device));
   StagedProgress stages(options.progress);
   NotchOptions staged = options;

@@ -11,8 +11,11 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
+#include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -33,6 +36,16 @@ std::function<Complex(double)> telling(std::function<Complex(double)> value, con
     if (++asked % values_per_report == 0) tell(progress, 0.0);
     return value(frequency);
   };
+}
+
+/// What the spring sees, its damper closed. Throws where the damper runs slower than the spring: the loop that is then left open
+/// has no frequency response.
+DelayedResponse seen_by_spring(const Device& device) {
+  const double damping = device.parameters().wall.damping;
+  if (!has_damper_loop(device.loop())) return delayed_response(filtered_plant(device), virtual_damper(device));
+  const TwoRateDevice loop(device, damping);
+  if (!loop.is_damper_inside()) require_one_rate(device);
+  return delayed_response(loop.seen_by_spring(), VirtualDamper{});
 }
 
 std::optional<OptionProblem> find_problem(const char* member, const std::optional<double>& frequency) {
@@ -105,8 +118,10 @@ Bode bode(const Device& device, Analysis analysis, const BodeOptions& options) {
   ModalForm form = modal_form(device);
   std::vector<Mode> modes = form.modes;
   if (form.suspended_rigid_body) modes.push_back(*form.suspended_rigid_body);
-  std::array responses{delayed_response(filtered_plant(device), virtual_damper(device)),
-                       delayed_response(std::move(form))};
+  std::array responses{seen_by_spring(device), delayed_response(std::move(form))};
+  if (has_damper_loop(device.loop()) && device.parameters().wall.damping > 0.0) {
+    bode.analysis.remarks.push_back(damper_closed_at_own_rate(device));
+  }
   StagedProgress stages(options.progress);
   stages.next(0.9);
   for (DelayedResponse& each : responses) each.value = telling(std::move(each.value), stages.stage());

@@ -81,9 +81,9 @@ ScheduledLoop::PathSchedule ScheduledLoop::path(const ContinuousStateSpace& devi
   return result;
 }
 
-ScheduledLoop::Period ScheduledLoop::over_period(double stiffness) const {
+ScheduledLoop::Period ScheduledLoop::over_period(std::optional<double> stiffness) const {
   const Eigen::Index n = phi_.rows();
-  const auto size = static_cast<Eigen::Index>(states_);
+  const auto size = static_cast<Eigen::Index>(states_ + (stiffness ? 0U : 1U));
   const auto last_position = n;
   const bool filtered = pole_ > 0.0;
   const std::size_t first_spring = static_cast<std::size_t>(n) + (filtered ? 2U : 1U);
@@ -100,7 +100,10 @@ ScheduledLoop::Period ScheduledLoop::over_period(double stiffness) const {
   for (std::size_t tick = 0; tick < ticks_; ++tick) {
     const Eigen::RowVectorXd position = output_ * state;
     result.positions.row(static_cast<Eigen::Index>(tick)) = position;
-    if (tick % spring_.every == 0) spring.add(-stiffness * position);
+    if (tick % spring_.every == 0) {
+      spring.add(stiffness ? Eigen::RowVectorXd(-*stiffness * position)
+                           : Eigen::RowVectorXd(Eigen::RowVectorXd::Unit(size, size - 1)));
+    }
     if (tick % damper_.every == 0) {
       velocity = pole_ * velocity + (1.0 - pole_) * (position - last);
       last = position;
@@ -131,6 +134,18 @@ std::vector<std::complex<double>> ScheduledLoop::poles_minus_one(double stiffnes
   const Eigen::VectorXd scales = balancing_scales(change);
   const Eigen::VectorXcd values = eigenvalues(scales.cwiseInverse().asDiagonal() * change * scales.asDiagonal());
   return {values.data(), values.data() + values.size()};
+}
+
+DiscreteStateSpace ScheduledLoop::seen_by_spring() const {
+  const Period over = over_period(std::nullopt);
+  const auto size = static_cast<Eigen::Index>(states_);
+  DiscreteStateSpace seen;
+  seen.period = period();
+  seen.Phi = over.change.topLeftCorner(size, size);
+  seen.Gamma1 = over.change.col(size).head(size);
+  seen.Gamma2 = Eigen::VectorXd::Zero(size);
+  seen.C = over.positions.row(0).head(size);
+  return seen;
 }
 
 std::optional<int> ScheduledLoop::unstable_poles(double stiffness) const {

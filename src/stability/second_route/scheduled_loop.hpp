@@ -8,6 +8,7 @@
 
 #include "sampling/inner_loop.hpp"
 #include "zwidth/model/state_space.hpp"
+#include "zwidth/sampling/discrete_state_space.hpp"
 
 namespace zwidth::internal {
 
@@ -33,6 +34,10 @@ class ScheduledLoop {
   // this pole with an imaginary part >= 0: of all that look alike once a longer period, the one that is seen most between.
   [[nodiscard]] double frequency_of(std::complex<double> pole_minus_one, double stiffness) const;
 
+  // What the spring's force does to the position, the damper closed, which is as fast: the spring's samples, without a delay of
+  // its own; what of the forces is on its way stands among the states.
+  [[nodiscard]] DiscreteStateSpace seen_by_spring() const;
+
   static constexpr std::size_t most_states = 200;  // beyond, eigenvalues would take longer than all the rest
 
  private:
@@ -52,7 +57,8 @@ class ScheduledLoop {
   };
 
   [[nodiscard]] PathSchedule path(const ContinuousStateSpace& device, std::size_t every, double delay);
-  [[nodiscard]] Period over_period(double stiffness) const;
+  // Of a spring of that stiffness; nothing: its force is the last state, which the next period has not.
+  [[nodiscard]] Period over_period(std::optional<double> stiffness) const;
 
   double tick_ = 0.0;
   std::size_t ticks_ = 1;

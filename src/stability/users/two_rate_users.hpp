@@ -47,6 +47,10 @@ class TwoRateUsers {
   // two_rate_absolute_stability().
   [[nodiscard]] double limit_on_grid(VirtualDamper damper) const;
 
+  // The least K that some user does not allow at this frequency, in rad/s, up to Nyquist of the spring; infinite where there
+  // is none.
+  [[nodiscard]] double limit_at(double frequency, VirtualDamper damper) const;
+
  private:
   struct Grid;
   std::unique_ptr<Grid> grid_;
