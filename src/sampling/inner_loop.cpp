@@ -67,17 +67,33 @@ int poles_outside(const std::vector<Complex<Extended>>& poles) {
   }));
 }
 
-// The closed inner loop from the outer force to the position, z^-samples apart.
-struct ClosedInner {
-  Feedback loop;
-  std::size_t samples = 0;
+}  // namespace
+
+std::size_t steps_within(const Sampling& outer, const Sampling& inner) {
+  return static_cast<std::size_t>(std::max(0.0, std::round(outer.period / inner.period)));
+}
+
+struct PlantBehindLoop::Responses {
+  Sampling outer;
+  std::size_t steps = 1;
+  double inner_period = 0.0;  // without its rounding
+  Response by_outer;          // at the inner period
+  Response by_inner;
 };
 
-ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
-  const Response by_outer = sampled_response(form, outer);
-  const bool is_as_late = outer.delay == inner.sampling.delay && outer.period == inner.sampling.period;
-  const Response by_inner = is_as_late ? by_outer : sampled_response(form, inner.sampling);
-  const double period = inner.sampling.period;
+PlantBehindLoop::PlantBehindLoop(const ModalForm& form, const Sampling& outer, const Sampling& inner) {
+  auto responses = std::make_shared<Responses>();
+  responses->outer = outer;
+  responses->steps = steps_within(outer, inner);
+  responses->inner_period = outer.period / static_cast<double>(responses->steps);
+  responses->by_outer = sampled_response(form, {responses->inner_period, outer.delay});
+  responses->by_inner =
+      outer.delay == inner.delay ? responses->by_outer : sampled_response(form, {responses->inner_period, inner.delay});
+  responses_ = std::move(responses);
+}
+
+SampledPlant PlantBehindLoop::closed_by(const InnerLoop& inner) const {
+  const auto& [outer, steps, period, by_outer, by_inner] = *responses_;
   PolynomialX filter{Extended(1.0)};  // delta + c with a damper
   PolynomialX force{Extended(inner.stiffness)};
   if (inner.damping > 0.0) {
@@ -88,28 +104,13 @@ ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const Inn
     force = product(force, filter);
     force[1] += Extended(inner.damping) * c / Extended(period);
   }
-  return {{product(by_outer.numerator, filter), product(by_inner.denominator, filter),
-           product(by_inner.numerator, force), by_inner.samples},
-          by_outer.samples};
-}
-
-}  // namespace
-
-std::size_t steps_within(const Sampling& outer, const Sampling& inner) {
-  return static_cast<std::size_t>(std::max(0.0, std::round(outer.period / inner.period)));
-}
-
-SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
-  const std::size_t steps = steps_within(outer, inner.sampling);
-  InnerLoop fast = inner;
-  fast.sampling.period = outer.period / static_cast<double>(steps);  // without its rounding
-  const auto [loop, samples] = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
-  const FeedbackForm closed = feedback_form(loop, std::numbers::pi / static_cast<double>(steps));
-
-  const std::size_t late = samples % steps;
+  const FeedbackForm closed = feedback_form({product(by_outer.numerator, filter), product(by_inner.denominator, filter),
+                                             product(by_inner.numerator, force), by_inner.samples},
+                                            std::numbers::pi / static_cast<double>(steps));
+  const std::size_t late = by_outer.samples % steps;
   SampledPlant plant;
   plant.period = outer.period;
-  plant.delay_samples = samples / steps + (late > 0 ? 1U : 0U);
+  plant.delay_samples = by_outer.samples / steps + (late > 0 ? 1U : 0U);
   std::vector<ExtendedTerm> terms;
   for (const ModalTerm& term : closed.form.terms) {
     terms.push_back(decimated(extended_term(term), static_cast<std::size_t>(term.integrators), steps, late));
@@ -124,6 +125,10 @@ SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const I
   plant.terms.front().unstable_poles = poles_outside(closed.poles);
   fill_in(terms, plant);
   return plant;
+}
+
+SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
+  return PlantBehindLoop(form, outer, inner.sampling).closed_by(inner);
 }
 
 }  // namespace zwidth::internal
