@@ -13,6 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// At a pole of the loop inside P is beyond all numbers; its inverse, 0, is not.
+constexpr double at_pole = 1e-100;
 constexpr int most_newton_steps = 20;
 constexpr double newton_tolerance = 1e-13;  // in shares
 constexpr double longest_newton_step = 0.5;
@@ -76,7 +78,9 @@ TwoRateCurve::Alias TwoRateCurve::alias(const HalfTurn& longer, const HalfTurn& 
   const Complex hold = quotient(longer.one_minus_back(), shorter.one_minus_back());
   const Complex hold_slope =
       quotient(j * longer.back() - hold * (j * by_step) * shorter.back(), shorter.one_minus_back());
-  const Complex share = quotient(1.0, 1.0 + inside * controlled.value);
+  Complex closed = 1.0 + inside * controlled.value;
+  if (closed == 0.0) closed = at_pole;
+  const Complex share = quotient(1.0, closed);
   Alias result;
   result.moved = hold * outer.value * share;
   result.by_inside = -result.moved * controlled.value * share;
