@@ -34,12 +34,29 @@ ValueAndSlope<Real> polynomial_at(const std::vector<Real>& p, const Complex<Real
   return result;
 }
 
+// Its value alone, two products a coefficient: p mod (t² - 2 t Re x + |x|²) at x.
+template <typename Real>
+Complex<Real> value_at(const std::vector<Real>& p, const Complex<Real>& x) {
+  const Real twice = x.re + x.re;
+  const Real squared = x.re * x.re + x.im * x.im;
+  Real slope(0.0);
+  Real before(0.0);
+  for (std::size_t i = p.size(); i-- > 1;) {
+    const Real next = p[i] + twice * slope - squared * before;
+    before = slope;
+    slope = next;
+  }
+  return {p[0] + x.re * slope - squared * before, x.im * slope};
+}
+
 template <typename Real>
 Complex<Real> power(Complex<Real> base, std::size_t exponent) {
   Complex<Real> result(Real(1.0));
+  bool is_first = true;
   for (; exponent > 0; exponent /= 2) {
-    if (exponent % 2 == 1) result *= base;
-    base *= base;
+    if (exponent % 2 == 1) result = is_first ? base : result * base;
+    is_first = is_first && exponent % 2 == 0;
+    if (exponent > 1) base *= base;
   }
   return result;
 }
@@ -70,9 +87,9 @@ struct FeedbackPencil {
     Complex<Real> z = x;
     z.re += Real(1.0);
     const Complex<Real> turned = power(z, late);
-    Complex<Real> below = polynomial_at(open, x).value * turned + polynomial_at(fed_back, x).value;
+    Complex<Real> below = value_at(open, x) * turned + value_at(fed_back, x);
     for (std::size_t i = 0; i < zero_roots; ++i) below *= x;
-    Complex<Real> result = polynomial_at(numerator, x).value * turned / below;
+    Complex<Real> result = value_at(numerator, x) * turned / below;
     result.re -= at_once;
     return result;
   }
@@ -83,10 +100,27 @@ std::size_t roots_at_zero(const std::vector<Extended>& p) {
   return static_cast<std::size_t>(first - p.begin());
 }
 
-std::vector<double> rounded(const std::vector<Extended>& p) {
-  std::vector<double> result;
-  for (const Extended& c : p) result.push_back(leading(c));
-  return result;
+template <typename Real>
+Real rounded_to(const Extended& c) {
+  return Real(c.x[0]) + Real(c.x[1]);
+}
+
+template <typename Real>
+FeedbackPencil<Real> rounded(const FeedbackPencil<Extended>& exact) {
+  const auto all = [](const std::vector<Extended>& p) {
+    std::vector<Real> result;
+    result.reserve(p.size());
+    for (const Extended& c : p) result.push_back(rounded_to<Real>(c));
+    return result;
+  };
+  FeedbackPencil<Real> pencil;
+  pencil.numerator = all(exact.numerator);
+  pencil.open = all(exact.open);
+  pencil.fed_back = all(exact.fed_back);
+  pencil.late = exact.late;
+  pencil.at_once = rounded_to<Real>(exact.at_once);
+  pencil.zero_roots = exact.zero_roots;
+  return pencil;
 }
 
 // The denominator in double, as one polynomial: for the search to begin with.
@@ -100,17 +134,21 @@ std::vector<double> rough_denominator(const FeedbackPencil<double>& pencil) {
   return result;
 }
 
-Complex<Extended> value_of(const ModalTerm& term, const Complex<Extended>& x) {
-  Complex<Extended> numerator;
-  Complex<Extended> denominator(Extended(1.0));
+template <typename Real>
+Complex<Real> value_of(const ModalTerm& term, const Complex<Real>& x) {
+  Complex<Real> numerator;
+  Complex<Real> denominator(Real(1.0));
   for (std::size_t i = term.degree; i-- > 0;) {
     numerator = numerator * x;
-    numerator.re += Extended(term.numerator[i]) + Extended(term.numerator_rest[i]);
+    numerator.re += Real(term.numerator[i]) + Real(term.numerator_rest[i]);
     denominator = denominator * x;
-    denominator.re += Extended(term.denominator[i]) + Extended(term.denominator_rest[i]);
+    denominator.re += Real(term.denominator[i]) + Real(term.denominator_rest[i]);
   }
   return numerator / denominator;
 }
+
+double rounded_size(const Complex<long double>& a) { return static_cast<double>(std::hypot(a.re, a.im)); }
+double rounded_size(const Complex<Extended>& a) { return magnitude(a); }
 
 struct ErrorOnCircle {
   double error = 0.0;
@@ -118,17 +156,19 @@ struct ErrorOnCircle {
 };
 
 // Of the sum of the terms beside the loop, at z = e^{j angle}.
-ErrorOnCircle error_at(const FeedbackForm& form, const FeedbackPencil<Extended>& pencil, double angle) {
+template <typename Real>
+ErrorOnCircle error_at(const FeedbackForm& form, const FeedbackPencil<Real>& pencil, double angle) {
   const double half = std::sin(0.5 * angle);
-  const Complex<Extended> x(Extended(-2.0 * half * half), Extended(std::sin(angle)));
-  Complex<Extended> whole = pencil.gain(x);
-  Complex<Extended> error = Complex<Extended>() - whole;
+  const Complex<Real> x(Real(-2.0 * half * half), Real(std::sin(angle)));
+  Complex<Real> whole = pencil.gain(x);
+  Complex<Real> error = Complex<Real>() - whole;
   for (const ModalTerm& term : form.form.terms) error += value_of(term, x);
-  whole.re += form.at_once;
-  return {magnitude(error), magnitude(whole)};
+  whole.re += pencil.at_once;
+  return {rounded_size(error), rounded_size(whole)};
 }
 
-bool add_up(const FeedbackForm& form, const FeedbackPencil<Extended>& pencil, double band) {
+template <typename Real>
+bool add_up(const FeedbackForm& form, const FeedbackPencil<Real>& pencil, double band) {
   const auto [error_at_band, size_at_band] = error_at(form, pencil, band);
   if (!(error_at_band <= error_at_end * size_at_band)) return false;
   for (double angle = 2.0 * band; angle < std::numbers::pi; angle *= 2.0) {
@@ -157,16 +197,12 @@ FeedbackForm feedback_form(const Feedback& loop, double band) {
   extended.fed_back = without_roots(loop.fed_back);
   extended.late = loop.late;
   extended.at_once = result.at_once;
-  FeedbackPencil<double> pencil;
-  pencil.numerator = rounded(extended.numerator);
-  pencil.open = rounded(extended.open);
-  pencil.fed_back = rounded(extended.fed_back);
-  pencil.late = loop.late;
-  pencil.zero_roots = extended.zero_roots;
+  const auto pencil = rounded<double>(extended);
   const std::vector<double> rough = rough_denominator(pencil);
   if (rough.size() > 1) result.poles = find_poles(pencil, extended, newton_polygon_start(rough));
   result.form = partial_fractions::expand(extended, result.poles, PoleLabels{});
-  if (!add_up(result, extended, band)) {
+  // Rounding of long double is far below what the terms may be off, unless they cancel.
+  if (!add_up(result, rounded<long double>(extended), band) && !add_up(result, extended, band)) {
     throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::poles_not_found});
   }
   return result;

@@ -20,9 +20,14 @@ struct Matrix {
 
 Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix c{a.size, {}};
-  for (std::size_t i = 0; i < a.size; ++i)
-    for (std::size_t k = 0; k < a.size; ++k)
-      for (std::size_t j = 0; j < a.size; ++j) c(i, j) += a(i, k) * b(k, j);
+  for (std::size_t i = 0; i < a.size; ++i) {
+    for (std::size_t k = 0; k < a.size; ++k) {
+      if (leading(a(i, k)) == 0.0) continue;  // companion forms are sparse
+      for (std::size_t j = 0; j < a.size; ++j) {
+        if (leading(b(k, j)) != 0.0) c(i, j) += a(i, k) * b(k, j);
+      }
+    }
+  }
   return c;
 }
 
@@ -41,8 +46,11 @@ Matrix exponential_minus_one(Matrix m) {
   Matrix power = m;
   for (int k = 2; k <= terms; ++k) {
     power = power * m;
-    for (Extended& entry : power.entries) entry = entry / Extended(static_cast<double>(k));
-    for (std::size_t i = 0; i < m.size * m.size; ++i) sum.entries[i] += power.entries[i];
+    for (std::size_t i = 0; i < m.size * m.size; ++i) {
+      if (leading(power.entries[i]) == 0.0) continue;
+      power.entries[i] = power.entries[i] / static_cast<double>(k);
+      sum.entries[i] += power.entries[i];
+    }
   }
   for (int i = 0; i < halvings; ++i) {
     const Matrix squared = sum * sum;
@@ -83,8 +91,8 @@ ExtendedTerm sample_extended(const ModalTerm& term, const SamplingInstants& inst
     output[i] = coefficient(term.numerator[i], term.numerator_rest[i]) * scale;
     scale = scale * Extended(unit);
   }
-  const Matrix first = exponential_minus_one(generator(with_new));
   const Matrix whole = exponential_minus_one(generator(with_new + with_old));
+  const Matrix first = with_old == 0.0 ? whole : exponential_minus_one(generator(with_new));
   Matrix phi{n, {}};
   std::array<Extended, max_size> gamma_new{};
   std::array<Extended, max_size> gamma_old{};

@@ -12,8 +12,8 @@
 #include "sampling/extended_sampling.hpp"
 #include "sampling/plant_of_terms.hpp"
 #include "sampling/sampling_instants.hpp"
-#include "zwidth/sampling/filter_section.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -70,41 +70,15 @@ int poles_outside(const std::vector<Complex<Extended>>& poles) {
   }));
 }
 
-// The closed inner loop from the outer force to the position, z^-samples apart.
-struct ClosedInner {
-  Feedback loop;
-  std::size_t samples = 0;
-  std::size_t periods_late = 0;  // of the inner loop's own force
-};
-
-ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
-  const Response by_outer = sampled_response(form, outer);
-  const bool is_as_late = outer.delay == inner.sampling.delay && outer.period == inner.sampling.period;
-  const Response by_inner = is_as_late ? by_outer : sampled_response(form, inner.sampling);
-  const double period = inner.sampling.period;
-  PolynomialX filter{Extended(1.0)};  // delta + c with a damper
-  PolynomialX force{Extended(inner.stiffness)};
-  if (inner.damping > 0.0) {
-    const Extended c(velocity_filter_gain(inner.velocity_filter_hz, period));
-    filter = {c, Extended(1.0)};
-    force = product(force, filter);
-    force[1] += Extended(inner.damping) * c / Extended(period);
-  }
-  return {{product(by_outer.numerator, filter), product(by_inner.denominator, filter),
-           product(by_inner.numerator, force), by_inner.samples},
-          by_outer.samples,
-          by_inner.samples};
-}
-
 // Each period of delay is a pole more: of many no start is near enough to all.
-FeedbackForm form_of(const ClosedInner& inner, double band) {
+FeedbackForm form_of(const Feedback& loop, double band) {
   constexpr std::size_t many_periods = 20;
   try {
-    return feedback_form(inner.loop, band);
+    return feedback_form(loop, band);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::did_not_converge || inner.periods_late < many_periods) throw;
-    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::inner_loop_poles_not_found,
-                                              .evidence = {counted("periods", inner.periods_late)}});
+    if (error.code() != ErrorCode::did_not_converge || loop.late < many_periods) throw;
+    throw Error(ErrorCode::did_not_converge,
+                {.code = ProblemCode::inner_loop_poles_not_found, .evidence = {counted("periods", loop.late)}});
   }
 }
 
@@ -114,17 +88,42 @@ std::size_t steps_within(const Sampling& outer, const Sampling& inner) {
   return static_cast<std::size_t>(std::max(0.0, std::round(outer.period / inner.period)));
 }
 
-SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
-  const std::size_t steps = steps_within(outer, inner.sampling);
-  InnerLoop fast = inner;
-  fast.sampling.period = outer.period / static_cast<double>(steps);  // without its rounding
-  const ClosedInner loop = closed_inner(form, {fast.sampling.period, outer.delay}, fast);
-  const FeedbackForm closed = form_of(loop, std::numbers::pi / static_cast<double>(steps));
+struct PlantBehindLoop::Responses {
+  Sampling outer;
+  std::size_t steps = 1;
+  double inner_period = 0.0;  // without its rounding
+  Response by_outer;          // at the inner period
+  Response by_inner;
+};
 
-  const std::size_t late = loop.samples % steps;
+PlantBehindLoop::PlantBehindLoop(const ModalForm& form, const Sampling& outer, const Sampling& inner) {
+  auto responses = std::make_shared<Responses>();
+  responses->outer = outer;
+  responses->steps = steps_within(outer, inner);
+  responses->inner_period = outer.period / static_cast<double>(responses->steps);
+  responses->by_outer = sampled_response(form, {responses->inner_period, outer.delay});
+  responses->by_inner =
+      outer.delay == inner.delay ? responses->by_outer : sampled_response(form, {responses->inner_period, inner.delay});
+  responses_ = std::move(responses);
+}
+
+SampledPlant PlantBehindLoop::closed_by(const InnerLoop& inner) const {
+  const auto& [outer, steps, period, by_outer, by_inner] = *responses_;
+  PolynomialX filter{Extended(1.0)};  // delta + c with a damper
+  PolynomialX force{Extended(inner.stiffness)};
+  if (inner.damping > 0.0) {
+    const Extended c(velocity_filter_gain(inner.velocity_filter_hz, period));
+    filter = {c, Extended(1.0)};
+    force = product(force, filter);
+    force[1] += Extended(inner.damping) * c / Extended(period);
+  }
+  const FeedbackForm closed = form_of({product(by_outer.numerator, filter), product(by_inner.denominator, filter),
+                                       product(by_inner.numerator, force), by_inner.samples},
+                                      std::numbers::pi / static_cast<double>(steps));
+  const std::size_t late = by_outer.samples % steps;
   SampledPlant plant;
   plant.period = outer.period;
-  plant.delay_samples = loop.samples / steps + (late > 0 ? 1U : 0U);
+  plant.delay_samples = by_outer.samples / steps + (late > 0 ? 1U : 0U);
   std::vector<ExtendedTerm> terms;
   for (const ModalTerm& term : closed.form.terms) {
     terms.push_back(decimated(extended_term(term), static_cast<std::size_t>(term.integrators), steps, late));
@@ -139,6 +138,10 @@ SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const I
   plant.terms.front().unstable_poles = poles_outside(closed.poles);
   fill_in(terms, plant);
   return plant;
+}
+
+SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner) {
+  return PlantBehindLoop(form, outer, inner.sampling).closed_by(inner);
 }
 
 }  // namespace zwidth::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -25,7 +26,20 @@ struct InnerLoop {
 //     P_cl = P_outer / (1 + (K + (B c/T) delta / (delta + c)) P_inner)
 //
 // and of that every steps_within()-th sample behind a force that changes as often. Source: theory, section 8.
-// Throws Error (invalid_argument) for a period or delay outside its domain, (did_not_converge) as modal_form() does.
+class PlantBehindLoop {
+ public:
+  // For inner loops of that period and delay. Throws Error (invalid_argument) for one outside its domain.
+  PlantBehindLoop(const ModalForm& form, const Sampling& outer, const Sampling& inner);
+
+  // Closed by this one. Throws Error (did_not_converge) as modal_form() does.
+  [[nodiscard]] SampledPlant closed_by(const InnerLoop& inner) const;
+
+ private:
+  struct Responses;
+  std::shared_ptr<const Responses> responses_;
+};
+
+// The same of one inner loop.
 [[nodiscard]] SampledPlant sample_behind(const ModalForm& form, const Sampling& outer, const InnerLoop& inner);
 
 }  // namespace zwidth::internal

@@ -37,11 +37,11 @@ constexpr double loop_gains[] = {1e-6, 1e-4, 1e-2, 1.0};
 class ClosedLoop {
  public:
   explicit ClosedLoop(const Device& device)
-      : device_(device),
-        plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})),
+      : plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})),
         wall_(device.parameters().wall) {
     if (has_damper_loop(device.loop())) {
-      states_ = static_cast<Eigen::Index>(TwoRateDevice(device, 1.0).as_it_runs(device).states());
+      two_rates_.emplace(TwoRateDevice(device, 1.0).as_it_runs(device));
+      states_ = static_cast<Eigen::Index>(two_rates_->states());
       return;
     }
     states_ = plant_.Phi.rows() + static_cast<Eigen::Index>(plant_.delay_samples + 3 + 2 * wall_.filters.size());
@@ -73,25 +73,24 @@ class ClosedLoop {
  private:
   // The largest |z| - 1.
   [[nodiscard]] double excess_of(const WallPoint& at) const {
-    if (!has_damper_loop(device_.loop())) {
+    if (!two_rates_) {
       Wall wall = wall_;
       wall.stiffness = at.stiffness;
       wall.damping = at.damping;
       return stability_excess(plant_, wall);
     }
     double greatest = -1.0;
-    const ScheduledLoop loop = TwoRateDevice(device_, at.damping).as_it_runs(device_);
-    for (const std::complex<double>& pole : loop.poles_minus_one(at.stiffness)) {
+    for (const std::complex<double>& pole : two_rates_->poles_minus_one(at.stiffness, at.damping)) {
       greatest = std::max(greatest, (2.0 * pole.real() + std::norm(pole)) / (std::abs(1.0 + pole) + 1.0));
     }
     return greatest;
   }
 
-  const Device& device_;
   DiscreteStateSpace plant_;
   Wall wall_;
   Eigen::Index states_ = 0;
   std::optional<RouthCount> routh_;
+  std::optional<ScheduledLoop> two_rates_;
 };
 
 // The outlines in shares of the region's extent.

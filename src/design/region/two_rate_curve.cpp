@@ -6,14 +6,15 @@
 #include <numbers>
 
 #include "sampling/inner_loop.hpp"
-#include "stability/loop/damper_response.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double angle_step_of_slope = 1e-6;  // of the angle
+// At a pole of the loop inside P is beyond all numbers; its inverse, 0, is not.
+constexpr double at_pole = 1e-100;
 constexpr int most_newton_steps = 20;
 constexpr double newton_tolerance = 1e-13;  // in shares
 constexpr double longest_newton_step = 0.5;
@@ -22,21 +23,13 @@ Sampling fast_sampling(double period, std::size_t steps, double delay) {
   return {period / static_cast<double>(steps), delay};
 }
 
-// 1 - e^{-j angle}
-Complex one_minus_back(double angle) {
-  const double half = 0.5 * angle;
-  return 2.0 * std::sin(half) * Complex(std::sin(half), std::cos(half));
-}
-
-// P(e^{j angle}), 0 < angle < 2 pi.
-Complex on_whole_circle(const SampledPlant& plant, double angle) {
-  if (angle <= std::numbers::pi) return response(plant, angle / plant.period);
-  return std::conj(response(plant, (2.0 * std::numbers::pi - angle) / plant.period));
-}
-
 }  // namespace
 
-TwoRateCurve::TwoRateCurve(const Device& device) : loop_(device, 1.0), modes_(loop_.spring_alone()) {
+TwoRateCurve::TwoRateCurve(const Device& device)
+    : loop_(device, 1.0),
+      behind_(loop_.form(), loop_.is_damper_inside() ? loop_.spring() : loop_.damper().sampling,
+              loop_.is_damper_inside() ? loop_.damper().sampling : loop_.spring()),
+      modes_(loop_.spring_alone()) {
   const Sampling& spring = loop_.spring();
   const Sampling& damper = loop_.damper().sampling;
   const bool damper_inside = is_damper_inside();
@@ -48,13 +41,23 @@ TwoRateCurve::TwoRateCurve(const Device& device) : loop_(device, 1.0), modes_(lo
   outer_ = sample(loop_.form(), fast_sampling(slow.period, steps_, slow.delay));
   inner_ = sample(loop_.form(), fast_sampling(slow.period, steps_, fast.delay));
   same_delay_ = slow.delay == fast.delay;
+  inner_filter_ = velocity_filter_pole(velocity_filter_hz(), inner_period_);
+  outer_filter_ = velocity_filter_pole(velocity_filter_hz(), outer_period_);
+  for (std::size_t k = 0; k < steps_; ++k) {
+    turns_.emplace_back(std::numbers::pi * static_cast<double>(k) / static_cast<double>(steps_));
+  }
 }
 
 GainCrossings TwoRateCurve::crossings(double inside) const {
-  if (!is_damper_inside()) return damping_crossings(loop_.seen_by_damper(inside), loop_.gains());
-  InnerLoop damper = loop_.damper();
-  damper.damping = inside;
-  return stiffness_crossings(filtered_plant(sample_behind(loop_.form(), loop_.spring(), damper), {}), VirtualDamper{});
+  InnerLoop inner;
+  if (is_damper_inside()) {
+    inner = loop_.damper();
+    inner.damping = inside;
+  } else {
+    inner.stiffness = inside;
+  }
+  const FilteredPlant plant = filtered_plant(behind_.closed_by(inner), {});
+  return is_damper_inside() ? stiffness_crossings(plant, VirtualDamper{}) : damping_crossings(plant, loop_.gains());
 }
 
 GainCrossings TwoRateCurve::crossings_alone() const {
@@ -62,31 +65,59 @@ GainCrossings TwoRateCurve::crossings_alone() const {
   return damping_crossings(filtered_plant(sample(loop_.form(), loop_.damper().sampling), {}), loop_.gains());
 }
 
-TwoRateCurve::Alias TwoRateCurve::alias(double angle, std::size_t k, double inside) const {
-  const double of_step = (angle + 2.0 * std::numbers::pi * static_cast<double>(k)) / static_cast<double>(steps_);
-  const Complex outer = on_whole_circle(outer_, of_step);
-  Complex controlled = same_delay_ ? outer : on_whole_circle(inner_, of_step);
-  if (is_damper_inside()) controlled *= damper_response(loop_.gains(), inner_period_, of_step / inner_period_);
-  const Complex closed = 1.0 + inside * controlled;
-  return {one_minus_back(angle) / one_minus_back(of_step) * outer / closed, -controlled / closed};
+TwoRateCurve::Alias TwoRateCurve::alias(const HalfTurn& longer, const HalfTurn& shorter, double inside) const {
+  const Complex j(0.0, 1.0);
+  const double by_step = 1.0 / static_cast<double>(steps_);  // of the slopes over the angle of a sample
+  const ResponseAndSlope outer = response_and_slope(outer_, shorter);
+  ResponseAndSlope controlled = same_delay_ ? outer : response_and_slope(inner_, shorter);
+  if (is_damper_inside()) {
+    const ResponseAndSlope velocity = velocity_and_slope(inner_filter_, inner_period_, shorter);
+    controlled.slope = controlled.slope * velocity.value + controlled.value * velocity.slope;
+    controlled.value *= velocity.value;
+  }
+  const Complex hold = quotient(longer.one_minus_back(), shorter.one_minus_back());
+  const Complex hold_slope =
+      quotient(j * longer.back() - hold * (j * by_step) * shorter.back(), shorter.one_minus_back());
+  Complex closed = 1.0 + inside * controlled.value;
+  if (closed == 0.0) closed = at_pole;
+  const Complex share = quotient(1.0, closed);
+  Alias result;
+  result.moved = hold * outer.value * share;
+  result.by_inside = -result.moved * controlled.value * share;
+  result.by_angle = (hold_slope * outer.value + by_step * hold * outer.slope) * share -
+                    result.moved * (inside * by_step) * controlled.slope * share;
+  return result;
 }
 
+HalfTurn TwoRateCurve::alias_of(const HalfTurn& first, std::size_t k) const { return first.turned_by(turns_[k]); }
+
 TwoRateCurve::Seen TwoRateCurve::seen(double angle, double inside) const {
-  Complex sum = 0.0;
-  Complex slope = 0.0;
+  const HalfTurn longer(0.5 * angle);
+  const HalfTurn first(0.5 * angle / static_cast<double>(steps_));
+  Alias sum;
   for (std::size_t k = 0; k < steps_; ++k) {
-    const Alias each = alias(angle, k, inside);
-    sum += each.moved;
-    slope += each.moved * each.by_inside;
+    const Alias each = alias(longer, alias_of(first, k), inside);
+    sum.moved += each.moved;
+    sum.by_inside += each.by_inside;
+    sum.by_angle += each.by_angle;
   }
-  Complex gain = static_cast<double>(steps_) / sum;
-  if (!is_damper_inside()) gain /= damper_response(loop_.gains(), outer_period_, angle / outer_period_);
-  return {gain, -gain * slope / sum};
+  Seen result;
+  result.gain = quotient(static_cast<double>(steps_), sum.moved);
+  const Complex per_sum = quotient(result.gain, sum.moved);
+  result.by_inside = -per_sum * sum.by_inside;
+  result.by_angle = -per_sum * sum.by_angle;
+  if (is_damper_inside()) return result;
+  const ResponseAndSlope velocity = velocity_and_slope(outer_filter_, outer_period_, longer);
+  result.gain = quotient(result.gain, velocity.value);
+  result.by_inside = quotient(result.by_inside, velocity.value);
+  result.by_angle = quotient(result.by_angle - result.gain * velocity.slope, velocity.value);
+  return result;
 }
 
 double TwoRateCurve::usual_inside(double angle) const {
-  double loop_gain = std::abs(on_whole_circle(inner_, angle));
-  if (is_damper_inside()) loop_gain *= std::abs(damper_response(loop_.gains(), inner_period_, angle / inner_period_));
+  const HalfTurn turn(0.5 * angle);
+  double loop_gain = std::abs(response_and_slope(inner_, turn).value);
+  if (is_damper_inside()) loop_gain *= std::abs(velocity_and_slope(inner_filter_, inner_period_, turn).value);
   return 1.0 / loop_gain;
 }
 
@@ -105,8 +136,9 @@ std::optional<double> TwoRateCurve::drift_stiffness() const {
 
 std::optional<double> TwoRateCurve::unreached_gain() const {
   if (steps_ % 2 != 0) return std::nullopt;
-  Complex controlled = on_whole_circle(inner_, std::numbers::pi);
-  if (is_damper_inside()) controlled *= damper_response(loop_.gains(), inner_period_, std::numbers::pi / inner_period_);
+  const HalfTurn turn(0.5 * std::numbers::pi);
+  Complex controlled = response_and_slope(inner_, turn).value;
+  if (is_damper_inside()) controlled *= velocity_and_slope(inner_filter_, inner_period_, turn).value;
   const double gain = -1.0 / controlled.real();
   return gain > 0.0 && std::isfinite(gain) ? std::optional(gain) : std::nullopt;
 }
@@ -114,13 +146,10 @@ std::optional<double> TwoRateCurve::unreached_gain() const {
 TwoRateCurve::Equations TwoRateCurve::equations(const Node& node) const {
   const double q = inside(node.wall);
   const Seen here = seen(node.angle, q);
-  const double step = angle_step_of_slope * node.angle;
-  const Complex by_angle =
-      (seen(node.angle + step, q).gain - seen(node.angle - step, q).gain) * (scales(0) / (2.0 * step));
   const double scale_outside = is_damper_inside() ? scales(1) : scales(2);
   const double scale_inside = is_damper_inside() ? scales(2) : scales(1);
   const Complex value = (outside(node.wall) + here.gain) / scale_outside;
-  const Complex slope_angle = by_angle / scale_outside;
+  const Complex slope_angle = here.by_angle * (scales(0) / scale_outside);
   const Complex slope_inside = here.by_inside * (scale_inside / scale_outside);
   Equations result;
   result.value << value.real(), value.imag();
@@ -175,8 +204,10 @@ double TwoRateCurve::frequency(const Node& node) const {
   if (is_damper_inside() || node.angle > std::numbers::pi) return node.angle / outer_period_;
   double most = -1.0;
   double best = node.angle;
+  const HalfTurn longer(0.5 * node.angle);
+  const HalfTurn first(0.5 * node.angle / static_cast<double>(steps_));
   for (std::size_t k = 0; k < steps_; ++k) {
-    const double size = std::abs(alias(node.angle, k, inside(node.wall)).moved);
+    const double size = std::abs(alias(longer, alias_of(first, k), inside(node.wall)).moved);
     if (!(size > most)) continue;
     most = size;
     best = (node.angle + 2.0 * std::numbers::pi * static_cast<double>(k)) / static_cast<double>(steps_);

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "design/region/boundary_branch.hpp"
+#include "design/region/response_and_slope.hpp"
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "zwidth/model/device.hpp"
@@ -88,13 +90,17 @@ class TwoRateCurve {
   struct Seen {
     Complex gain;       // 1/(C_out P)
     Complex by_inside;  // its slope over q
+    Complex by_angle;
   };
   [[nodiscard]] Seen seen(double angle, double inside) const;
+  // A sample of the shorter period turns by (angle + 2 pi k)/N.
+  [[nodiscard]] HalfTurn alias_of(const HalfTurn& first, std::size_t k) const;
   struct Alias {
     Complex moved;      // h P_out/(1 + q C_in P_in)
-    Complex by_inside;  // its slope over q, over itself
+    Complex by_inside;  // its slope over q
+    Complex by_angle;
   };
-  [[nodiscard]] Alias alias(double angle, std::size_t k, double inside) const;
+  [[nodiscard]] Alias alias(const HalfTurn& longer, const HalfTurn& shorter, double inside) const;
   // Two rows: of the real and the imaginary part of g + 1/(C_out P), and the slopes over angle, K and B.
   struct Equations {
     Eigen::Vector2d value;
@@ -103,12 +109,16 @@ class TwoRateCurve {
   [[nodiscard]] Equations equations(const Node& node) const;
 
   TwoRateDevice loop_;
+  PlantBehindLoop behind_;
   std::size_t steps_ = 1;  // N
   double outer_period_ = 0.0;
   double inner_period_ = 0.0;
-  SampledPlant outer_;  // both at the shorter period
+  std::vector<HalfTurn> turns_;  // by 2 pi k/N
+  SampledPlant outer_;           // both at the shorter period
   SampledPlant inner_;
   bool same_delay_ = false;
+  double inner_filter_ = 0.0;  // the pole of the velocity's low-pass, where the damper runs at that period
+  double outer_filter_ = 0.0;
   SampledPlant modes_;
 };
 

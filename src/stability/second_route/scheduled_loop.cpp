@@ -61,10 +61,17 @@ ScheduledLoop::ScheduledLoop(const ContinuousStateSpace& device, const Sampling&
   // The spring's period stands; the other is what it is of that, without its rounding.
   tick_ = is_damper_fast ? spring.period / static_cast<double>(ticks_) : spring.period;
   spring_ = path(device, is_damper_fast ? ticks_ : 1, spring.delay);
-  damper_ = path(device, is_damper_fast ? 1 : ticks_, damper.sampling.delay);
-  const double damper_period = static_cast<double>(damper_.every) * tick_;
-  rate_ = damper.damping / damper_period;
-  pole_ = velocity_filter_pole(damper.velocity_filter_hz, damper_period);
+  const std::size_t damper_every = is_damper_fast ? 1 : ticks_;
+  if (damper.sampling.delay == spring.delay) {
+    damper_ = spring_;
+    damper_.every = damper_every;
+    damper_.kept = (damper_.first_late() + damper_every - 1) / damper_every;
+  } else {
+    damper_ = path(device, damper_every, damper.sampling.delay);
+  }
+  damping_ = damper.damping;
+  damper_period_ = static_cast<double>(damper_.every) * tick_;
+  pole_ = velocity_filter_pole(damper.velocity_filter_hz, damper_period_);
   output_ = device.C;
   states_ = static_cast<std::size_t>(phi_.rows()) + (pole_ > 0.0 ? 2U : 1U) + spring_.kept + damper_.kept;
 }
@@ -81,7 +88,8 @@ ScheduledLoop::PathSchedule ScheduledLoop::path(const ContinuousStateSpace& devi
   return result;
 }
 
-ScheduledLoop::Period ScheduledLoop::over_period(std::optional<double> stiffness) const {
+ScheduledLoop::Period ScheduledLoop::over_period(std::optional<double> stiffness, double damping) const {
+  const double rate = damping / damper_period_;
   const Eigen::Index n = phi_.rows();
   const auto size = static_cast<Eigen::Index>(states_ + (stiffness ? 0U : 1U));
   const auto last_position = n;
@@ -107,7 +115,7 @@ ScheduledLoop::Period ScheduledLoop::over_period(std::optional<double> stiffness
     if (tick % damper_.every == 0) {
       velocity = pole_ * velocity + (1.0 - pole_) * (position - last);
       last = position;
-      damper.add(-rate_ * velocity);
+      damper.add(-rate * velocity);
     }
     Eigen::MatrixXd change = phi_ * state;
     for (const auto& [path, forces] : {std::pair{&spring_, &spring}, std::pair{&damper_, &damper}}) {
@@ -130,14 +138,18 @@ ScheduledLoop::Period ScheduledLoop::over_period(std::optional<double> stiffness
 }
 
 std::vector<std::complex<double>> ScheduledLoop::poles_minus_one(double stiffness) const {
-  const Eigen::MatrixXd change = over_period(stiffness).change;
+  return poles_minus_one(stiffness, damping_);
+}
+
+std::vector<std::complex<double>> ScheduledLoop::poles_minus_one(double stiffness, double damping) const {
+  const Eigen::MatrixXd change = over_period(stiffness, damping).change;
   const Eigen::VectorXd scales = balancing_scales(change);
   const Eigen::VectorXcd values = eigenvalues(scales.cwiseInverse().asDiagonal() * change * scales.asDiagonal());
   return {values.data(), values.data() + values.size()};
 }
 
 DiscreteStateSpace ScheduledLoop::seen_by_spring() const {
-  const Period over = over_period(std::nullopt);
+  const Period over = over_period(std::nullopt, damping_);
   const auto size = static_cast<Eigen::Index>(states_);
   DiscreteStateSpace seen;
   seen.period = period();
@@ -161,7 +173,7 @@ std::optional<int> ScheduledLoop::unstable_poles(double stiffness) const {
 }
 
 double ScheduledLoop::frequency_of(std::complex<double> pole_minus_one, double stiffness) const {
-  const Period over = over_period(stiffness);
+  const Period over = over_period(stiffness, damping_);
   const Eigen::VectorXd scales = balancing_scales(over.change);
   Eigen::MatrixXcd shifted =
       (scales.cwiseInverse().asDiagonal() * over.change * scales.asDiagonal()).cast<std::complex<double>>();

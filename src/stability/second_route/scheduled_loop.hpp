@@ -26,6 +26,8 @@ class ScheduledLoop {
 
   // z - 1 of every pole, z of the longer period.
   [[nodiscard]] std::vector<std::complex<double>> poles_minus_one(double stiffness) const;
+  // The same with another damper.
+  [[nodiscard]] std::vector<std::complex<double>> poles_minus_one(double stiffness, double damping) const;
 
   // Poles outside the unit circle; nothing where one is too near it to tell.
   [[nodiscard]] std::optional<int> unstable_poles(double stiffness) const;
@@ -58,7 +60,7 @@ class ScheduledLoop {
 
   [[nodiscard]] PathSchedule path(const ContinuousStateSpace& device, std::size_t every, double delay);
   // Of a spring of that stiffness; nothing: its force is the last state, which the next period has not.
-  [[nodiscard]] Period over_period(std::optional<double> stiffness) const;
+  [[nodiscard]] Period over_period(std::optional<double> stiffness, double damping) const;
 
   double tick_ = 0.0;
   std::size_t ticks_ = 1;
@@ -66,7 +68,8 @@ class ScheduledLoop {
   Eigen::RowVectorXd output_;
   PathSchedule spring_;
   PathSchedule damper_;
-  double rate_ = 0.0;  // B/T_v
+  double damping_ = 0.0;
+  double damper_period_ = 0.0;
   double pole_ = 0.0;  // of the velocity's low-pass
   std::size_t states_ = 0;
 };
