@@ -10,7 +10,8 @@
 namespace zwidth::internal {
 namespace {
 
-/// PastSums of a column, its first value before it as often as the longest mean reaches back.
+/// Sums of a column's past, the mean of its beginning before it as often as the longest mean reaches back. One value there would
+/// be that noise in every row whose means reach before the column.
 class PastSums {
  public:
   explicit PastSums(Eigen::Index reach) : reach_(reach) {}
@@ -18,7 +19,8 @@ class PastSums {
   void take(const Eigen::Ref<const Eigen::VectorXd>& column) {
     sums_.assign(1, 0.0);
     sums_.reserve(static_cast<std::size_t>(reach_ + column.size() + 1));
-    for (Eigen::Index k = 0; k < reach_; ++k) sums_.push_back(sums_.back() + column(0));
+    const double before = reach_ == 0 ? 0.0 : column.head(std::min(reach_, column.size())).mean();
+    for (Eigen::Index k = 0; k < reach_; ++k) sums_.push_back(sums_.back() + before);
     for (const double each : column) sums_.push_back(sums_.back() + each);
   }
   /// Of all values before each from `first` on.
