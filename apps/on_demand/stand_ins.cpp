@@ -47,7 +47,7 @@ tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
   return loaded<on_demand::Fits>().open_mat73_file(path);
 }
 
-ModalForm exact_modal_form(const Device& device, Path path, double lag, const PoleLabels& labels,
+ModalForm exact_modal_form(const Device& device, const WeightedPath& path, double lag, const PoleLabels& labels,
                            std::shared_ptr<ExactlyFound>& found) {
   return loaded<on_demand::Digits>().exact_modal_form(device, path, lag, labels, found);
 }

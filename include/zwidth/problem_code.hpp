@@ -344,6 +344,11 @@ enum class ProblemCode : std::uint16_t {
   degree_not_lower,               ///< a numerator's degree is not below the denominator's
   longer_than_denominator,        ///< a numerator with leading zeros is longer than the denominator
   beside_transfer_function,       ///< bodies, links, a body of the loop or a user beside a transfer function
+  beside_coordinates,             ///< bodies, links or a transfer function beside coordinates
+  coordinates_out_of_range,       ///< no coordinates, or too many
+  weights_not_one_a_coordinate,   ///< weights that are not one a coordinate, or all 0
+  no_mass_matrix,                 ///< a matrix is not square, symmetric and positive definite
+  coordinates_not_known,          ///< a computation that knows bodies alone
   no_body_at_all,                 ///< a device without bodies and transfer function
   no_such_body,                   ///< no body of the device is called that
   delay_of_too_many_periods,      ///< a delay of more sampling periods than are kept

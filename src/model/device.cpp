@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "model/coordinates_problem.hpp"
 #include "model/key_members.hpp"
 #include "model/one_rate.hpp"
 #include "model/uncertainty_problem.hpp"
@@ -223,8 +224,8 @@ void check_transfer_function(const DeviceParameters& parameters, Checks& checks)
 void check_loop(const DeviceParameters& parameters, Checks& checks) {
   const Loop& loop = parameters.loop;
   const auto is_body = [&](std::string_view member, std::size_t body) {
-    if (body < parameters.bodies.size()) return;
-    checks.refuse(fmt::format("loop.{}", member), no_body_number(body, parameters.bodies.size()));
+    const std::size_t count = parameters.coordinates ? parameters.coordinates->points.size() : parameters.bodies.size();
+    if (body >= count) checks.refuse(fmt::format("loop.{}", member), no_body_number(body, count));
   };
   if (!parameters.transfer_function) {
     is_body("actuated", loop.actuated);
@@ -306,7 +307,9 @@ void check_loop_parts(const DeviceParameters& parameters, Checks& checks) {
 std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameters) {
   Checks checks;
   checks.name("name", parameters.name);
-  if (parameters.transfer_function) {
+  if (parameters.coordinates) {
+    if (auto problem = find_coordinates_problem(parameters)) return {*std::move(problem)};
+  } else if (parameters.transfer_function) {
     check_transfer_function(parameters, checks);
   } else if (parameters.bodies.empty()) {
     checks.refuse("body", {.code = ProblemCode::no_body_at_all});
@@ -324,7 +327,7 @@ std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameter
 std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
   std::vector<DeviceProblem> problems = find_value_problems(parameters);
   if (!problems.empty()) return std::move(problems.front());
-  if (!parameters.transfer_function) {
+  if (!parameters.bodies.empty()) {
     if (auto problem = find_loose_body(parameters)) return problem;
   }
   return parameters.uncertainty ? find_uncertainty_problem(parameters) : std::nullopt;
@@ -338,6 +341,11 @@ Device::Device(DeviceParameters parameters) : parameters_(std::move(parameters))
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed),
                 {std::move(told)});
   }
+}
+
+void require_no_coordinates(const Device& device) {
+  if (device.parameters().coordinates)
+    throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::coordinates_not_known});
 }
 
 std::size_t Device::body_index(const std::string& name) const {

@@ -158,13 +158,16 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double near
   for (std::size_t j = 1; j <= k; ++j) sums.push_back(moment(log_derivative, j));
   PolynomialX denominator = from_power_sums(sums);
   if (magnitude(center) == 0.0) denominator = expand_product(group.poles);  // all at zero, exactly
+  const auto at_zero = std::ranges::count_if(group.poles, [](const ComplexX& pole) { return magnitude(pole) == 0.0; });
   PolynomialX numerator(k);
   for (std::size_t j = 0; j < k; ++j) {
     const ComplexX mu = moment(gain, j);
     for (std::size_t power = 0; power + j + 1 <= k; ++power) numerator[power] += denominator[power + j + 1] * mu;
   }
   cancel_common_factors(numerator, denominator, leading(radius));
-  return real_term(group, shifted(numerator, center), shifted(denominator, center));
+  denominator = shifted(denominator, center);
+  std::fill_n(denominator.begin(), std::min(at_zero, std::ssize(denominator) - 1), ComplexX());
+  return real_term(group, shifted(numerator, center), std::move(denominator));
 }
 
 template <typename Pencil>

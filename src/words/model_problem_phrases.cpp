@@ -46,6 +46,17 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "{?part=bodies|must be either bodies and links or a transfer function}"
                     "{?part=loop|a transfer function has no bodies: leave it out}"
                     "{?part=operator|an operator needs bodies: leave it out}"},
+      ProblemPhrase{beside_coordinates, "beside_coordinates", "stand beside bodies, links or a transfer function",
+                    "must be one of the three"},
+      ProblemPhrase{coordinates_out_of_range, "coordinates_out_of_range", "are {count:n}",
+                    "must be from 1 to {most:n}, the same number for every point"},
+      ProblemPhrase{weights_not_one_a_coordinate, "weights_not_one_a_coordinate",
+                    "does not have a finite weight for each of the {count:n} coordinates, one of them other than 0",
+                    ""},
+      ProblemPhrase{no_mass_matrix, "no_mass_matrix", "is no mass matrix of {count:n} coordinates",
+                    "must be square, symmetric and positive definite"},
+      ProblemPhrase{coordinates_not_known, "coordinates_not_known", "the device has coordinates in place of bodies",
+                    "this is computed for bodies and links alone"},
       ProblemPhrase{no_body_at_all, "no_body_at_all",
                     "is missing: the device has no [[body]] and no [transfer_function]",
                     "must be one or more bodies, or a transfer function"},
