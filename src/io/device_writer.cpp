@@ -120,6 +120,7 @@ void write_filters(const DeviceParameters& device, Writer& out) {
 
 std::string write_device(const DeviceParameters& parameters) {
   const Device checked(parameters);
+  require_no_coordinates(checked);
   const DeviceParameters& device = checked.parameters();
   Writer out(device.motion);
   out.value("name", text_value(device.name));

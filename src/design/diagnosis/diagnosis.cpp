@@ -217,6 +217,7 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
 }
 
 Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
+  require_no_coordinates(device);
   require_one_rate(device);
   require_valid(find_problem(options, device));
   Diagnosis diagnosis;
@@ -250,6 +251,7 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
 }
 
 Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options) {
+  require_no_coordinates(device);
   require_one_rate(device);
   require_valid(find_problem(options, device, recording));
   Diagnosis diagnosis;

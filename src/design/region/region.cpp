@@ -120,6 +120,7 @@ std::optional<OptionProblem> find_problem(const RegionOptions& options) {
 }
 
 WallRegion region(const Device& device, const RegionOptions& options) {
+  require_no_coordinates(device);
   require_valid(find_problem(options));
   WallRegion result;
   StagedProgress stages(options.progress);

@@ -304,6 +304,7 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 }
 
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
+  require_no_coordinates(device);
   require_one_rate(device);
   require_valid(find_problem(options, device));
   DesignTargets result;
