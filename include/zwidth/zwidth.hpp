@@ -49,6 +49,7 @@
 #include "zwidth/io/recording_file.hpp"
 #include "zwidth/io/study_file.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
+#include "zwidth/mechanism.hpp"
 #include "zwidth/model/coordinates.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device.hpp"

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// A motor behind a joint, for files that have none.
+struct Transmission {
+  std::string joint;           ///< that it drives
+  double ratio = 1.0;          ///< motor turns per turn of the joint; not 0
+  double inertia = 0.0;        ///< of the motor, kg m^2; > 0
+  double motor_damping = 0.0;  ///< of the motor to ground, N m s/rad; >= 0
+  double stiffness = 0.0;      ///< of the cable, at the joint, N m/rad; 0: the motor turns with the joint
+  double damping = 0.0;        ///< of the cable, at the joint, N m s/rad
+};
+
+/// A file of MuJoCo's format (MJCF) or URDF, and where it is looked at.
+struct MechanismFile {
+  std::string path;                   ///< of the file
+  std::string tip;                    ///< site or body, where the wall is touched and the user holds
+  std::vector<std::string> encoders;  ///< joints that are read; empty: those that actuators drive, and the motors
+  std::map<std::string, double>
+      pose;  ///< of joints, m or rad; others follow loops and cables, or stay where the file has them
+  std::vector<Transmission> transmissions;  ///< in addition to the file's actuators
+};
+
+/// A mechanism at a pose, linearised at rest with gravity compensated, in n coordinates q.
+///
+///     M q'' + (sum d w w') q' + (sum k w w') q = A_m' tau,   y = A_e q,   x = J q
+struct MechanismAtPose {
+  Eigen::MatrixXd mass;                        ///< M, n x n
+  std::vector<Coordinates::Element> elements;  ///< springs and dampers of joints and cables
+  Eigen::MatrixXd cables;    ///< T, whose lengths T q the controller takes for constant: those with stiffness
+  Eigen::MatrixXd motors;    ///< A_m: a row a motor
+  Eigen::MatrixXd encoders;  ///< A_e: a row an encoder
+  Eigen::MatrixXd tip;       ///< J, 3 x n, in the world's frame
+};
+
+/// Reads the file and goes to the pose.
+///
+/// Joints must be hinges or slides. Throws Error (invalid_argument): what the file's reader says, with its line; a joint or
+/// tip of no such name; a loop that does not close; neither actuators nor transmissions; built without MuJoCo.
+[[nodiscard]] MechanismAtPose at_pose(const MechanismFile& file);
+
+/// The device along a normal: a wall that knows the tip by its encoders, cables not stretched, and pushes it by its motors.
+///
+///     x = J_e y,  tau = J_m' f,  J_e = J N,  [T; A_e] N = [0; 1]
+///
+/// `parameters` gives all but bodies, links and which points the loop names. The user holds the tip along the normal alone.
+/// Throws Error (invalid_argument) for a normal of length 0, one along which the tip cannot move, and where encoders or
+/// motors do not determine its motion, or one of them depends on others. Source: theory, section 9.
+[[nodiscard]] Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal,
+                                  DeviceParameters parameters);
+
+}  // namespace zwidth

@@ -1,0 +1,236 @@
+// Mechanism files by MuJoCo, which no other file knows.
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/refusal.hpp"
+#include "mechanism/transmissions.hpp"
+#include "zwidth/mechanism.hpp"
+
+#ifdef ZWIDTH_MUJOCO
+#include <mujoco/mujoco.h>
+
+namespace zwidth {
+using internal::refuse_mechanism;
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int most_steps = 100;
+constexpr double settled = 1e-13;               // m or rad, of a step
+constexpr double closed = 1e-9;                 // m or rad, of a loop
+constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
+
+[[noreturn]] void refuse_file(const char* why) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", why}}});
+}
+
+// MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
+class Handlers {
+ public:
+  Handlers() : lock_(mutex()), error_(mju_user_error), warning_(mju_user_warning) {
+    mju_user_error = refuse_file;
+    mju_user_warning = [](const char*) {};
+  }
+  Handlers(const Handlers&) = delete;
+  Handlers& operator=(const Handlers&) = delete;
+  ~Handlers() {
+    mju_user_error = error_;
+    mju_user_warning = warning_;
+  }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::lock_guard<std::mutex> lock_;
+  void (*error_)(const char*);
+  void (*warning_)(const char*);
+};
+
+// A model and its state, at a pose.
+class Posed {
+ public:
+  explicit Posed(const MechanismFile& file) {
+    char why[1000] = "";
+    model_.reset(mj_loadXML(file.path.c_str(), nullptr, why, sizeof why));
+    if (!model_) refuse_file(why);
+    for (int joint = 0; joint < model_->njnt; ++joint) {
+      if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
+      refuse_mechanism("mechanism.file",
+                       {.code = ProblemCode::joint_of_many_motions, .subjects = {{"name", name(mjOBJ_JOINT, joint)}}});
+    }
+    model_->opt.jacobian = mjJAC_DENSE;
+    model_->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
+    data_.reset(mj_makeData(model_.get()));
+    mj_resetData(model_.get(), data_.get());
+    is_given_.assign(static_cast<std::size_t>(model_->njnt), false);
+    for (const auto& [joint, position] : file.pose) {
+      const int of = index(mjOBJ_JOINT, "joint", joint);
+      data_->qpos[of] = position;  // of hinges and slides, each has one
+      is_given_[static_cast<std::size_t>(of)] = true;
+    }
+    settle();
+  }
+
+  [[nodiscard]] int index(mjtObj kind, const char* called, const std::string& wanted) const {
+    const int found = mj_name2id(model_.get(), kind, wanted.c_str());
+    if (found < 0)
+      refuse_mechanism("mechanism",
+                       {.code = ProblemCode::no_such_part, .subjects = {{"kind", called}, {"name", wanted}}});
+    return found;
+  }
+
+  // Motions that the loops leave free: q' = Z z'.
+  [[nodiscard]] Eigen::MatrixXd free_motions() const {
+    const Rows loops = Eigen::Map<const Rows>(data_->efc_J, data_->ne, model_->nv);
+    if (loops.rows() == 0) return Eigen::MatrixXd::Identity(model_->nv, model_->nv);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(loops.transpose());
+    qr.setThreshold(dependent_loops_below);
+    const Eigen::MatrixXd q = qr.householderQ();
+    return q.rightCols(model_->nv - qr.rank());
+  }
+
+  [[nodiscard]] MechanismAtPose whole(const MechanismFile& file) const {
+    const int n = model_->nv;
+    MechanismAtPose at;
+    Rows mass(n, n);
+    mj_fullM(model_.get(), mass.data(), data_->qM);
+    at.mass = mass;
+    at.tip = tip(file.tip);
+    add_elements(at);
+    at.motors = Eigen::Map<const Rows>(data_->actuator_moment, model_->nu, n);
+    std::vector<int> read;
+    for (const std::string& each : file.encoders) read.push_back(index(mjOBJ_JOINT, "joint", each));
+    for (int i = 0; file.encoders.empty() && i < model_->nu; ++i) {
+      const int joint = model_->actuator_trnid[2 * i];
+      const bool is_new = std::ranges::find(read, joint) == read.end();
+      if (model_->actuator_trntype[i] == mjTRN_JOINT && is_new) read.push_back(joint);
+    }
+    at.encoders = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(read.size()), n);
+    for (std::size_t i = 0; i < read.size(); ++i) at.encoders(static_cast<Eigen::Index>(i), read[i]) = 1.0;
+    return at;
+  }
+
+ private:
+  [[nodiscard]] std::string name(mjtObj kind, int of) const {
+    const char* found = mj_id2name(model_.get(), kind, of);
+    return found != nullptr ? found : std::to_string(of);
+  }
+
+  [[nodiscard]] Eigen::MatrixXd tip(const std::string& wanted) const {
+    Rows jacobian(3, model_->nv);
+    const int site = mj_name2id(model_.get(), mjOBJ_SITE, wanted.c_str());
+    if (site >= 0) {
+      mj_jacSite(model_.get(), data_.get(), jacobian.data(), nullptr, site);
+    } else {
+      mj_jacBody(model_.get(), data_.get(), jacobian.data(), nullptr, index(mjOBJ_BODY, "tip", wanted));
+    }
+    return jacobian;
+  }
+
+  void add_elements(MechanismAtPose& at) const {
+    const int n = model_->nv;
+    const auto add = [&](const Eigen::VectorXd& along, double stiffness, double damping) {
+      if (stiffness > 0.0 || damping > 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
+    };
+    for (int joint = 0; joint < n; ++joint) {
+      add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint]);
+    }
+    const Rows lengths = Eigen::Map<const Rows>(data_->ten_J, model_->ntendon, n);
+    for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
+      const double stiffness = model_->tendon_stiffness[tendon];
+      add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon]);
+      if (!(stiffness > 0.0)) continue;
+      at.cables.conservativeResize(at.cables.rows() + 1, n);
+      at.cables.bottomRows(1) = lengths.row(tendon);
+    }
+    if (at.cables.rows() == 0) at.cables.resize(0, n);
+  }
+
+  // Joints that are not given close the loops; those of them that motors drive follow their cables.
+  void settle() {
+    const int n = model_->nv;
+    std::vector<bool> is_driven(static_cast<std::size_t>(n), false);
+    for (int i = 0; i < model_->nu; ++i) {
+      if (model_->actuator_trntype[i] == mjTRN_JOINT)
+        is_driven[static_cast<std::size_t>(model_->actuator_trnid[2 * i])] = true;
+    }
+    double open = 0.0;
+    for (int step = 0; step < most_steps; ++step) {
+      mj_fwdPosition(model_.get(), data_.get());
+      const int loops = data_->ne;
+      const int equations = loops + model_->ntendon;
+      if (equations == 0) return;
+      Eigen::VectorXd off = Eigen::VectorXd::Zero(equations);
+      Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(equations, n);
+      off.head(loops) = Eigen::Map<const Eigen::VectorXd>(data_->efc_pos, loops);
+      slopes.topRows(loops) = Eigen::Map<const Rows>(data_->efc_J, loops, n);
+      for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
+        if (!(model_->tendon_stiffness[tendon] > 0.0)) continue;
+        off(loops + tendon) = data_->ten_length[tendon] - model_->tendon_lengthspring[tendon];
+        slopes.row(loops + tendon) = Eigen::Map<const Eigen::RowVectorXd>(data_->ten_J + tendon * n, n);
+        for (int joint = 0; joint < n; ++joint) {
+          if (!is_driven[static_cast<std::size_t>(joint)]) slopes(loops + tendon, joint) = 0.0;
+        }
+        if (is_unmoved(slopes.row(loops + tendon))) off(loops + tendon) = 0.0;
+      }
+      for (int joint = 0; joint < n; ++joint) {
+        if (is_given_[static_cast<std::size_t>(joint)]) slopes.col(joint).setZero();
+      }
+      open = loops > 0 ? off.head(loops).cwiseAbs().maxCoeff() : 0.0;
+      const Eigen::VectorXd move = slopes.completeOrthogonalDecomposition().solve(off);
+      if (!(move.cwiseAbs().maxCoeff() > settled)) break;
+      Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
+    }
+    mj_fwdPosition(model_.get(), data_.get());
+    if (!(open <= closed))
+      refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
+  }
+
+  static bool is_unmoved(const Eigen::RowVectorXd& slope) { return slope.cwiseAbs().maxCoeff() == 0.0; }
+
+  struct Delete {
+    void operator()(mjModel* model) const { mj_deleteModel(model); }
+    void operator()(mjData* data) const { mj_deleteData(data); }
+  };
+  std::unique_ptr<mjModel, Delete> model_;
+  std::unique_ptr<mjData, Delete> data_;
+  std::vector<bool> is_given_;  // of the joints
+};
+
+}  // namespace
+
+MechanismAtPose at_pose(const MechanismFile& file) {
+  const Handlers handlers;
+  const Posed posed(file);
+  MechanismAtPose at = posed.whole(file);
+  for (const Transmission& each : file.transmissions) {
+    internal::add_transmission(at, posed.index(mjOBJ_JOINT, "joint", each.joint), each, file.encoders.empty());
+  }
+  if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
+  const Eigen::MatrixXd of_joints = posed.free_motions();
+  if (of_joints.cols() == of_joints.rows()) return at;  // no loops
+  const Eigen::Index motors = at.mass.rows() - of_joints.rows();
+  Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
+  free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
+  free.bottomRightCorner(motors, motors).setIdentity();
+  return internal::with_loops(at, free);
+}
+
+}  // namespace zwidth
+#else
+namespace zwidth {
+
+MechanismAtPose at_pose(const MechanismFile&) {
+  internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+}
+
+}  // namespace zwidth
+#endif
