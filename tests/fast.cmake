@@ -9,7 +9,7 @@ set(slow
   "^IdentifiedPeriods\\."
   "^PooledResponse\\.(Identifies|Intervals|TwoRecordings|ASine|Lines)"
   "^RigidBodyIdentification\\.(ALimit|AMode|ADelay|ARigid)"
-  "^LineFit\\.(TheInterval|Deviations|ALagIs)"
+  "^ResponseFit\\.(TheInterval|Deviations|ALagIs)"
   "^All/FreeDevice\\."
   "^MotorBench\\.Its"
   "^SeveralRates\\."

@@ -18,6 +18,7 @@
 #include "results/region_json.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/design/wall_summary.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -34,11 +35,20 @@ WallRegion found_region(const CLI::App& command, const Device& device, const std
   return region(device, {.progress = line.progress()});
 }
 
-/// The wall to mark in the figure; none where there is none, or the search would take seconds.
+/// The wall to mark in the figure; none where there is none, the search would take seconds, or the damper runs apart.
 std::optional<Wall> recommended_wall(const Device& device) {
-  if (device.bodies().size() > most_bodies_for_wall_summary) return std::nullopt;
+  if (device.bodies().size() > most_bodies_for_wall_summary || has_damper_loop(device.loop())) return std::nullopt;
   const WallRecommendation found = recommend_wall(device, {.alternatives = false});
   return found.wall && !found.trust.refused() ? std::optional(found.wall->wall) : std::nullopt;
+}
+
+/// Spring and damper both at the slower of two rates: what a damper of its own is drawn against.
+std::optional<WallRegion> region_of_slower_rate(const Device& device) {
+  const Loop& loop = device.loop();
+  if (!has_damper_loop(loop)) return std::nullopt;
+  const bool damper_is_slower = damper_timing(loop).sampling_period > loop.sampling_period;
+  return region(damper_is_slower ? with_loop_of_damper(device) : with_one_rate(device),
+                {.any_user = false, .approximations = false});
 }
 
 void run_region(const RegionArguments& arguments) {
@@ -58,7 +68,8 @@ void run_region(const RegionArguments& arguments) {
                             : results::region_csv(walls);
   });
   outputs.draw("--output", [&](report::FigureFormat format) {
-    return report::draw_region(device, walls, format, recommended_wall(device));
+    const auto slower = region_of_slower_rate(device);
+    return report::draw_region(device, walls, format, recommended_wall(device), slower ? &*slower : nullptr);
   });
   outputs.commit();
   outputs.print(arguments.output.json ? results::line(results::region_json(device, walls))

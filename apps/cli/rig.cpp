@@ -12,6 +12,7 @@
 #include "cli/input_problem.hpp"
 #include "cli/live_line.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/place_of_damper.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/rig_arguments.hpp"
 #include "cli/subcommand.hpp"
@@ -51,9 +52,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_rig[] = {{"fo
                                                                             {"start", "--from"},
                                                                             {"ceiling", "--ceiling"},
                                                                             {"stiffness", "--stiffness"},
-                                                                            {"trials", "--trials"},
-                                                                            {"damper_on_drive", "--damper-on-drive"},
-                                                                            {"controller.contact", "--contact"}};
+                                                                            {"trials", "--trials"}};
 
 /// What all actions work with.
 struct Rig {
@@ -299,17 +298,6 @@ void check_wall(const RigArguments& arguments, const Device& device, const Analy
   }
 }
 
-/// Where the damper of a wall is to run, before a drive is opened.
-void check_place_of_damper(const RigArguments& arguments, const Device& device) {
-  rig::WallOptions wall;
-  wall.controller = wall_controller(device.parameters().wall);
-  if (arguments.contact == "unilateral") wall.controller.contact = ControllerOptions::Contact::unilateral;
-  wall.damper_on_drive = arguments.damper_on_drive;
-  if (const auto problem = find_problem(wall, device)) {
-    refuse(*problem, options_of_rig, arguments.devices.files.front());
-  }
-}
-
 /// Falls silent before any force goes out: whoever dies later must not leave one behind.
 std::optional<bool> proved_watchdog(const RigArguments& arguments, rig::Driver& driver) {
   if (arguments.driver == "simulated") return std::nullopt;
@@ -343,8 +331,7 @@ void run_rig(const RigArguments& arguments) {
   const Device device = rig_device(arguments);
   check_duration(arguments.duration, device);
   rig::RigOptions options = rig_options(arguments, device);
-  const bool runs_damper = arguments.action == "wall" || arguments.action == "limit" || arguments.action == "relay";
-  if (runs_damper) check_place_of_damper(arguments, device);
+  check_place_of_damper(arguments, device);
   const bool has_wall = arguments.action == "wall";  // whose certainty counts
   const Analysis analysis = analyze(device, has_wall ? AnalysisOptions{.any_user = false} : limit_and_wall_only());
   check_permission(arguments, analysis.trust);
@@ -404,7 +391,7 @@ void add_rig(CLI::App& app) {
       throw WorkFailed(arguments->driver + ": " + problem.what());
     } catch (const Error& error) {
       if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(error.what());
-      throw refused_by(error, arguments->devices.files.front(), options_of_rig);
+      throw refused_by(error, arguments->devices.files.front());
     }
   });
 }

@@ -5,7 +5,7 @@
 // for each (stand_ins.cpp), which asks the module; all others that link with the library have the functions themselves.
 
 #include "batch/kernel/stiffness_kernel.hpp"
-#include "identification/linear_fit/least_squares.hpp"
+#include "identification/initial_fit/least_squares.hpp"
 #include "io/mat73_file.hpp"
 #include "model/exact_modal_form.hpp"
 #include "sampling/exact_sampling.hpp"

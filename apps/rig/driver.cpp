@@ -6,8 +6,7 @@ namespace zwidth::rig {
 
 OptionProblem no_damper_problem(std::string_view name) {
   return option_problem("damper_on_drive", {.code = ProblemCode::no_damper_of_its_own,
-                                            .subjects = {{"drive", std::string(name.substr(0, name.find(':')))},
-                                                         {"able", "simulated, odrive, moteus and simplefoc"}}});
+                                            .subjects = {{"drive", std::string(name.substr(0, name.find(':')))}}});
 }
 
 void Driver::close_damper(const Device& /*device*/, std::optional<double> /*force_limit*/) {

@@ -73,6 +73,7 @@
 #include "zwidth/quantity.hpp"
 #include "zwidth/ranked_findings.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/require_valid.hpp"
 #include "zwidth/rig/force_guard.hpp"
 #include "zwidth/rig/limit_search.hpp"
 #include "zwidth/rig/oscillation_watch.hpp"

@@ -19,7 +19,6 @@ std::optional<OptionProblem> find_problem(const DesignOptions& options) {
 
 Design design(const Device& device, const DesignOptions& options) {
   require_no_coordinates(device);
-  require_one_rate(device);
   require_valid(find_problem(options));
   Design design;
   internal::StagedProgress stages(options.progress);
@@ -34,7 +33,10 @@ Design design(const Device& device, const DesignOptions& options) {
   stages.next(0.15);
   design.sensitivities = stiffness_sensitivities(device, design.analysis.critical);
   stages.next(0.2);
-  if (design.analysis.any_user) {
+  if (design.analysis.any_user && has_damper_loop(device.loop())) {
+    design.remarks.push_back(
+        note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user_slopes"}}}));
+  } else if (design.analysis.any_user) {
     design.absolute_stability_sensitivities = absolute_stability_sensitivities(device, *design.analysis.any_user);
   }
   stages.next(1.0);

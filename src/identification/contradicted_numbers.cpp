@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "identification/fit/bounded_step.hpp"
 #include "identification/model/device_numbers.hpp"
-#include "identification/verdict/bare_limit.hpp"
+#include "identification/optimiser/bounded_step.hpp"
+#include "identification/verdict/log_critical_stiffness.hpp"
 #include "identification/verdict/profile.hpp"
 #include "model/loop_keys.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
@@ -38,17 +38,17 @@ std::vector<Finding> contradicted_numbers(const FoundMotion& found, const Motion
   if (count == 0) return {};
   numbers.insert(numbers.end(), start.parts.numbers.begin(), start.parts.numbers.end());
   const DeviceFamily family(start.device, numbers, locked);
-  const MotionModel model(family, start.parts.terms, start.records, found.model->parts());
+  const MotionModel model(family, start.parts.terms, start.records, found.model->substeps());
   const auto order = static_cast<Eigen::Index>(found.evidence->noise().front().filter.size()) - 1;
   const auto evidence = std::make_shared<TimeEvidence>(model, found.evidence->segments(), start.encoder_steps, order);
   evidence->set_noise(found.evidence->noise());
-  const SumOfEvidence likelihood(model.numbers(), {evidence});
+  const Likelihood likelihood(model.numbers(), {evidence});
   Eigen::VectorXd z(count + found.best.z.size());
   z << family.coordinates_of(start.device).head(count), found.best.z;
   const auto picture = likelihood.picture(z);
   if (!picture) return {};
   const Eigen::VectorXd step = bounded_step(picture->hessian, picture->gradient, likelihood.lowest() - z);
-  const auto log_then = log_bare_limit(family.device_at(z + step));
+  const auto log_then = log_critical_stiffness(family.device_at(z + step));
   const double then = log_then ? std::exp(*log_then) : 0.0;
   if (then >= interval.lower && then <= interval.upper) return {};
   const Eigen::MatrixXd covariance = covariance_of(picture->hessian);

@@ -17,9 +17,9 @@ constexpr double short_segment = 0.5;              // s
 constexpr std::size_t left_out = 20;               // samples at a record's beginning, whose forces came before it
 constexpr std::size_t most_samples_whole = 30000;  // of long records evenly spread segments are fitted
 constexpr std::size_t most_samples_near = 8000;    // tell the numbers roughly
-constexpr int coarse_parts = 1;                    // of a sampling period, where terms act
-constexpr int fine_parts = 2;
-constexpr int most_parts = 8;  // where a body rubs: until finer ones move no number of the device
+constexpr int coarse_substeps = 1;                 // of a sampling period, where terms act
+constexpr int fine_substeps = 2;
+constexpr int most_substeps = 8;  // where a body rubs: until finer ones move no number of the device
 
 double rms_of(std::span<const double> samples) {
   double squares = 0.0;
@@ -75,14 +75,14 @@ class Search {
   Search(const MotionModel& model, std::vector<Segment> segments, const MotionStart& start,
          const MotionSearchOptions& options)
       : evidence_(std::make_shared<TimeEvidence>(model, std::move(segments), start.encoder_steps, noise_order)) {
-    std::vector<std::shared_ptr<const PartOfEvidence>> parts{evidence_};
-    if (!options.limits.empty()) parts.push_back(std::make_shared<LimitEvidence>(model.family(), options.limits));
-    all_ = std::make_unique<SumOfEvidence>(model.numbers(), std::move(parts), options.tell);
+    std::vector<std::shared_ptr<const LikelihoodTerm>> terms{evidence_};
+    if (!options.limits.empty()) terms.push_back(std::make_shared<LimitEvidence>(model.family(), options.limits));
+    all_ = std::make_unique<Likelihood>(model.numbers(), std::move(terms), options.tell);
   }
 
-  [[nodiscard]] const SumOfEvidence& likelihood() const { return *all_; }
+  [[nodiscard]] const Likelihood& likelihood() const { return *all_; }
   [[nodiscard]] const TimeEvidence& evidence() const { return *evidence_; }
-  [[nodiscard]] std::unique_ptr<SumOfEvidence> take_likelihood() { return std::move(all_); }
+  [[nodiscard]] std::unique_ptr<Likelihood> take_likelihood() { return std::move(all_); }
   [[nodiscard]] std::shared_ptr<TimeEvidence> take_evidence() { return std::move(evidence_); }
   void set_noise(std::vector<Noise> noise) { evidence_->set_noise(std::move(noise)); }
 
@@ -135,7 +135,7 @@ class Search {
   }
 
   std::shared_ptr<TimeEvidence> evidence_;
-  std::unique_ptr<SumOfEvidence> all_;
+  std::unique_ptr<Likelihood> all_;
 };
 
 /// The elements of z that are a segment's state.
@@ -198,7 +198,7 @@ struct Beginning {
   Eigen::VectorXd z;
 };
 
-/// The records whole, at so many parts of a sampling period.
+/// The records whole, with so many substeps of a sampling period.
 struct Whole {
   std::unique_ptr<MotionModel> model;
   std::unique_ptr<Search> search;
@@ -216,17 +216,17 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked);
   const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples_whole, {});
-  const auto whole_at = [&](int parts_of_period) {
+  const auto whole_at = [&](int substeps) {
     Whole made;
-    made.model = std::make_unique<MotionModel>(family, parts.terms, start.records, parts_of_period);
+    made.model = std::make_unique<MotionModel>(family, parts.terms, start.records, substeps);
     made.search = std::make_unique<Search>(*made.model, long_ones, start, options);
     return made;
   };
-  const MotionModel coarse_model(family, parts.terms, start.records, coarse_parts);
+  const MotionModel coarse_model(family, parts.terms, start.records, coarse_substeps);
   const std::vector<Segment> short_ones =
       thinned(segments_of(start.records, short_segment), most_samples_near, long_ones);
   Search near(coarse_model, short_ones, start, options);
-  Whole whole = whole_at(coarse_parts);
+  Whole whole = whole_at(coarse_substeps);
 
   const Eigen::VectorXd linear = family.coordinates_of(start.device);
   const std::string& rubbing = start.device.bodies[start.device.loop.actuated].name;
@@ -259,7 +259,8 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   }
   if (!best) return std::nullopt;
   whole.search->set_noise(noise);
-  for (int finer = fine_parts; finer <= most_parts && (finer == fine_parts || rubs(*whole.model, *best)); finer *= 2) {
+  for (int finer = fine_substeps; finer <= most_substeps && (finer == fine_substeps || rubs(*whole.model, *best));
+       finer *= 2) {
     Whole next = whole_at(finer);
     next.search->set_noise(whole.search->evidence().noise());
     auto again = next.search->from(best->z, 1, fine);
@@ -269,7 +270,7 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
     if (!again) break;
     best = std::move(again);
     whole = std::move(next);
-    if (stands_still && finer > fine_parts) break;
+    if (stands_still && finer > fine_substeps) break;
   }
   return FoundMotion{std::move(whole.model), whole.search->take_evidence(), whole.search->take_likelihood(),
                      *std::move(best)};

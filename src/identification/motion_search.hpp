@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "identification/evidence/likelihood.hpp"
 #include "identification/evidence/limit_evidence.hpp"
-#include "identification/evidence/sum_of_evidence.hpp"
 #include "identification/evidence/time_evidence.hpp"
-#include "identification/fit/minimise.hpp"
 #include "identification/motion_start.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 namespace zwidth::internal {
 
@@ -19,7 +19,7 @@ namespace zwidth::internal {
 struct FoundMotion {
   std::unique_ptr<MotionModel> model;
   std::shared_ptr<TimeEvidence> evidence;
-  std::unique_ptr<SumOfEvidence> likelihood;
+  std::unique_ptr<Likelihood> likelihood;
   Minimum best;
 };
 
@@ -31,7 +31,7 @@ struct MotionSearchOptions {
 
 /// From several frictions, segments of half a second with states of their own find what is near, by their own noise; from the
 /// most likely of these the records whole are fitted, by the noise of what is left in turn: from the others too where a body
-/// rubs beyond its noise. Terms act over whole sampling periods first, then over halves, and where a body rubs over finer parts
+/// rubs beyond its noise. Terms act over whole sampling periods first, then over halves, and where a body rubs over finer substeps
 /// until they move no number of the device.
 ///
 /// Of records of more than 30 000 samples evenly spread segments are fitted. Nothing where no start can be played.

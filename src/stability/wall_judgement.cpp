@@ -77,6 +77,11 @@ void judge_two_rate_wall(const Device& device, Analysis& analysis) {
   }
   if (analysis.trust.refused()) return withdraw_numbers(analysis);
   analysis.remarks.push_back(left_out_beside_damper_loop("disk"));
+  analysis.remarks.push_back(left_out_beside_damper_loop("gain"));
+  const WallMargins& wall = *analysis.wall;
+  if (wall.stable && !(wall.delay_margin && wall.spring_delay_margin && wall.damper_delay_margin)) {
+    analysis.remarks.push_back(left_out_beside_damper_loop("long_delays"));
+  }
 }
 
 Remark left_out_beside_damper_loop(const char* what) {

@@ -160,7 +160,9 @@ std::span<const Phrase> design_phrases() {
       Phrase{
           damper_alone_on_drive, "damper_alone_on_drive", note,
           "the drive closes the damper alone, at {rate_hz:g} Hz and with a delay of {delay}, as [loop.damper] states; "
-          "it takes the spring as {spring}"},
+          "it takes the spring as {?drive=odrive|the torque of the command v at velocity 0, in velocity control}"
+          "{?drive=moteus|feedforward torque at velocity 0, in position mode}{?drive=simplefoc|the velocity of its "
+          "torque over {damping:.6g} N m s/rad, in velocity control}"},
       Phrase{damper_estimator_not_modelled, "damper_estimator_not_modelled", doubt,
              "the damper's velocity is the drive's estimator's, which is not modelled beside [loop.damper]: the limit "
              "on the drive may be lower",

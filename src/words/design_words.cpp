@@ -50,8 +50,8 @@ std::string words_of(const DiagnosisChange& change) {
     case other_damper:
       return "another virtual damper";
     case damper_on_drive:
-      return fmt::format("a damper of {:.4g} on the drive, its force {:.4g} us later",
-                         change.damping_then.value_or(0.0), 1e6 * change.delay_then.value_or(0.0));
+      return fmt::format("a damper on the drive, B = {:.4g}, {:.4g} µs late", change.damping_then.value_or(0.0),
+                         1e6 * change.delay_then.value_or(0.0));
     case notch:
       break;
   }

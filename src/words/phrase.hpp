@@ -24,10 +24,11 @@ namespace zwidth::internal {
 //     {?cells|of {cells:n}}  the text behind the bar where the finding holds `cells`; {!cells|...} where it does not
 //     {?gaps=1|one gap}      where it holds `gaps` and that is 1 (a subject: the same text); {!gaps=1|...} elsewhere
 struct Phrase {
-  FindingCode code;
-  const char* name;
-  Finding::Severity worst;  // that is made of it: a doubt may be a remark too, and a refusal of a part a doubt
-  const char* what;
+  FindingCode code{};
+  const char* name = "";
+  // That is made of it: a doubt may be a remark too, and a refusal of a part a doubt.
+  Finding::Severity worst = Finding::Severity::note;
+  const char* what = "";
   const char* consequence = "";
   const char* remedy = "";
 };

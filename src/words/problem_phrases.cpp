@@ -171,8 +171,10 @@ std::span<const ProblemPhrase> option_problem_phrases() {
       ProblemPhrase{no_estimator, "no_estimator", "is given", "is for odrive and moteus: the others have no such loop"},
       ProblemPhrase{estimator_bandwidth_out_of_range, "estimator_bandwidth_out_of_range", is,
                     "must be > 0 and below {most:g} at the drive's rate"},
-      ProblemPhrase{no_damper_of_its_own, "no_damper_of_its_own",
-                    "is given, and {drive} closes no damper beside the force that it is sent", "{able} do"},
+      ProblemPhrase{
+          no_damper_of_its_own, "no_damper_of_its_own",
+          "is given, and {?drive|{drive}}{!drive|this firmware} closes no damper beside the force that it is sent",
+          "{?drive|simulated, }odrive, moteus and simplefoc do"},
       ProblemPhrase{damper_not_faster, "damper_not_faster", "is {value:exact} s beside a loop of {bound:exact} s",
                     "a damper on the drive runs faster than the spring: must be below it"},
       ProblemPhrase{no_damping_for_drive, "no_damping_for_drive", "is 0",

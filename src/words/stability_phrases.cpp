@@ -49,8 +49,11 @@ std::span<const Phrase> stability_phrases() {
              "more than {most:n} are followed, so no limit is given",
              "", "shorten the delay of the spring, or run it less often"},
       Phrase{left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
-             "{?what=disk|the disk margin}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
-             "limit over all passive users}{?what=relay|a relay's exact oscillation} is left "
+             "{?what=disk|the disk margin}{?what=gain|the gain margin of stiffness and damping "
+             "together}{?what=long_delays|a delay margin that its search of 16 periods and 80 states did not "
+             "reach}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
+             "limit over all passive users}{?what=any_user_slopes|how the limit over all passive users "
+             "changes}{?what=relay|a relay's exact oscillation} is left "
              "out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
              "apart"},
       Phrase{critical_damping_left_out, "critical_damping_left_out", note,

@@ -73,7 +73,8 @@ TEST_F(GeneratedFiles, BashCompletesValuesAndFiles) {
   EXPECT_EQ(completed("zwidth simulate --contact = uni"), Words{"unilateral"});
   EXPECT_EQ(completed("zwidth simulate --duration ''"), Words{});
   EXPECT_EQ(completed("zwidth analyze --set loop."),
-            (Words{"loop.actuated=", "loop.sensed=", "loop.held=", "loop.sampling_period=", "loop.delay="}));
+            (Words{"loop.actuated=", "loop.sensed=", "loop.held=", "loop.sampling_period=", "loop.delay=",
+                   "loop.damper.sampling_period=", "loop.damper.delay="}));
   EXPECT_EQ(completed("zwidth design --sweep body.0.m"), Words{"body.0.mass="});
   write("a b.toml", "");
   EXPECT_EQ(completed("zwidth analyze 'a '"), Words{"a b.toml"});

@@ -64,6 +64,14 @@ TEST_F(Region, WritesFigureAndBoundary) {
   EXPECT_THAT(outcome.output, HasSubstr("largest K"));
 }
 
+TEST_F(Region, OfASlowDamperIsDrawnAroundBothAtItsRate) {
+  const Outcome outcome =
+      run("zwidth region devices/lhifam_rigid.toml --set loop.sampling_period=50e-6 "
+          "--set loop.damper.sampling_period=0.5e-3 -o a.svg");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(contents("a.svg"), HasSubstr("both at 2 kHz: up to 14.83 MN/m"));
+}
+
 TEST_F(Region, RefusesWhatItCannotDoBeforeAnyWork) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"devices/lhifam.toml -o a.bmp", "--output: a.bmp: unknown extension"},

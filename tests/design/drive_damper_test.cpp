@@ -87,7 +87,7 @@ void expect_kept_margins(const Device& device, const RecommendedWall& wall, doub
   const WallMargins margins = wall_margins(walled_with(device, stiffness, wall.wall.damping, filter));
   EXPECT_TRUE(margins.stable);
   EXPECT_LT(margins.spectral_radius, 1.0);
-  EXPECT_GE(margins.gain_margin.value_or(gain), gain * (1.0 - 1e-6));
+  EXPECT_GE(margins.stiffness_margin.value_or(gain), gain * (1.0 - 1e-6));
   EXPECT_GE(margins.phase_margin.value_or(phase), phase * (1.0 - 1e-6));
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> log_user(-3.0, 3.0);

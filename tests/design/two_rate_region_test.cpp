@@ -12,6 +12,7 @@
 #include "reference/two_rate_devices.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "zwidth/design/region.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
 namespace {
@@ -56,6 +57,26 @@ TEST(TwoRateRegion, OfLhifamHasItsLimits) {
   // The damper alone has its own rate.
   const WallRegion one = region(Device(test::lhifam_parameters()), walls_alone);
   EXPECT_NEAR(slow.region.most_damped->damping / one.region.most_damped->damping, 1.0, 1e-9);
+}
+
+// Hardly anything of a fast force reaches a sensor behind the link: the usual gain is 10^10 times that of the boundary.
+TEST(TwoRateRegion, OfASensorBehindTheLinkIsFound) {
+  DeviceParameters parameters;
+  parameters.name = "sensor behind the link";
+  parameters.bodies = {{"motor", 0.05, 0.5, 0.0, 0.0}, {"handle", 0.11, 0.13, 0.0, 0.0}};
+  parameters.links = {{0, 1, 2300.0, 0.77}};
+  parameters.loop.sensed = 1;
+  parameters.loop.sampling_period = 2.9e-4;
+  parameters.loop.delay = 2.9e-4;
+  parameters.loop.damper = LoopDamper{2.9e-4 / 8.0, 1.5e-5};
+  parameters.actuator.time_constant = 1.7e-3;
+  parameters.wall.velocity_filter_hz = 27.0;
+  const WallRegion found = region(Device(parameters), walls_alone);
+  ASSERT_EQ(found.status, WallRegion::Status::bounded);
+  parameters.wall.damping = 1.2;
+  const CriticalStiffness critical = critical_stiffness(Device(parameters));
+  EXPECT_GT(critical.stiffness, 100.0);
+  EXPECT_NEAR(first_limit_at(*found.walls, 1.2), critical.stiffness, 1e-6 * critical.stiffness);
 }
 
 TEST(TwoRateRegion, OfEqualRatesIsThatOfOneBitForBit) {

@@ -11,6 +11,7 @@
 #include "lhifam.hpp"
 #include "reference/two_rate_devices.hpp"
 #include "zwidth/design/branch_switch.hpp"
+#include "zwidth/design/design.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -99,6 +100,22 @@ TEST(TwoRateSensitivity, FindsAnotherMechanismTakingOver) {
   // Where two branches of the boundary cross.
   EXPECT_NEAR(of_damping->value, 11.5121287, 1e-5);
   EXPECT_NEAR(of_damping->stiffness / of_damping->stiffness_beyond, 1.0, 1e-6);
+}
+
+TEST(TwoRateSensitivity, IsTheDesignsWithoutThatOfAllUsers) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.loop.damper = LoopDamper{1e-4, 0.0};
+  parameters.wall.damping = 200.0;
+  const Design found = design(Device(parameters), {.branch_switches = false});
+  const std::vector<Sensitivity> alone = stiffness_sensitivities(Device(parameters));
+  ASSERT_EQ(found.sensitivities.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_EQ(found.sensitivities[i].slope, alone[i].slope);
+  EXPECT_TRUE(found.analysis.any_user);
+  EXPECT_TRUE(found.absolute_stability_sensitivities.empty());
+  EXPECT_TRUE(std::ranges::any_of(found.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::left_out_beside_damper_loop &&
+           each.what.starts_with("how the limit over all passive users changes");
+  }));
 }
 
 }  // namespace

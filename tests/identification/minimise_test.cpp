@@ -1,13 +1,10 @@
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <cmath>
 #include <limits>
 #include <optional>
-
-#include "identification/verdict/profile.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -58,20 +55,6 @@ TEST(Minimise, IsNotSettledWhereItsStepsAreUsedUp) {
   const auto found = minimise(Valley{}, Eigen::Vector2d(-1.2, 1.0), {.most_steps = 1, .least_gain = 1e-6});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->settled);
-}
-
-/// On the boundary 50 (1 - a)^2 = 1.92 with b = a^2: a = 1 +- 0.196. A straight step there costs twice that.
-TEST(ProfileEnd, ReachesTheBoundaryOfABentValley) {
-  const Valley valley(50.0, 10.0);
-  const auto found = minimise(valley, Eigen::Vector2d(1.0, 1.0));
-  ASSERT_TRUE(found);
-  const LogOf first = [](const Eigen::VectorXd& z) { return std::optional(z(0)); };
-  const double reach = std::sqrt(2.0 * 1.92) / 10.0;
-  for (const double direction : {-1.0, 1.0}) {
-    const ProfileEnd end = profile_end(valley, *found, first, 1, direction, 1.92);
-    EXPECT_TRUE(end.settled);
-    EXPECT_NEAR(end.value, 1.0 + direction * reach, 0.05 * reach);
-  }
 }
 
 }  // namespace

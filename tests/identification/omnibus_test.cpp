@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "identification/evidence/sum_of_evidence.hpp"
+#include "identification/evidence/likelihood.hpp"
 #include "identification/evidence/time_evidence.hpp"
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/minimise.hpp"
 #include "identification/verdict/calibration.hpp"
 
 namespace zwidth::internal {
@@ -89,7 +89,7 @@ std::optional<Omnibus> left_by_rigid_body(const RecordedBody& body, unsigned see
   constexpr Eigen::Index order = 24;
   const auto evidence =
       std::make_shared<TimeEvidence>(model, std::vector<Segment>{{0, 20, force.size() - 20}}, std::vector{0.0}, order);
-  const SumOfEvidence all(numbers, {evidence});
+  const Likelihood all(numbers, {evidence});
   evidence->set_noise({Noise{.filter = {1.0}, .deviation = 1e-4}});
   auto best = minimise(all, all.start(model.family().coordinates_of(start)), {.most_steps = 20});
   for (int round = 0; best && round < 4; ++round) {
@@ -100,7 +100,7 @@ std::optional<Omnibus> left_by_rigid_body(const RecordedBody& body, unsigned see
     best = minimise(all, best->z, {.most_steps = 15});
   }
   if (!best) return std::nullopt;
-  const auto left = left_over(*evidence, best->z);
+  const auto left = segment_residuals(*evidence, best->z);
   if (!left) return std::nullopt;
   return omnibus(*left);
 }

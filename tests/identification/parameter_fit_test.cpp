@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "identification/linear_fit/missed_mode.hpp"
+#include "identification/initial_fit/missed_mode.hpp"
 #include "identification/synthetic_response.hpp"
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"

@@ -44,6 +44,19 @@ TEST(PlausibleDevice, MassesFarFromAKnownStructureAreDoubtedOrWarnedOf) {
   EXPECT_TRUE(implausible_device(body_of(0.3, Motion::linear), &known, 1e-3).empty());
 }
 
+// A wrong unit scales every mass: one body that is much too heavy is held.
+TEST(PlausibleDevice, AHeldHandleIsNoDoubt) {
+  DeviceParameters held = body_of(0.3, Motion::linear).parameters();
+  held.bodies.push_back({"handle", 1e6, 1.0, 0.0, 0.0});
+  held.links = {{0, 1, 8e4, 1.0}};
+  DeviceParameters known = held;
+  known.bodies[1].mass = 0.2;
+  EXPECT_FALSE(doubt_of_masses(Device(held), nullptr));
+  const Device structure(known);
+  EXPECT_FALSE(doubt_of_masses(Device(held), &structure));
+  EXPECT_EQ(implausible_device(Device(held), &structure, 1e-3).size(), 1U);
+}
+
 // Rows of 1 ms whose times are read as 1 s.
 TEST(PlausibleDevice, APeriodFarFromTheRecordsIsWarnedOf) {
   const auto remarks = implausible_device(body_of(0.2, Motion::linear), nullptr, 1.0);

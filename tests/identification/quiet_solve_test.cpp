@@ -1,4 +1,4 @@
-#include "identification/linear_fit/quiet_solve.hpp"
+#include "identification/initial_fit/quiet_solve.hpp"
 
 #include <ceres/sized_cost_function.h>
 #include <glog/logging.h>

@@ -1,5 +1,5 @@
 // The slopes of a response, against differences of high order of the modal form's.
-#include "identification/linear_fit/response_slopes.hpp"
+#include "identification/initial_fit/response_slopes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/linear_fit/fit_model.hpp"
+#include "identification/initial_fit/fit_model.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"

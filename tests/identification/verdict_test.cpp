@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,10 @@ namespace zwidth::internal {
 namespace {
 
 /// A narrow answer of one record that leaves noise.
-FittedLikelihood narrow_fit() {
-  FittedLikelihood fit;
+VerdictInput narrow_fit() {
+  VerdictInput fit;
   fit.limit = Interval{100.0, 150.0};
-  fit.left = Omnibus{.p = 0.2};
+  fit.omnibus = Omnibus{.p = 0.2};
   fit.records = {{"sweep.csv", 1e-3}};
   return fit;
 }
@@ -41,7 +42,7 @@ TEST(Verdict, IsSoundOfANarrowIntervalAndNoise) {
 }
 
 TEST(Verdict, AWideIntervalNamesTheRivalThatLeavesItOpen) {
-  FittedLikelihood fit = narrow_fit();
+  VerdictInput fit = narrow_fit();
   fit.limit = Interval{100.0, 151.0};
   const Trust wide = verdict_of(fit).trust;
   EXPECT_EQ(wide.verdict, Trust::Verdict::doubtful);
@@ -60,8 +61,8 @@ TEST(Verdict, AWideIntervalNamesTheRivalThatLeavesItOpen) {
 }
 
 TEST(Verdict, DoubtsWhatStandsOut) {
-  FittedLikelihood fit = narrow_fit();
-  fit.left = Omnibus{.p = 1e-9, .count = 300};
+  VerdictInput fit = narrow_fit();
+  fit.omnibus = Omnibus{.p = 1e-9, .count = 300};
   const Trust outstanding = verdict_of(fit).trust;
   EXPECT_EQ(outstanding.verdict, Trust::Verdict::doubtful);
   ASSERT_EQ(outstanding.findings.size(), 1U);
@@ -70,20 +71,20 @@ TEST(Verdict, DoubtsWhatStandsOut) {
 
 // The interval is 0.41 wide by its logarithm.
 TEST(Verdict, DoubtsASearchThatWasStoppedOnItsWay) {
-  FittedLikelihood fit = narrow_fit();
-  fit.last_change = 0.019;
+  VerdictInput fit = narrow_fit();
+  fit.last_change = 0.19;
   EXPECT_TRUE(verdict_of(fit).trust.sound());
-  fit.last_change = 0.022;
+  fit.last_change = 0.22;
   const Trust stopped = verdict_of(fit).trust;
   EXPECT_EQ(stopped.verdict, Trust::Verdict::doubtful);
   ASSERT_EQ(stopped.findings.size(), 1U);
   EXPECT_EQ(stopped.findings[0].code, FindingCode::search_stopped);
   EXPECT_EQ(stopped.findings[0].evidence.at(0).name, "moved");
-  EXPECT_NEAR(stopped.findings[0].evidence.at(0).value, 0.0222, 1e-4);
+  EXPECT_NEAR(stopped.findings[0].evidence.at(0).value, std::expm1(0.22), 1e-12);
 }
 
 TEST(Verdict, DoubtsLinesWhereTheMotionTellsOfNoLimit) {
-  FittedLikelihood fit = narrow_fit();
+  VerdictInput fit = narrow_fit();
   EXPECT_TRUE(is_explained(fit));
   fit.motion_tells_none = true;
   EXPECT_FALSE(is_explained(fit));
@@ -94,9 +95,9 @@ TEST(Verdict, DoubtsLinesWhereTheMotionTellsOfNoLimit) {
 }
 
 TEST(Verdict, RefusesWhatHasNoLimitOrContradictsItself) {
-  FittedLikelihood fit = narrow_fit();
+  VerdictInput fit = narrow_fit();
   fit.limit.reset();
-  fit.left = Omnibus{.p = 1e-9};
+  fit.omnibus = Omnibus{.p = 1e-9};
   const Trust undetermined = verdict_of(fit).trust;
   EXPECT_TRUE(undetermined.refused());
   ASSERT_EQ(undetermined.findings.size(), 1U);
@@ -110,7 +111,7 @@ TEST(Verdict, RefusesWhatHasNoLimitOrContradictsItself) {
 }
 
 TEST(Verdict, AGivenDelayIsADoubtWhereTheLimitHangsOnIt) {
-  FittedLikelihood fit = narrow_fit();
+  VerdictInput fit = narrow_fit();
   fit.delay = GivenDelay{.given = 1e-3, .shown = 2e-3, .deviation = 1e-4, .sampling_period = 1e-3, .stiffness = 80.0};
   const Trust doubted = verdict_of(fit).trust;
   ASSERT_EQ(doubted.findings.size(), 1U);
@@ -128,7 +129,7 @@ TEST(Verdict, AGivenDelayIsADoubtWhereTheLimitHangsOnIt) {
 }
 
 TEST(Verdict, NotesFrictionAndALimitOutsideTheBand) {
-  FittedLikelihood fit = narrow_fit();
+  VerdictInput fit = narrow_fit();
   fit.rivals = {friction(100.0, 120.0)};
   fit.place = LimitPlace{.limiting = 120.0, .lowest = 1.0, .highest = 80.0};
   const Verdict noted = verdict_of(fit);
@@ -143,7 +144,7 @@ TEST(Verdict, NotesFrictionAndALimitOutsideTheBand) {
 }
 
 TEST(Verdict, ClippedSamplesAreADoubt) {
-  FittedLikelihood fit = narrow_fit();
+  VerdictInput fit = narrow_fit();
   fit.doubts_of_data = {{.code = FindingCode::clipped_for_response, .subjects = {{"channel", "F"}}}};
   EXPECT_EQ(verdict_of(fit).trust.verdict, Trust::Verdict::doubtful);
 }

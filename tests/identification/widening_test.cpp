@@ -16,8 +16,8 @@ namespace {
 constexpr Eigen::Index rows = 4000;
 
 /// A number that every sample tells alike, under residuals of deviation 1.
-std::vector<LeftOver> left_of(const std::function<double(Eigen::Index)>& residual, std::size_t period = 0) {
-  LeftOver left;
+std::vector<SegmentResiduals> left_of(const std::function<double(Eigen::Index)>& residual, std::size_t period = 0) {
+  SegmentResiduals left;
   left.period = period;
   left.residuals = Eigen::VectorXd(rows);
   left.shared = Eigen::MatrixXd(rows, 1);
@@ -72,8 +72,8 @@ TEST(Widening, AResidualThatRepeatsCountsOnce) {
   const Eigen::Index length = 400;
   std::vector<double> once(static_cast<std::size_t>(length));
   for (double& each : once) each = normal(random);
-  std::vector<LeftOver> left = left_of([&](Eigen::Index k) { return once[static_cast<std::size_t>(k % length)]; },
-                                       static_cast<std::size_t>(length));
+  std::vector<SegmentResiduals> left = left_of(
+      [&](Eigen::Index k) { return once[static_cast<std::size_t>(k % length)]; }, static_cast<std::size_t>(length));
   for (Eigen::Index k = 0; k < rows; ++k)
     left[0].shared(k, 0) = std::sin(2.0 * std::numbers::pi * 7.0 * static_cast<double>(k) / length);
   // Ten periods are worth one: about sqrt(10).

@@ -12,10 +12,10 @@
 namespace zwidth {
 namespace {
 
-constexpr const char* body_text = "[[body]]\nname = \"a\"\nmass = 1\ndamping = 2\n";
+constexpr const char* one_body = "[[body]]\nname = \"a\"\nmass = 1\ndamping = 2\n";
 
 std::string device_text(std::string_view loop, std::string_view after = "") {
-  return std::string(body_text) + "[loop]\nsampling_period = 1e-3\n" + std::string(loop) + "\n" + std::string(after);
+  return std::string(one_body) + "[loop]\nsampling_period = 1e-3\n" + std::string(loop) + "\n" + std::string(after);
 }
 
 TEST(DamperLoopFile, IsReadWithItsUnits) {
@@ -76,7 +76,7 @@ TEST(DamperLoopFile, AVelocityFiltersTimeConstantIsAtTheDampersRate) {
   const std::string wall = "[wall]\ndamping = 5\nvelocity_filter_tau = 1e-3\n";
   const auto apart = parse_device(device_text("[loop.damper]\nsampling_period = 1e-4", wall), "f.toml");
   ASSERT_TRUE(apart) << apart.error().str();
-  const auto together = parse_device(std::string(body_text) + "[loop]\nsampling_period = 1e-4\n" + wall, "f.toml");
+  const auto together = parse_device(std::string(one_body) + "[loop]\nsampling_period = 1e-4\n" + wall, "f.toml");
   ASSERT_TRUE(together) << together.error().str();
   EXPECT_EQ(apart->parameters().wall.velocity_filter_hz, together->parameters().wall.velocity_filter_hz);
 }

@@ -160,6 +160,19 @@ TEST(RegionCsv, OfARasterIsTheGrid) {
   EXPECT_NEAR(static_cast<double>(stable) / 400.0, share, 0.02);
 }
 
+TEST(RegionFigure, OfTwoRatesShowsBothAtTheSlowerRate) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.loop.damper = LoopDamper{1e-4, 2e-4};
+  const WallRegion& walls = lhifam_region().walls;
+  const auto drawn = [&](const WallRegion* slower) {
+    return report::draw_region(Device(parameters), walls, FigureFormat::svg, std::nullopt, slower);
+  };
+  const std::string svg = drawn(&walls);
+  for (const char* number : {"1 ms", "100 µs", "200 µs", "1 kHz"}) EXPECT_THAT(svg, HasSubstr(number));
+  EXPECT_THAT(drawn(nullptr), Not(HasSubstr("1 kHz")));
+  EXPECT_THAT(draw_region(lhifam_region()), Not(HasSubstr("100 µs")));
+}
+
 TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
   const std::string svg = draw_region(lhifam_region());
   for (const char* text : {"Stable walls of LHIfAM", "stable for anyone", "Colgate &amp; Schenkel", "Gil, Hulin",

@@ -92,6 +92,21 @@ TEST(TwoRates, ADamperThatDoesNothingLeavesTheSpringItsRate) {
   EXPECT_EQ(apart.limits.any_user->critical_damping, absolute_stability_damping(of_damper).damping);
 }
 
+// The factor on one force is no gain margin of both.
+TEST(TwoRates, TheGainMarginOfBothForcesIsLeftOut) {
+  for (const Device& device : {lhifam(1e-3, 1e-4, 100.0, 4000.0), lhifam(1e-4, 1e-3, 100.0, 4000.0)}) {
+    const Analysis analysis = analyze(device);
+    ASSERT_TRUE(analysis.wall && analysis.wall->stable);
+    EXPECT_FALSE(analysis.wall->gain_margin || analysis.wall->lower_gain_margin);
+    EXPECT_NEAR(*analysis.wall->stiffness_margin, analysis.critical.stiffness / 4000.0,
+                1e-9 * analysis.critical.stiffness);
+    const Finding left_out{.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "gain"}}};
+    EXPECT_TRUE(std::ranges::any_of(analysis.remarks, [&](const Remark& each) {
+      return each.finding && each.finding->code == left_out.code && each.finding->subjects == left_out.subjects;
+    }));
+  }
+}
+
 TEST(TwoRates, LimitsSayWhatIsLeftOut) {
   const Analysis analysis = analyze(lhifam(1e-3, 1e-4, 100.0, 1e5));
   EXPECT_TRUE(analysis.trust.sound());
@@ -100,7 +115,7 @@ TEST(TwoRates, LimitsSayWhatIsLeftOut) {
   for (const Remark& remark : analysis.remarks) {
     left_out += remark.finding && remark.finding->code == FindingCode::left_out_beside_damper_loop ? 1 : 0;
   }
-  EXPECT_EQ(left_out, 2);  // Q, disk margin
+  EXPECT_EQ(left_out, 3);  // Q, disk margin, gain margin
   EXPECT_EQ(analysis.critical.limit->limited_by.kind, Mechanism::Kind::vibration_mode);
 }
 

@@ -44,9 +44,11 @@ struct AnalysedDevice;
                                      FigureFormat format);
 
 /// The stable walls, B to the right and K up, with those that no passive user destabilises and the formulas of the
-/// literature; where these lie in a corner of the region, that corner beside it. `recommended`: a wall to mark.
+/// literature; where these lie in a corner of the region, that corner beside it. `recommended`: a wall to mark. `one_rate`:
+/// the region of the same device with both loops at the slower rate, whose boundary is drawn over it; none at one rate.
 [[nodiscard]] std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format,
-                                      const std::optional<Wall>& recommended = std::nullopt);
+                                      const std::optional<Wall>& recommended = std::nullopt,
+                                      const WallRegion* one_rate = nullptr);
 
 /// Force and position of the end of one trial, over the same time: ten cycles of its oscillation, or all of the record
 /// where there is none (Fig. 11 of Díaz & Gil).

@@ -12,6 +12,7 @@
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/design/region.hpp"
+#include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -26,6 +27,7 @@ constexpr LineStyle boundary_style{"#0b4f9e", 2.0, "1"};
 constexpr std::string_view recommended_marker = "pt 7 ps 1.3 lc rgb '#1a1a1a'";
 constexpr LineStyle held_style{"#0b4f9e", 2.0, "(6,4)"};
 constexpr LineStyle any_user_style{"#15803d", 1.6, "1"};
+constexpr LineStyle one_rate_style{"#b45309", 1.8, "(10,5)"};
 
 LineStyle style_of(Formula formula) {
   switch (formula) {
@@ -79,20 +81,20 @@ std::vector<Place> within(const std::vector<Place>& outline, const Extent& exten
 
 class RegionFigure {
  public:
-  RegionFigure(const Device& device, const WallRegion& walls, const std::optional<Wall>& recommended)
-      : device_(device), walls_(walls), recommended_(recommended), units_(units_of(device.parameters().motion)) {}
+  RegionFigure(const Device& device, const WallRegion& walls, const std::optional<Wall>& recommended,
+               const WallRegion* one_rate)
+      : device_(device),
+        walls_(walls),
+        recommended_(recommended),
+        one_rate_(one_rate && !one_rate->trust.refused() ? &walls_with_nobody(*one_rate) : nullptr),
+        units_(units_of(device.parameters().motion)) {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     constexpr double gap = 100.0;
     const std::vector<Extent> shown = extents();
-    const Loop& loop = device_.loop();
-    Figure figure{
-        .title = title(),
-        .subtitle = fmt::format("Sampled every {}, {} of delay. In brackets: how far a formula lies above the "
-                                "exact limit. White: {}.",
-                                quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"),
-                                words_of(WallStability::unstable)),
-        .legend = legend()};
+    Figure figure{.title = title(),
+                  .subtitle = fmt::format("{} White: {}.", timing(), words_of(WallStability::unstable)),
+                  .legend = legend()};
     const auto count = static_cast<double>(shown.size());
     const double width = (frame_right - frame_left - gap * (count - 1.0)) / count;
     double left = frame_left;
@@ -113,6 +115,23 @@ class RegionFigure {
   }
 
  private:
+  static const StableRegion& walls_with_nobody(const WallRegion& walls) {
+    return walls.nobody ? walls.nobody->region : walls.region;
+  }
+
+  /// When spring and damper run.
+  [[nodiscard]] std::string timing() const {
+    const Loop& loop = device_.loop();
+    const std::string spring =
+        fmt::format("every {}, {} of delay", quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"));
+    if (!has_damper_loop(loop)) {
+      return fmt::format("Sampled {}. In brackets: how far a formula lies above the exact limit.", spring);
+    }
+    const DamperTiming damper = damper_timing(loop);
+    return fmt::format("Spring {}; damper every {}, {} of delay.", spring, quantity(damper.sampling_period, "s"),
+                       quantity(damper.delay, "s"));
+  }
+
   /// Who holds where a wall is called stable.
   [[nodiscard]] std::string holders() const {
     const std::string nobody(words_of(Holder::nobody));
@@ -148,7 +167,10 @@ class RegionFigure {
         entries.push_back({up_to(words_of(Holder::user), *walls_.region.stiffest), held_style, {}});
       }
     } else if (walls_.region.stiffest) {
-      entries.push_back({up_to(alone, *walls_.region.stiffest), boundary_style, region_colour});
+      // Which of them a passive user destabilises is not known at two rates.
+      const bool users_unknown = has_damper_loop(device_.loop()) && !walls_.any_user;
+      entries.push_back({up_to(users_unknown ? words_of(Holder::nobody) : alone, *walls_.region.stiffest),
+                         boundary_style, region_colour});
     } else {
       entries.push_back({walls_.trust.refused()  ? "refused: no region is given"
                          : walls_.region.bounded ? "no wall is stable"
@@ -160,6 +182,16 @@ class RegionFigure {
       entries.push_back({fmt::format("{}: up to {}", words_of(WallStability::anyone),
                                      quantity(walls_.any_user->stiffest->stiffness, units_.stiffness)),
                          any_user_style, any_user_colour});
+    }
+    if (one_rate_) {
+      const double period = std::max(device_.loop().sampling_period, damper_timing(device_.loop()).sampling_period);
+      const std::string what = fmt::format("both at {}", quantity(1.0 / period, "Hz"));
+      entries.push_back(
+          {one_rate_->stiffest
+               ? up_to(what, *one_rate_->stiffest)
+               : fmt::format("{}: {}", what, one_rate_->bounded ? "no wall is stable" : "every wall is stable"),
+           one_rate_style,
+           {}});
     }
     if (recommended_) {
       const double filter = recommended_->velocity_filter_hz;
@@ -181,7 +213,7 @@ class RegionFigure {
     return entries;
   }
 
-  /// The whole region, and the corner at the origin where the formulas and K_CR would be too small to see.
+  /// The whole region, and the corner at the origin where formulas, K_CR and one loop would be too small to see.
   [[nodiscard]] std::vector<Extent> extents() const {
     constexpr double margin = 1.06;
     constexpr double too_small = 0.2;
@@ -189,16 +221,23 @@ class RegionFigure {
     if (!region.stiffest) return {{1.0, 1.0}};
     Extent whole{margin * region.most_damped->damping, margin * region.stiffest->stiffness};
     double critical = region.critical_stiffness;
+    const auto hold = [&](const StableRegion& other) {
+      whole = {std::max(whole.damping, margin * other.most_damped->damping),
+               std::max(whole.stiffness, margin * other.stiffest->stiffness)};
+    };
+    if (one_rate_ && one_rate_->stiffest) hold(*one_rate_);
     if (walls_.nobody && walls_.nobody->region.stiffest) {
-      const StableRegion& alone = walls_.nobody->region;
-      whole = {std::max(whole.damping, margin * alone.most_damped->damping),
-               std::max(whole.stiffness, margin * alone.stiffest->stiffness)};
-      critical = std::min(critical, alone.critical_stiffness);
+      hold(walls_.nobody->region);
+      critical = std::min(critical, walls_.nobody->region.critical_stiffness);
     }
     Extent corner{0.0, std::isfinite(critical) ? critical : 0.0};
     for (const ComparedApproximation& each : walls_.approximations) {
       corner.stiffness = std::max(corner.stiffness, each.formula.at_zero_damping);
       corner.damping = std::max(corner.damping, each.formula.largest_damping.value_or(0.0));
+    }
+    if (one_rate_ && one_rate_->stiffest) {
+      corner = {std::max(corner.damping, one_rate_->most_damped->damping),
+                std::max(corner.stiffness, one_rate_->stiffest->stiffness)};
     }
     corner = {2.0 * corner.damping, 2.0 * corner.stiffness};
     const bool shown = corner.damping > too_small * whole.damping && corner.stiffness > too_small * whole.stiffness;
@@ -302,6 +341,7 @@ class RegionFigure {
     }
     add(edge_rows(walls_.region), as_lines(walls_.nobody ? held_style : boundary_style));
     if (walls_.nobody) add(edge_rows(walls_.nobody->region), as_lines(boundary_style));
+    if (one_rate_) add(edge_rows(*one_rate_), as_lines(one_rate_style));
     if (recommended_) add(row(recommended_->damping, *recommended_->stiffness), as_points(recommended_marker));
     for (const ComparedApproximation& each : walls_.approximations) {
       const Formula formula = each.formula.formula;
@@ -314,14 +354,15 @@ class RegionFigure {
   const Device& device_;
   const WallRegion& walls_;
   const std::optional<Wall>& recommended_;
+  const StableRegion* one_rate_;  // with nobody holding
   Units units_;
 };
 
 }  // namespace
 
 std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format,
-                        const std::optional<Wall>& recommended) {
-  return RegionFigure(device, walls, recommended).draw(format);
+                        const std::optional<Wall>& recommended, const WallRegion* one_rate) {
+  return RegionFigure(device, walls, recommended, one_rate).draw(format);
 }
 
 }  // namespace zwidth::report

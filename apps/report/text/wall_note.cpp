@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -84,11 +85,19 @@ std::string_view whole_force_scaled(const WallMargins& wall) {
   return wall.damping > 0.0 ? "both are" : "the stiffness is";
 }
 
-void add_margins(const WallMargins& wall, std::vector<std::string>& margins) {
+/// Whether the analysis has no gain margin of the whole force, as beside a damper in a loop of its own.
+bool leaves_gain_out(const Analysis& analysis) {
+  return std::ranges::any_of(analysis.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::left_out_beside_damper_loop &&
+           std::ranges::find(each.finding->subjects, Subject{"what", "gain"}) != each.finding->subjects.end();
+  });
+}
+
+void add_margins(const WallMargins& wall, bool gain_is_left_out, std::vector<std::string>& margins) {
   if (wall.gain_margin) {
     margins.push_back(fmt::format("gain margin {:.2f} dB: unstable when {} {} times", decibels(*wall.gain_margin),
                                   whole_force(wall), number(*wall.gain_margin)));
-  } else {
+  } else if (!gain_is_left_out) {
     margins.emplace_back("gain margin without limit: no larger gain destabilises it");
   }
   if (wall.lower_gain_margin) {
@@ -111,10 +120,11 @@ void add_margins(const WallMargins& wall, std::vector<std::string>& margins) {
 }
 
 /// The margins with nobody holding beside those with the file's user, in one line.
-std::string margins_alone(const WallMargins& wall) {
-  std::string text = fmt::format(
-      "with {}: gain margin {}", words_of(Holder::nobody),
-      wall.gain_margin ? fmt::format("{:.2f} dB", decibels(*wall.gain_margin)) : std::string("without limit"));
+std::string margins_alone(const WallMargins& wall, bool gain_is_left_out) {
+  const std::string gain = wall.gain_margin   ? fmt::format("{:.2f} dB", decibels(*wall.gain_margin))
+                           : gain_is_left_out ? std::string("left out")
+                                              : std::string("without limit");
+  std::string text = fmt::format("with {}: gain margin {}", words_of(Holder::nobody), gain);
   if (wall.phase_margin) text += ", " + phase_text(*wall.phase_margin);
   if (wall.delay_margin) text += ", delay margin " + quantity(*wall.delay_margin, "s");
   return text;
@@ -176,9 +186,10 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
     if (remark.severity == Remark::Severity::warning) notes.push_back(remark_line(remark));
   }
   if (stability_of(*analysis.wall_stable_for) == WallStability::unstable) return notes;
-  if (analysis.alone && analysis.alone->wall) notes.push_back(margins_alone(*analysis.alone->wall));
+  if (analysis.alone && analysis.alone->wall)
+    notes.push_back(margins_alone(*analysis.alone->wall, leaves_gain_out(analysis)));
   std::vector<std::string> margins;
-  add_margins(*wall, margins);
+  add_margins(*wall, leaves_gain_out(analysis), margins);
   if (analysis.disk_margin) margins.push_back(disk_margin_note(*analysis.disk_margin));
   const std::string of_user = analysis.limits.user ? fmt::format("with {}: ", words_of(Holder::user)) : "";
   for (const std::string& margin : margins) notes.push_back(of_user + margin);

@@ -86,9 +86,8 @@ struct DiagnosisChange {
   std::string key = {};     ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
   double value_now = 0.0;   ///< SI units
   double value_then = 0.0;  ///< of wall.filter: the centre of a notch, Hz
-  /// Of damper_on_drive, what changes besides: the B that is run, and the delay of its force in s
-  std::optional<double> damping_then = {};
-  std::optional<double> delay_then = {};
+  std::optional<double> damping_then = {};  ///< of damper_on_drive: the B that is run
+  std::optional<double> delay_then = {};    ///< of damper_on_drive: the delay of its force, s
   /// The stiffness (of a damper alone its B) up to which the cause is absent: K_CR, that with friction holding, or the
   /// absolute stability limit; absent of quantisation, whose amplitude the change alters.
   std::optional<double> limit_now = {};

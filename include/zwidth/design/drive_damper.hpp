@@ -20,11 +20,11 @@ struct DriveDamper {
   double stiffness = 0.0;
   /// The limit over all passive users at this B; infinite where nobody can destabilise a wall, absent where the device cannot be held
   std::optional<double> absolute_stability_limit = {};
-  /// The same with the damper in the spring's loop, each with the B that is best there: of a recommendation its own wall
-  double one_rate_damping = 0.0;
-  double one_rate_stiffness = 0.0;
-  double gain = 1.0;  ///< stiffness by one_rate_stiffness
-  Finding why;        ///< the same as a finding of key "loop.damper.sampling_period"
+  double one_rate_damping =
+      0.0;  ///< the best B with the damper in the spring's loop; of a recommendation that of its wall
+  double one_rate_stiffness = 0.0;  ///< K with it, as `stiffness`
+  double gain = 1.0;                ///< stiffness by one_rate_stiffness
+  Finding why;                      ///< the same as a finding of key "loop.damper.sampling_period"
 };
 
 /// The same device whose damper runs on the drive: its period is of the whole parts of the loop's the one nearest to that of

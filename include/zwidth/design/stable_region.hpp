@@ -24,7 +24,7 @@ struct BoundaryPoint {
   std::optional<Mechanism> limited_by;  ///< the modal term of largest magnitude there; absent on K = 0 and B = 0
 };
 
-/// A stretch of boundary of one kind; straight between points unless `oscillation`.
+/// A stretch of boundary of one kind; straight between points unless `oscillation`, or `nyquist` of two rates.
 struct BoundaryArc {
   BoundaryKind kind = BoundaryKind::oscillation;  ///< what happens on it
   std::vector<BoundaryPoint> points;              ///< at least two; the last is the next arc's first, to rounding

@@ -51,10 +51,11 @@ struct WallMargins : LoopMargins {
 /// The delay margin is exact for any real delay: the least added delay at which a closed-loop pole of the plant sampled
 /// with that delay (modified z-transform) lies on the unit circle, over all crossovers.
 ///
-/// With a damper in a loop of its own the loop is cut where the slower of spring and damper acts: the margins of gain and
-/// phase, and gain_crossovers, are of that force alone, the other one closed. The delay margin is of both forces at once, and
-/// each has one of its own; all are found by eigenvalues, and absent beyond 16 of the longer periods. The spectral radius is
-/// per sampling period of the spring.
+/// With a damper in a loop of its own the loop is cut where the slower of spring and damper acts: the phase margin and
+/// gain_crossovers are of that force alone, the other one closed. gain_margin and lower_gain_margin are left out;
+/// stiffness_margin stands. The delay margin is of both forces at once, and each has one of its own; all are found by
+/// eigenvalues, and absent beyond 16 of the longer periods, or where the loop then has more than 80 states. The spectral
+/// radius is per sampling period of the spring.
 /// Throws Error (invalid_argument) when the device has no wall stiffness.
 [[nodiscard]] WallMargins wall_margins(const Device& device);
 

@@ -84,9 +84,9 @@ TwoRateCurve::Seen TwoRateCurve::seen(double angle, double inside) const {
   return {gain, -gain * slope / sum};
 }
 
-double TwoRateCurve::usual_inside() const {
-  double loop_gain = std::abs(on_whole_circle(inner_, 1.0));
-  if (is_damper_inside()) loop_gain *= std::abs(damper_response(loop_.gains(), inner_period_, 1.0 / inner_period_));
+double TwoRateCurve::usual_inside(double angle) const {
+  double loop_gain = std::abs(on_whole_circle(inner_, angle));
+  if (is_damper_inside()) loop_gain *= std::abs(damper_response(loop_.gains(), inner_period_, angle / inner_period_));
   return 1.0 / loop_gain;
 }
 

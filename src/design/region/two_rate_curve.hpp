@@ -48,8 +48,8 @@ class TwoRateCurve {
     return is_damper_inside() ? wall.damping : wall.stiffness;
   }
 
-  // The gain inside at which the loop inside is about 1 at a radian a sample.
-  [[nodiscard]] double usual_inside() const;
+  // The gain inside at which the loop inside is about 1 at this angle a sample.
+  [[nodiscard]] double usual_inside(double angle) const;
 
   // The angle in the longer period, 0 to pi, of one in the shorter.
   [[nodiscard]] double seen_angle(double angle) const;

@@ -4,20 +4,22 @@
 #include <cmath>
 #include <utility>
 
-#include "infinity.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-// Ratios of slices, up to this share of the largest gain inside that the loop stands by itself.
-struct Ratio {
-  double up_to;
-  double ratio;
-};
+// Slices by these ratios: below and among the gains inside at which something happens, and beyond them.
+constexpr double ratio_below = 3.0;
+constexpr double ratio_among = 1.35;
+constexpr double ratio_beyond = 1.6;
+// In shares of the least of these gains, and of the greatest.
 constexpr double lowest_slice = 1e-6;
-constexpr Ratio ratios_of_slices[] = {{0.03, 3.0}, {2.0, 1.35}, {30.0, 1.6}};
+constexpr double first_among = 0.03;
+constexpr double last_among = 2.0;
+constexpr double highest_slice = 30.0;
+constexpr double slow_angle = 0.1;  // rad a period inside
 constexpr int even_slices = 20;
 constexpr double beyond_stable = 1.5;  // of the largest stable gain outside
 
@@ -34,17 +36,35 @@ std::vector<double> stable_ends(const RegionSlice& slice) {
   return ends;
 }
 
-// The largest gain inside with which the loop is stable with nothing outside; a usual one where there is none.
-double stands_alone(const TwoRateCurve& curve) {
+// The gains inside at which something happens: crossings of the loop with nothing outside, and its usual gain. A device whose
+// sensed body is not the actuated one has crossings at a tiny share of the usual gain.
+struct Scales {
+  double least = 0.0;
+  double greatest = 0.0;  // the largest with which the loop is stable with nothing outside, or the usual one
+};
+
+Scales scales_of(const TwoRateCurve& curve) {
   GainCrossings alone = curve.crossings_alone();
   std::ranges::sort(alone.crossings, {}, &GainCrossing::gain);
-  double largest = curve.usual_inside();
+  Scales scales{curve.usual_inside(1.0), curve.usual_inside(1.0)};
+  if (alone.crossings.empty()) scales.least = std::min(scales.least, curve.usual_inside(slow_angle));
   double lower = 0.0;
   for (const GainCrossing& each : alone.crossings) {
-    if (unstable_poles(alone, 0.5 * (lower + each.gain)) == 0) largest = std::max(largest, each.gain);
+    scales.least = std::min(scales.least, each.gain);
+    if (unstable_poles(alone, 0.5 * (lower + each.gain)) == 0) scales.greatest = std::max(scales.greatest, each.gain);
     lower = each.gain;
   }
-  return largest;
+  constexpr double near = 1e3;
+  if (scales.greatest < near * scales.least) scales.least = scales.greatest;
+  return scales;
+}
+
+// The factor to the next slice.
+double ratio_at(double inside, const Scales& scales, int density) {
+  const double ratio = inside < first_among * scales.least     ? ratio_below
+                       : inside < last_among * scales.greatest ? ratio_among
+                                                               : ratio_beyond;
+  return std::pow(ratio, 1.0 / density);
 }
 
 }  // namespace
@@ -56,7 +76,7 @@ RegionSlice region_slice(const TwoRateCurve& curve, double inside) {
 }
 
 RegionSlices region_slices(const TwoRateCurve& curve, int density, const Progress& progress) {
-  const double alone = stands_alone(curve);
+  const Scales scales = scales_of(curve);
   RegionSlices result;
   const auto add = [&](double inside) {
     tell(progress, 0.0);
@@ -66,19 +86,20 @@ RegionSlices region_slices(const TwoRateCurve& curve, int density, const Progres
     return !ends.empty();
   };
   double highest_stable = 0.0;
-  double inside = lowest_slice * alone;
-  for (const Ratio& range : ratios_of_slices) {
-    for (; inside < range.up_to * alone; inside *= std::pow(range.ratio, 1.0 / density)) {
-      try {
-        if (!add(inside)) continue;
+  double inside = lowest_slice * scales.least;
+  while (inside < highest_slice * scales.greatest) {
+    const double next = inside * ratio_at(inside, scales, density);
+    try {
+      if (add(inside)) {
         highest_stable = inside;
-        result.most_inside = inside * range.ratio;
-      } catch (const Error& error) {
-        // Poles that grow beyond all digits within a period do not come back.
-        if (error.code() != ErrorCode::did_not_converge || inside <= alone) throw;
-        inside = infinity;
+        result.most_inside = next;
       }
+    } catch (const Error& error) {
+      // Poles that grow beyond all digits within a period do not come back.
+      if (error.code() != ErrorCode::did_not_converge || inside <= scales.greatest) throw;
+      break;
     }
+    inside = next;
   }
   if (highest_stable == 0.0) return result;
   const int count = even_slices * density;
@@ -90,8 +111,14 @@ RegionSlices region_slices(const TwoRateCurve& curve, int density, const Progres
   const auto above =
       std::ranges::find_if(result.slices, [&](const RegionSlice& s) { return s.inside > highest_stable; });
   // The end is between the last slice with a stable wall and the next one.
-  result.most_inside = above != result.slices.end() ? above->inside : highest_stable * ratios_of_slices[2].ratio;
+  result.most_inside = above != result.slices.end() ? above->inside : highest_stable * ratio_beyond;
   return result;
+}
+
+bool is_stable_on_an_axis(const TwoRateCurve& curve) {
+  if (!stable_ends(region_slice(curve, 0.0)).empty()) return true;
+  const RegionSlice alone{0.0, curve.crossings_alone()};
+  return !stable_ends(alone).empty();
 }
 
 }  // namespace zwidth::internal

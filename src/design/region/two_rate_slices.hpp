@@ -23,8 +23,11 @@ struct RegionSlices {
   double most_outside = 0.0;
 };
 
-// Slices over all gains inside, by ratios to far beyond those that the loop inside stands by itself, and evenly where walls are
-// stable; `density` times as many.
+// Slices over all gains inside, by ratios from far below the gains at which something happens to far beyond, and evenly where
+// walls are stable; `density` times as many.
 [[nodiscard]] RegionSlices region_slices(const TwoRateCurve& curve, int density, const Progress& progress);
+
+// Whether a wall is stable whose gain inside, or outside, is 0.
+[[nodiscard]] bool is_stable_on_an_axis(const TwoRateCurve& curve);
 
 }  // namespace zwidth::internal

@@ -80,7 +80,10 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   kinds_.clear();
   slabs.clear();
   slices_ = region_slices(curve_, density, stages.stage());
-  if (slices_.most_outside == 0.0) return;  // nothing is stable
+  if (slices_.most_outside == 0.0) {
+    if (!is_stable_on_an_axis(curve_)) return;
+    throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::region_changes_too_often});
+  }
   most_ = curve_.wall(slices_.most_outside, slices_.most_inside);
   curve_.scales = {1.0, most_.stiffness, most_.damping};
   stages.next(share_of_chains);
@@ -125,7 +128,8 @@ void TwoRateStructure::add_branches(TwoRateChain chain) {
   if (nodes.size() < 2) return;
   if (chain.is_closed) {  // it begins where B is greatest
     nodes.pop_back();
-    std::ranges::rotate(nodes, std::ranges::max_element(nodes, {}, [](const Node& each) { return each.wall.damping; }));
+    const auto greatest = std::ranges::max_element(nodes, {}, [](const Node& each) { return each.wall.damping; });
+    std::rotate(nodes.begin(), greatest, nodes.end());
     const Node turn = turn_between(nodes.back(), nodes[1]);
     nodes.front() = turn;
     nodes.push_back(turn);
@@ -333,7 +337,8 @@ bool TwoRateStructure::is_curved(const RegionEdge& edge) const {
 std::vector<Node> TwoRateStructure::nodes_between(std::size_t branch, const Node& first, const Node& last) const {
   std::vector<Node> nodes = branches[branch].nodes();
   const bool rises = nodes.back().wall.damping > nodes.front().wall.damping;
-  const auto [low, high] = std::minmax({first.wall.damping, last.wall.damping});
+  const double low = std::min(first.wall.damping, last.wall.damping);
+  const double high = std::max(first.wall.damping, last.wall.damping);
   std::erase_if(nodes, [&](const Node& each) { return each.wall.damping <= low || each.wall.damping >= high; });
   if (rises != (last.wall.damping > first.wall.damping)) std::ranges::reverse(nodes);
   return nodes;

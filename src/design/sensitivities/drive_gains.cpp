@@ -198,9 +198,7 @@ std::optional<OptionProblem> find_damper_problem(DriveFirmware firmware, const D
   const MotorDrive drive = drive_of(device);
   const Wall& wall = parameters.wall;
   if (!closes_damper(firmware)) {
-    return option_problem("loop.damper",
-                          {.code = ProblemCode::no_damper_of_its_own,
-                           .subjects = {{"drive", "this firmware"}, {"able", "odrive, moteus and simplefoc"}}});
+    return option_problem("loop.damper", {.code = ProblemCode::no_damper_of_its_own});
   }
   const double period = damper_timing(parameters.loop).sampling_period;
   if (!(period < parameters.loop.sampling_period)) {
@@ -221,18 +219,16 @@ std::optional<OptionProblem> find_damper_problem(DriveFirmware firmware, const D
   return std::nullopt;
 }
 
-/// How the spring's force goes beside the damper.
-std::string spring_beside_damper(DriveFirmware firmware, const Device& device) {
+/// The firmware's name, by which a finding says how the spring's force goes beside the damper.
+std::string name_of(DriveFirmware firmware) {
   switch (firmware) {
     case DriveFirmware::odrive:
-      return "the torque of the command v at velocity 0, in velocity control";
+      return "odrive";
     case DriveFirmware::moteus:
-      return "feedforward torque at velocity 0, in position mode";
+      return "moteus";
     default:
-      break;
+      return "simplefoc";
   }
-  const double damping = device.parameters().wall.damping * std::pow(drive_of(device).torque_per_force(), 2);
-  return fmt::format("the velocity of its torque over {:.6g} N m s/rad, in velocity control", damping);
 }
 
 DriveGains gains_of_damper(const Device& device, DriveFirmware firmware) {
@@ -245,10 +241,13 @@ DriveGains gains_of_damper(const Device& device, DriveFirmware firmware) {
   gains.on_drive = analyze(device);
   gains.on_drive.trust.doubt({.code = FindingCode::current_loop_not_modelled});
   if (has_loop(firmware)) gains.on_drive.trust.doubt({.code = FindingCode::damper_estimator_not_modelled});
-  gains.remarks.push_back(
-      note({.code = FindingCode::damper_alone_on_drive,
-            .evidence = {{"rate_hz", std::round(1.0 / damper.sampling_period)}, {"delay", damper.delay, "s"}},
-            .subjects = {{"spring", spring_beside_damper(firmware, device)}}}));
+  gains.remarks.push_back(note(
+      {.code = FindingCode::damper_alone_on_drive,
+       .evidence = {{"rate_hz", std::round(1.0 / damper.sampling_period)},
+                    {"delay", damper.delay, "s"},
+                    {"damping", device.parameters().wall.damping * std::pow(drive_of(device).torque_per_force(), 2),
+                     "N m s/rad"}},
+       .subjects = {{"drive", name_of(firmware)}}}));
   return gains;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "identification/evidence/part_of_evidence.hpp"
+#include "identification/evidence/likelihood_term.hpp"
 #include "identification/model/device_family.hpp"
 #include "zwidth/signal/frequency_response.hpp"
 
@@ -15,7 +15,7 @@ namespace zwidth::internal {
 /// s_k: relative, of each of the two real parts. e is that of the largest likelihood, at least 1e-4. rho(u): Huber's, u^2 / 2 up
 /// to u = 4, which 3 in 10 000 lines exceed. The curvature in q is the expected one, 4 (e / s)^4 a line; between q and x it is 0.
 /// Of a record, G is the exact sampled plant of its period; of a table, G(jw) with the delay's phase.
-class ResponseEvidence : public PartOfEvidence {
+class ResponseEvidence : public LikelihoodTerm {
  public:
   ResponseEvidence(const DeviceFamily& family, FrequencyResponse response);
 

@@ -3,13 +3,13 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "identification/evidence/part_of_evidence.hpp"
+#include "identification/evidence/likelihood_term.hpp"
 #include "identification/model/device_family.hpp"
 
 namespace zwidth::internal {
 
 /// Evidence whose residuals hang on the numbers of the device alone: cost = r(x)'r(x) / 2. It has no elements of its own.
-class SquaresOfNumbers : public PartOfEvidence {
+class SquaresOfNumbers : public LikelihoodTerm {
  public:
   explicit SquaresOfNumbers(const DeviceFamily& family) : family_(family) {}
 

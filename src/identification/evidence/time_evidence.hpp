@@ -5,14 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "identification/evidence/likelihood_term.hpp"
 #include "identification/evidence/noise.hpp"
-#include "identification/evidence/part_of_evidence.hpp"
 #include "identification/model/motion_model.hpp"
 
 namespace zwidth::internal {
 
 /// The records in segments. Its own elements: each segment's state. Residuals: played less recorded, whitened.
-class TimeEvidence : public PartOfEvidence {
+class TimeEvidence : public LikelihoodTerm {
  public:
   TimeEvidence(const MotionModel& model, std::vector<Segment> segments, std::vector<double> encoder_steps,
                Eigen::Index noise_order);

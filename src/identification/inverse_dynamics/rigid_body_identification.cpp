@@ -187,7 +187,7 @@ void judge_limit(RigidBodyIdentification& identified) {
          .subjects = {{"side", limit->frequency > highest ? "above" : "below"}}});
   }
   if (!analysis.interval) return;
-  FittedLikelihood known;
+  VerdictInput known;
   known.limit = Interval{analysis.interval->lower, analysis.interval->upper};
   const Loop& loop = identified.device.parameters().loop;
   const auto& deviation = identified.fit.delay.standard_deviation;

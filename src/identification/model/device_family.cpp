@@ -42,17 +42,18 @@ double DeviceFamily::value_of(const std::string& key, const Eigen::VectorXd& x) 
 
 DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x) const { return finished(values_at(x)); }
 
-DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, double share) const {
+DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, double instant) const {
   constexpr double middle = 0.5;
   DeviceParameters values = values_at(x);
   if (has_damping_drift_) {
-    const double left = std::max(0.0, 1.0 + value_of(key_of_damping_drift, x) * (share - middle));
+    const double left = std::max(0.0, 1.0 + value_of(key_of_damping_drift, x) * (instant - middle));
     for (Body& body : values.bodies) {
       if (std::ranges::find(numbers_, "body." + body.name + ".damping", &Number::key) != numbers_.end())
         body.damping *= left;
     }
   }
-  if (has_delay_drift_) values.loop.delay = std::max(0.0, values.loop.delay + value_of(key_of_delay_drift, x) * share);
+  if (has_delay_drift_)
+    values.loop.delay = std::max(0.0, values.loop.delay + value_of(key_of_delay_drift, x) * instant);
   return finished(std::move(values));
 }
 

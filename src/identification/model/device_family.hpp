@@ -9,7 +9,7 @@
 
 namespace zwidth::internal {
 
-/// Keys of numbers by which a device changes while it is recorded; they move nothing but what device_at() says of a moment.
+/// Keys of numbers by which a device changes while it is recorded; they move nothing but what device_at() says of an instant.
 inline constexpr const char* key_of_damping_drift = "damping_drift";  ///< share of all free dampings to the ground
 inline constexpr const char* key_of_delay_drift = "delay_drift";      ///< s
 
@@ -25,14 +25,14 @@ class DeviceFamily {
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return numbers_; }
   /// How many are the device's.
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
-  /// How many of the first numbers device_at() hangs on, at any moment.
+  /// How many of the first numbers device_at() hangs on, at any instant.
   [[nodiscard]] Eigen::Index of_limit() const noexcept { return of_limit_; }
   /// As a device file has it, nothing locked: no delay below 0.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;
-  /// As it is when `share` of a record is over, 0 to 1:
+  /// As it is at an instant of a record, 0 its beginning and 1 its end:
   ///
-  ///     b_i <- b_i max(0, 1 + damping_drift (share - 1/2)),  delay <- max(0, delay + delay_drift share)
-  [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x, double share) const;
+  ///     b_i <- b_i max(0, 1 + damping_drift (instant - 1/2)),  delay <- max(0, delay + delay_drift instant)
+  [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x, double instant) const;
   /// Whether the numbers make a device: recorded_device() throws where not.
   [[nodiscard]] bool has_device_at(const Eigen::VectorXd& x) const;
   /// As it was recorded: bodies locked, the delay left out (played_delay()).

@@ -8,8 +8,8 @@
 
 namespace zwidth::internal {
 
-MotionModel::MotionModel(DeviceFamily family, MotionTerms terms, std::vector<ForceMotionRecord> records, int parts)
-    : family_(std::move(family)), terms_(std::move(terms)), records_(std::move(records)), parts_(parts) {
+MotionModel::MotionModel(DeviceFamily family, MotionTerms terms, std::vector<ForceMotionRecord> records, int substeps)
+    : family_(std::move(family)), terms_(std::move(terms)), records_(std::move(records)), substeps_(substeps) {
   for (const ForceMotionRecord& record : records_) {
     double squares = 0.0;
     for (std::size_t k = 1; k < record.position.size(); ++k)
@@ -62,7 +62,7 @@ std::optional<std::vector<PlayedSegment>> MotionModel::play(const Eigen::VectorX
     const ForceMotionRecord& record = records_[segment.record];
     const Units& units = units_[segment.record];
     if (!device || segments[s - 1].record != segment.record) {
-      device.emplace(family_, terms_, names_, segment.record, units.largest_force, record.sampling_period, parts_, x,
+      device.emplace(family_, terms_, names_, segment.record, units.largest_force, record.sampling_period, substeps_, x,
                      with_slopes);
     }
     SegmentPlayer player(*device, bodies_, columns);

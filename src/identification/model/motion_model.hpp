@@ -42,13 +42,13 @@ struct PlayedSegment {
 /// in units of the record.
 class MotionModel {
  public:
-  /// `parts`: of a sampling period, where a term acts.
-  MotionModel(DeviceFamily family, MotionTerms terms, std::vector<ForceMotionRecord> records, int parts);
+  /// `substeps`: of a sampling period, in each of which the terms act anew.
+  MotionModel(DeviceFamily family, MotionTerms terms, std::vector<ForceMotionRecord> records, int substeps);
 
   [[nodiscard]] const DeviceFamily& family() const noexcept { return family_; }
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return family_.numbers(); }
   [[nodiscard]] const std::vector<ForceMotionRecord>& records() const noexcept { return records_; }
-  [[nodiscard]] int parts() const noexcept { return parts_; }
+  [[nodiscard]] int substeps() const noexcept { return substeps_; }
   [[nodiscard]] Eigen::Index states() const noexcept { return 2 * bodies_; }
 
   /// From the recorded position alone: no link stretched, all bodies at the sensed one's velocity.
@@ -70,7 +70,7 @@ class MotionModel {
   DeviceFamily family_;
   MotionTerms terms_;
   std::vector<ForceMotionRecord> records_;
-  int parts_;
+  int substeps_;
   std::vector<Units> units_;
   std::vector<std::string> names_;  ///< of the bodies that move
   Eigen::Index bodies_ = 0;

@@ -8,8 +8,8 @@
 namespace zwidth::internal {
 
 PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
-                           std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
-                           bool with_slopes_asked)
+                           std::size_t record, double largest_force, double period, int substeps,
+                           const Eigen::VectorXd& x, bool with_slopes_asked)
     : with_slopes(with_slopes_asked) {
   const std::vector<Number>& numbers = family.numbers();
   const auto place = [&](const std::string& key) {
@@ -62,7 +62,7 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   const Eigen::MatrixXd columns = motion_columns(family.recorded_device(x));
   input = columns.col(columns.rows());
   const std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
-  const int wanted = forces.empty() && frictions.empty() ? 1 : parts;
+  const int wanted = forces.empty() && frictions.empty() ? 1 : substeps;
   const auto step = [&](double length) {
     if (length < least) return LinearStep{};
     const int count = std::max(1, static_cast<int>(std::lround(length * wanted)));

@@ -19,7 +19,7 @@ namespace zwidth::internal {
 struct PlayedDevice {
   /// The device at x.
   PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
-               std::size_t record, double largest_force, double period, int parts, const Eigen::VectorXd& x,
+               std::size_t record, double largest_force, double period, int substeps, const Eigen::VectorXd& x,
                bool with_slopes);
 
   struct Force {

@@ -11,7 +11,7 @@
 namespace zwidth::internal {
 namespace {
 
-const char* name_of_left(Omnibus::Kind kind) {
+const char* name_of_kind(Omnibus::Kind kind) {
   return kind == Omnibus::Kind::nonlinear ? "nonlinear" : "follows_force";
 }
 
@@ -25,12 +25,12 @@ bool opens_most(const RivalEstimate& rival, const Interval& limit) {
 
 }  // namespace
 
-Finding undetermined(const FittedLikelihood& fit) {
+Finding undetermined(const VerdictInput& fit) {
   return {.code = FindingCode::nothing_determined,
           .subjects = {{"by", fit.records.size() <= 1 ? "record" : "recordings"}}};
 }
 
-Finding open_interval(const FittedLikelihood& fit) {
+Finding open_interval(const VerdictInput& fit) {
   constexpr double unknown = 1000.0;
   const Interval& limit = *fit.limit;
   Finding found{
@@ -50,27 +50,27 @@ Finding open_interval(const FittedLikelihood& fit) {
   return found;
 }
 
-bool was_stopped(const FittedLikelihood& fit) {
+bool was_stopped(const VerdictInput& fit) {
   return fit.last_change > Calibration::most_change * std::log(fit.limit->upper / fit.limit->lower);
 }
 
-Finding stopped_search(const FittedLikelihood& fit) {
+Finding stopped_search(const VerdictInput& fit) {
   return {.code = FindingCode::search_stopped,
           .evidence = {{"moved", std::expm1(fit.last_change)},
                        {"share", fit.last_change / std::log(fit.limit->upper / fit.limit->lower)},
                        {"threshold", Calibration::most_change}}};
 }
 
-bool stands_out(const Omnibus& left) { return !(left.p >= Calibration::least_p); }
+bool stands_out(const Omnibus& omnibus) { return !(omnibus.p >= Calibration::least_p); }
 
-Finding outstanding(const Omnibus& left, const std::vector<NamedRecord>& records) {
-  const NamedRecord& record = records.at(left.record);
+Finding outstanding(const Omnibus& omnibus, const std::vector<NamedRecord>& records) {
+  const NamedRecord& record = records.at(omnibus.record);
   Finding found{.code = FindingCode::residual_stands_out,
-                .evidence = {{"excess", left.excess}, {"p", left.p}, {"threshold", Calibration::least_p}},
-                .subjects = {{"source", record.source}, {"kind", name_of_left(left.clearest)}}};
-  if (left.count == 0) return found;  // of lines
-  const double from = static_cast<double>(left.first) * record.sampling_period;
-  const double to = from + static_cast<double>(left.count) * record.sampling_period;
+                .evidence = {{"excess", omnibus.excess}, {"p", omnibus.p}, {"threshold", Calibration::least_p}},
+                .subjects = {{"source", record.source}, {"kind", name_of_kind(omnibus.clearest)}}};
+  if (omnibus.count == 0) return found;  // of lines
+  const double from = static_cast<double>(omnibus.first) * record.sampling_period;
+  const double to = from + static_cast<double>(omnibus.count) * record.sampling_period;
   found.evidence.push_back({"from", from, "s"});
   found.evidence.push_back({"to", to, "s"});
   return found;
@@ -90,7 +90,7 @@ Finding contradicted(const GivenDelay& delay) {
           .effect = {{"critical_stiffness", delay.stiffness}}};
 }
 
-std::optional<Finding> shown_rival(const RivalEstimate& rival, const FittedLikelihood& fit) {
+std::optional<Finding> shown_rival(const RivalEstimate& rival, const VerdictInput& fit) {
   constexpr double significant = 3.0;
   const bool is_friction = rival.code == "coulomb_friction";
   if (!is_friction && rival.code != "constant_force") return std::nullopt;

@@ -60,10 +60,10 @@ SumOfSquares squares_of_bands(const DeviceFamily& family, const ResponseEvidence
 }
 
 Omnibus omnibus_of_lines(const SumOfSquares& squares) {
-  Omnibus left;
-  if (!(squares.freedom > 0.0) || !std::isfinite(squares.sum)) return left;
-  left.p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(squares.freedom), squares.sum));
-  return left;
+  Omnibus omnibus;
+  if (!(squares.freedom > 0.0) || !std::isfinite(squares.sum)) return omnibus;
+  omnibus.p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(squares.freedom), squares.sum));
+  return omnibus;
 }
 
 }  // namespace zwidth::internal

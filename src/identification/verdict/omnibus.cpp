@@ -16,16 +16,16 @@ namespace {
 
 using Columns = Eigen::MatrixXd;
 
-Eigen::Index rows_of(const std::vector<LeftOver>& left) {
+Eigen::Index rows_of(const std::vector<SegmentResiduals>& segments) {
   Eigen::Index rows = 0;
-  for (const LeftOver& each : left) rows += each.residuals.size();
+  for (const SegmentResiduals& each : segments) rows += each.residuals.size();
   return rows;
 }
 
-Columns stacked(const std::vector<LeftOver>& left, Columns LeftOver::*member) {
-  Columns all(rows_of(left), (left.front().*member).cols());
+Columns stacked(const std::vector<SegmentResiduals>& segments, Columns SegmentResiduals::*member) {
+  Columns all(rows_of(segments), (segments.front().*member).cols());
   Eigen::Index at = 0;
-  for (const LeftOver& each : left) {
+  for (const SegmentResiduals& each : segments) {
     all.middleRows(at, each.residuals.size()) = each.*member;
     at += each.residuals.size();
   }
@@ -44,9 +44,10 @@ Columns basis_of(Columns columns, const Eigen::VectorXd& sizes, double least) {
 /// What is fitted: states of each segment, and the numbers.
 class Fitted {
  public:
-  explicit Fitted(const std::vector<LeftOver>& left) {
-    for (const LeftOver& each : left) own_.push_back(basis_of(each.own, each.own.colwise().norm(), least_rank));
-    const Columns shared = stacked(left, &LeftOver::shared);
+  explicit Fitted(const std::vector<SegmentResiduals>& segments) {
+    for (const SegmentResiduals& each : segments)
+      own_.push_back(basis_of(each.own, each.own.colwise().norm(), least_rank));
+    const Columns shared = stacked(segments, &SegmentResiduals::shared);
     shared_ = basis_of(without_own(shared), shared.colwise().norm(), least_rank);
   }
   [[nodiscard]] Columns without(const Columns& columns) const {
@@ -90,20 +91,21 @@ struct Score {
   Columns covariance;
 };
 
-Score score_of(const Eigen::VectorXd& residuals, const Columns& candidates, const std::vector<LeftOver>& left) {
+Score score_of(const Eigen::VectorXd& residuals, const Columns& candidates,
+               const std::vector<SegmentResiduals>& segments) {
   Score score{candidates.transpose() * residuals, Columns::Zero(candidates.cols(), candidates.cols())};
   Columns terms;
   Eigen::Index at = 0;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const Eigen::Index rows = left[i].residuals.size();
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Eigen::Index rows = segments[i].residuals.size();
     const Eigen::MatrixXcd residual = spectra_of(residuals.segment(at, rows));
     const Eigen::MatrixXcd candidate = spectra_of(candidates.middleRows(at, rows));
     const Columns own = (candidate.conjugate().array().colwise() * residual.col(0).array()).real();
     const bool goes_on =
-        i > 0 && left[i].period > 0 && left[i - 1].record == left[i].record && terms.rows() == own.rows();
+        i > 0 && segments[i].period > 0 && segments[i - 1].record == segments[i].record && terms.rows() == own.rows();
     terms = goes_on ? Columns(terms + own) : own;
-    const bool is_last = i + 1 == left.size() || left[i].period == 0 || left[i + 1].record != left[i].record ||
-                         left[i + 1].residuals.size() != rows;
+    const bool is_last = i + 1 == segments.size() || segments[i].period == 0 ||
+                         segments[i + 1].record != segments[i].record || segments[i + 1].residuals.size() != rows;
     if (is_last) score.covariance += terms.transpose() * terms;
     at += rows;
   }
@@ -117,10 +119,10 @@ struct Tested {
 };
 
 std::optional<Tested> tested(Omnibus::Kind kind, const Eigen::VectorXd& residuals, const Columns& candidates,
-                             const std::vector<LeftOver>& left) {
+                             const std::vector<SegmentResiduals>& segments) {
   const auto freedom = static_cast<int>(candidates.cols());
   if (freedom == 0) return std::nullopt;
-  const Score score = score_of(residuals, candidates, left);
+  const Score score = score_of(residuals, candidates, segments);
   const Eigen::VectorXd direction = score.covariance.ldlt().solve(score.sum);
   const double statistic = score.sum.dot(direction);
   if (!std::isfinite(statistic)) return std::nullopt;
@@ -130,11 +132,11 @@ std::optional<Tested> tested(Omnibus::Kind kind, const Eigen::VectorXd& residual
 }
 
 /// Of tenths of each segment the one whose terms add most.
-void place_of(const Eigen::VectorXd& terms, const std::vector<LeftOver>& left, Omnibus& found) {
+void place_of(const Eigen::VectorXd& terms, const std::vector<SegmentResiduals>& segments, Omnibus& found) {
   constexpr Eigen::Index pieces = 10;
   double most = 0.0;
   Eigen::Index at = 0;
-  for (const LeftOver& each : left) {
+  for (const SegmentResiduals& each : segments) {
     const Eigen::Index rows = each.residuals.size();
     for (Eigen::Index piece = 0; piece < pieces; ++piece) {
       const Eigen::Index begin = rows * piece / pieces;
@@ -165,14 +167,14 @@ double combined(const std::vector<Omnibus::Part>& parts) {
 
 }  // namespace
 
-Omnibus omnibus(const std::vector<LeftOver>& left) {
+Omnibus omnibus(const std::vector<SegmentResiduals>& segments) {
   Omnibus found;
-  if (left.empty() || rows_of(left) == 0) return found;
-  const Fitted fitted(left);
-  Eigen::VectorXd residuals(rows_of(left));
+  if (segments.empty() || rows_of(segments) == 0) return found;
+  const Fitted fitted(segments);
+  Eigen::VectorXd residuals(rows_of(segments));
   double counts = 0.0;
   Eigen::Index at = 0;
-  for (const LeftOver& each : left) {
+  for (const SegmentResiduals& each : segments) {
     residuals.segment(at, each.residuals.size()) = each.residuals;
     counts += each.counts.sum();
     at += each.residuals.size();
@@ -182,7 +184,7 @@ Omnibus omnibus(const std::vector<LeftOver>& left) {
   std::optional<Tested> clearest;
   const auto add = [&](Omnibus::Kind kind, const Columns& candidates) {
     const Columns basis = basis_of(fitted.without(candidates), candidates.colwise().norm(), Calibration::least_share);
-    std::optional<Tested> test = tested(kind, residuals, basis, left);
+    std::optional<Tested> test = tested(kind, residuals, basis, segments);
     if (!test) return;
     found.parts.push_back(test->part);
     const double excess = (test->part.statistic - test->part.freedom) / std::sqrt(2.0 * test->part.freedom);
@@ -190,12 +192,12 @@ Omnibus omnibus(const std::vector<LeftOver>& left) {
     found.excess = excess;
     clearest = std::move(test);
   };
-  add(Omnibus::Kind::follows_force, stacked(left, &LeftOver::lagged));
-  add(Omnibus::Kind::nonlinear, stacked(left, &LeftOver::forces));
+  add(Omnibus::Kind::follows_force, stacked(segments, &SegmentResiduals::lagged));
+  add(Omnibus::Kind::nonlinear, stacked(segments, &SegmentResiduals::forces));
   if (!clearest) return found;
   found.clearest = clearest->part.kind;
   found.p = combined(found.parts);
-  place_of(clearest->terms, left, found);
+  place_of(clearest->terms, segments, found);
   return found;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "identification/verdict/left_over.hpp"
+#include "identification/verdict/segment_residuals.hpp"
 
 namespace zwidth::internal {
 
@@ -31,6 +31,6 @@ struct Omnibus {
 
 /// Residuals and candidates are freed of all fitted directions first. Their products are summed over the lines of their spectra,
 /// which are independent whatever the noise's colour: what the fit's filter left of it counts for nothing.
-[[nodiscard]] Omnibus omnibus(const std::vector<LeftOver>& left);
+[[nodiscard]] Omnibus omnibus(const std::vector<SegmentResiduals>& segments);
 
 }  // namespace zwidth::internal

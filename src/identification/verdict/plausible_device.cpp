@@ -1,5 +1,6 @@
 #include "identification/verdict/plausible_device.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -58,15 +59,15 @@ Finding odd_mass_finding(const OddMass& odd) {
 }  // namespace
 
 std::optional<Finding> doubt_of_masses(const Device& fitted, const Device* known) {
+  const std::size_t bodies = fitted.bodies().size();
   if (known) {
-    for (const OddMass& each : odd_masses(fitted, *known)) {
-      if (each.is_beyond_belief()) return odd_mass_finding(each);
-    }
-    return std::nullopt;
+    const std::vector<OddMass> odd = odd_masses(fitted, *known);
+    if (odd.size() < bodies || !std::ranges::all_of(odd, &OddMass::is_beyond_belief)) return std::nullopt;
+    return odd_mass_finding(odd.front());
   }
   const double heaviest = fitted.parameters().motion == Motion::rotary ? 10.0 : 100.0;  // kg m^2, kg
   const std::vector<Remark> heavy = implausible_masses(fitted, heaviest);
-  if (heavy.empty()) return std::nullopt;
+  if (heavy.empty() || heavy.size() < bodies) return std::nullopt;
   Finding found = heavy.front().finding.value();
   found.code = FindingCode::fitted_body_too_heavy;
   return found;
@@ -94,10 +95,8 @@ std::vector<Remark> implausible_device(const Device& fitted, const Device* known
     found.code = FindingCode::fitted_late_beyond_drives;
     remarks.push_back(warning(std::move(found)));
   }
-  if (!known) return remarks;
-  for (const OddMass& each : odd_masses(fitted, *known)) {
-    if (!each.is_beyond_belief()) remarks.push_back(warning(odd_mass_finding(each)));
-  }
+  if (!known || doubt_of_masses(fitted, known)) return remarks;
+  for (const OddMass& each : odd_masses(fitted, *known)) remarks.push_back(warning(odd_mass_finding(each)));
   return remarks;
 }
 

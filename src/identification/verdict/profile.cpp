@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/fit/bounded_step.hpp"
+#include "identification/optimiser/bounded_step.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -90,6 +90,8 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
     damping *= 0.1;
     if (damping < 1e-6) damping = 0.0;
   }
+  // One that was stopped on its way may lie as far again.
+  end.value += direction * end.last_change;
   return end;
 }
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "identification/fit/least_squares_problem.hpp"
-#include "identification/fit/minimise.hpp"
+#include "identification/optimiser/least_squares_problem.hpp"
+#include "identification/optimiser/minimise.hpp"
 
 namespace zwidth::internal {
 
@@ -14,7 +14,7 @@ using LogOf = std::function<std::optional<double>(const Eigen::VectorXd& z)>;
 
 /// An end of a profile.
 struct ProfileEnd {
-  double value = 0.0;  ///< the logarithm there
+  double value = 0.0;  ///< the logarithm there; where the search was stopped, its last step further out
   Eigen::VectorXd z;
   double last_change = 0.0;  ///< of the logarithm, by the last step; 0 where it stood still
   /// The cost fell below the minimum's: that was none.

@@ -5,11 +5,11 @@
 
 namespace zwidth::internal {
 
-bool is_explained(const FittedLikelihood& fit) {
-  return !fit.motion_tells_none && !(fit.left && stands_out(*fit.left));
+bool is_explained(const VerdictInput& fit) {
+  return !fit.motion_tells_none && !(fit.omnibus && stands_out(*fit.omnibus));
 }
 
-Verdict verdict_of(const FittedLikelihood& fit) {
+Verdict verdict_of(const VerdictInput& fit) {
   Verdict verdict;
   Trust& trust = verdict.trust;
   for (const Finding& each : fit.contradictions) trust.refuse(each);
@@ -20,7 +20,7 @@ Verdict verdict_of(const FittedLikelihood& fit) {
   const bool is_narrow = fit.limit->upper <= Calibration::widest_interval * fit.limit->lower;
   if (!is_narrow) trust.doubt(open_interval(fit));
   if (was_stopped(fit)) trust.doubt(stopped_search(fit));
-  if (fit.left && stands_out(*fit.left)) trust.doubt(outstanding(*fit.left, fit.records));
+  if (fit.omnibus && stands_out(*fit.omnibus)) trust.doubt(outstanding(*fit.omnibus, fit.records));
   if (fit.delay && contradicts(*fit.delay)) {
     const bool matters = fit.delay->stiffness < fit.limit->lower || fit.delay->stiffness > fit.limit->upper;
     if (matters)

@@ -36,12 +36,12 @@ struct GivenDelay {
 };
 
 /// What is known of a fit when it is judged.
-struct FittedLikelihood {
+struct VerdictInput {
   Motion motion = Motion::linear;
   std::optional<Interval> limit = {};        ///< all within 1.92 of the best log-likelihood; absent: none was found
   double last_change = 0.0;                  ///< FoundDevice::last_change
-  std::optional<Omnibus> left = {};          ///< of what it leaves in time; absent: nothing was fitted
-  std::vector<NamedRecord> records = {};     ///< those that `left` counts
+  std::optional<Omnibus> omnibus = {};       ///< of what it leaves in time; absent: nothing was fitted
+  std::vector<NamedRecord> records = {};     ///< those that `omnibus` counts
   std::vector<RivalEstimate> rivals = {};    ///< rival_table()
   std::optional<LimitPlace> place = {};      ///< of the limit of the most likely device
   std::optional<GivenDelay> delay = {};      ///< where one was given
@@ -57,11 +57,11 @@ struct Verdict {
 };
 
 /// Whether the structure leaves nothing but noise of what was recorded.
-[[nodiscard]] bool is_explained(const FittedLikelihood& fit);
+[[nodiscard]] bool is_explained(const VerdictInput& fit);
 
 /// Sound where the interval is within Calibration::widest_interval and what is left does not stand out; doubtful where it is
 /// wider, or stands out, or the data are not whole, or the motion tells of no limit; refused where no limit is determined, or the data contradict themselves.
 /// An interval that is too wide names the rival that leaves most of it open.
-[[nodiscard]] Verdict verdict_of(const FittedLikelihood& fit);
+[[nodiscard]] Verdict verdict_of(const VerdictInput& fit);
 
 }  // namespace zwidth::internal

@@ -14,11 +14,11 @@ namespace zwidth::internal {
 namespace {
 
 /// Weights of the residuals in the limit, by segment.
-std::vector<Eigen::VectorXd> weights_of(const std::vector<LeftOver>& left, const Eigen::VectorXd& slope,
+std::vector<Eigen::VectorXd> weights_of(const std::vector<SegmentResiduals>& segments, const Eigen::VectorXd& slope,
                                         const Eigen::MatrixXd& hessian) {
   const Eigen::VectorXd direction = hessian.ldlt().solve(slope);
   std::vector<Eigen::VectorXd> weights;
-  for (const LeftOver& each : left) {
+  for (const SegmentResiduals& each : segments) {
     const Eigen::VectorXd moved = each.shared * direction;
     weights.emplace_back(moved - each.own * each.own.colPivHouseholderQr().solve(moved));
   }
@@ -26,9 +26,9 @@ std::vector<Eigen::VectorXd> weights_of(const std::vector<LeftOver>& left, const
 }
 
 /// J'J with each segment's state refitted, and what was believed.
-Eigen::MatrixXd hessian_of(const std::vector<LeftOver>& left, const Eigen::VectorXd& precision) {
+Eigen::MatrixXd hessian_of(const std::vector<SegmentResiduals>& segments, const Eigen::VectorXd& precision) {
   Eigen::MatrixXd hessian = precision.asDiagonal();
-  for (const LeftOver& each : left) {
+  for (const SegmentResiduals& each : segments) {
     const Eigen::MatrixXd rest = each.shared - each.own * each.own.colPivHouseholderQr().solve(each.shared);
     hessian.selfadjointView<Eigen::Lower>().rankUpdate(rest.transpose());
   }
@@ -62,25 +62,25 @@ double variance_of(const Terms& terms) {
 }
 
 /// By time, samples of a repeated force at one phase as one.
-Terms by_time(const LeftOver& left, const Eigen::VectorXd& weights) {
-  const std::size_t rows = static_cast<std::size_t>(weights.size());
-  const std::size_t length = left.period == 0 ? rows : std::min(rows, left.period);
+Terms by_time(const SegmentResiduals& segment, const Eigen::VectorXd& weights) {
+  const auto rows = static_cast<std::size_t>(weights.size());
+  const std::size_t length = segment.period == 0 ? rows : std::min(rows, segment.period);
   Terms terms{std::vector<double>(length, 0.0), std::vector<double>(length, 0.0)};
   for (std::size_t k = 0; k < rows; ++k) {
     const double weight = weights(static_cast<Eigen::Index>(k));
-    terms.values[k % length] += weight * left.residuals(static_cast<Eigen::Index>(k));
+    terms.values[k % length] += weight * segment.residuals(static_cast<Eigen::Index>(k));
     terms.weights[k % length] += weight * weight;
   }
   return terms;
 }
 
 /// By frequency (Parseval).
-Terms by_frequency(const LeftOver& left, const Eigen::VectorXd& weights) {
+Terms by_frequency(const SegmentResiduals& segment, const Eigen::VectorXd& weights) {
   const auto of = [](const Eigen::VectorXd& samples) {
     return spectrum(std::span<const double>(samples.data(), static_cast<std::size_t>(samples.size())));
   };
   const auto weight = of(weights);
-  const auto residual = of(left.residuals);
+  const auto residual = of(segment.residuals);
   const double scale = 1.0 / static_cast<double>(weights.size());
   const bool is_even = weights.size() % 2 == 0;
   Terms terms;
@@ -94,18 +94,18 @@ Terms by_frequency(const LeftOver& left, const Eigen::VectorXd& weights) {
 
 }  // namespace
 
-double widening(const std::vector<LeftOver>& left, const LimitSlope& limit) {
-  if (left.empty() || limit.slope.squaredNorm() == 0.0) return 1.0;
-  const Eigen::MatrixXd hessian = hessian_of(left, limit.precision);
-  const std::vector<Eigen::VectorXd> weights = weights_of(left, limit.slope, hessian);
+double widening(const std::vector<SegmentResiduals>& segments, const LimitSlope& limit) {
+  if (segments.empty() || limit.slope.squaredNorm() == 0.0) return 1.0;
+  const Eigen::MatrixXd hessian = hessian_of(segments, limit.precision);
+  const std::vector<Eigen::VectorXd> weights = weights_of(segments, limit.slope, hessian);
   double white = 0.0;
   double of_time = 0.0;
   double of_frequency = 0.0;
-  for (std::size_t i = 0; i < left.size(); ++i) {
+  for (std::size_t i = 0; i < segments.size(); ++i) {
     if (weights[i].size() == 0) continue;
     white += weights[i].squaredNorm();
-    of_time += variance_of(by_time(left[i], weights[i]));
-    of_frequency += variance_of(by_frequency(left[i], weights[i]));
+    of_time += variance_of(by_time(segments[i], weights[i]));
+    of_frequency += variance_of(by_frequency(segments[i], weights[i]));
   }
   const Eigen::VectorXd direction = hessian.ldlt().solve(limit.slope);
   const double believed = direction.cwiseAbs2().dot(limit.precision);

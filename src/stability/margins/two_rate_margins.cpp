@@ -101,10 +101,11 @@ WallMargins two_rate_margins(const Device& device) {
   margins.spectral_radius =
       std::exp(largest_excess_of(as_it_runs, stiffness) * loop.spring().period / as_it_runs.period());
   margins.delay_margin.reset();
+  // Those of the force that is cut, not of both together.
+  margins.gain_margin.reset();
+  margins.lower_gain_margin.reset();
   if (!margins.stable) return margins;
-  if (!loop.is_damper_inside()) {
-    margins.stiffness_margin = factor_to_instability(unguarded_stiffness(device), stiffness);
-  }
+  margins.stiffness_margin = factor_to_instability(unguarded_stiffness(device), stiffness);
   const DelaySearch delays(device, loop, stiffness);
   margins.delay_margin = delays.least(true, true);
   margins.spring_delay_margin = delays.least(true, false);

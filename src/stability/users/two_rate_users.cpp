@@ -274,6 +274,7 @@ TwoRateUsers::TwoRateUsers(const Device& device) {
   looks_ = std::make_unique<Looks>(device_without_user(device), std::round((device.loop().delay - delay) / period));
 }
 TwoRateUsers::TwoRateUsers(TwoRateUsers&&) noexcept = default;
+TwoRateUsers& TwoRateUsers::operator=(TwoRateUsers&&) noexcept = default;
 TwoRateUsers::~TwoRateUsers() = default;
 
 double TwoRateUsers::limit_seen(VirtualDamper damper) const {

@@ -38,6 +38,9 @@ class TwoRateUsers {
   // `device`: of a loop that knows_all_users().
   explicit TwoRateUsers(const Device& device);
   TwoRateUsers(TwoRateUsers&&) noexcept;
+  TwoRateUsers& operator=(TwoRateUsers&&) noexcept;
+  TwoRateUsers(const TwoRateUsers&) = delete;
+  TwoRateUsers& operator=(const TwoRateUsers&) = delete;
   ~TwoRateUsers();
 
   // The least K at the frequencies looked at, never below two_rate_absolute_stability(): refined between none of them, and

@@ -2,7 +2,7 @@
 
 import { examples } from '../api/shared.svelte'
 import type { Options } from '../api/answer.svelte'
-import { groupsOf } from './keys'
+import { groupsOf, type Row } from './keys'
 import { scan, type Entry } from './toml'
 import { workbench } from './workbench.svelte'
 
@@ -28,23 +28,23 @@ const rawOf = (text: string, entry: Entry): string => text.slice(entry.start, en
 export function setsFrom(example: string, text: string): string[] | null {
   const [from, to] = [scan(example), scan(text)]
   if (!from.complete || !to.complete) return null
-  const isDefault = (key: string, value: unknown): boolean => value === 0 && key !== 'wall.stiffness'
-  const keyOf = new Map(groupsOf(to).flatMap((group) => group.rows.map((row) => [row.path.join('\n'), row.key])))
+  const isDefault = ({ key, field }: Row, value: unknown): boolean => value === 0 && key !== 'wall.stiffness' && !field.like
+  const rowOf = new Map(groupsOf(to).flatMap((group) => group.rows.map((row) => [row.path.join('\n'), row])))
   const before = new Map(from.entries.map((each) => [each.path.join('\n'), rawOf(example, each)]))
   const sets: string[] = []
   for (const entry of to.entries) {
     const id = entry.path.join('\n')
     const old = before.get(id)
     before.delete(id)
-    const key = keyOf.get(id)
+    const row = rowOf.get(id)
     if (
       old === undefined
-        ? key !== undefined && isDefault(key, entry.value)
+        ? row !== undefined && isDefault(row, entry.value)
         : old === rawOf(text, entry) || (typeof entry.value === 'number' && Number(old) === entry.value)
     )
       continue
-    if (!key || hasControls(rawOf(text, entry)) || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
-    sets.push(`${key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
+    if (!row || hasControls(rawOf(text, entry)) || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
+    sets.push(`${row.key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
   }
   return before.size > 0 ? null : sets
 }

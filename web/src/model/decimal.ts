@@ -111,3 +111,13 @@ export const tomlOfNumber = (value: number): string => String(value).replace('e+
 
 /** Four digits are enough for a step or a drag. */
 export const rounded = (value: number): number => Number(value.toPrecision(4))
+
+/** The whole part or multiple of a period that is nearest to a value; from `from` on at least one step towards it. */
+export function wholeRatio(value: number, period: number, from?: number): number {
+  const most = 999
+  const stepOf = (each: number): number => (each >= period ? Math.round(each / period) - 1 : 1 - Math.round(period / each))
+  let step = stepOf(value)
+  if (from !== undefined && step === stepOf(from)) step += Math.sign(value - from)
+  step = Math.max(-most, Math.min(most, step))
+  return Number((step < 0 ? period / (1 - step) : period * (1 + step)).toPrecision(12))
+}

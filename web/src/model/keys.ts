@@ -11,6 +11,7 @@ export interface Field {
   mayBeZero: boolean
   first: [linear: number, rotary: number] // where a slider begins when the number is 0
   mayBeAbsent?: string // emptied, it is taken out of the file; then this holds
+  like?: string // the key whose number holds while it is absent
   ofRig?: 'number' | 'choice' // no limit feels it: nothing to slide or follow; a choice is not stepped either
 }
 
@@ -57,6 +58,7 @@ function fieldsOf(path: string): Field[] {
     .filter((each) => each.table === path && each.same_as === '' && (ofRig || each.type === 'number'))
     .map((each): Field => {
       const own = shown[`${path}.${each.key}`]
+      const like = /^`([\w.]+)`$/.exec(each.default)?.[1]
       return {
         key: each.key,
         label: own?.label ?? each.key.replaceAll('_', ' '),
@@ -64,16 +66,18 @@ function fieldsOf(path: string): Field[] {
         about: each.help.replaceAll("'", '’'),
         mayBeZero: each.takes_zero,
         first: own?.first ?? firsts[each.unit?.linear ?? ''] ?? [2, 2],
-        ...((ofRig || each.default === 'none') && { mayBeAbsent: each.default.replaceAll("'", '’') }),
+        ...((ofRig || like || each.default === 'none') && { mayBeAbsent: like ? 'the loop’s' : each.default.replaceAll("'", '’') }),
+        ...(like && { like }),
         ...(ofRig && { ofRig: each.type === 'number' ? 'number' : 'choice' }),
       }
     })
 }
 
-const [body, link, loop, actuator, sensor] = [
+const [body, link, loop, damper, actuator, sensor] = [
   fieldsOf('body'),
   fieldsOf('link'),
   fieldsOf('loop'),
+  fieldsOf('loop.damper'),
   fieldsOf('actuator'),
   fieldsOf('sensor'),
 ]
@@ -176,6 +180,7 @@ export function groupsOf(scanned: Scan, before: Group[] = []): Group[] {
     ...shape.bodies.map((name, i) => group(`body.${name}`, `Body “${name}”`, ['body', String(i)], body)),
     ...shape.links.map(([a, b], i) => group(`link.${i}`, `Link ${a} – ${b}`, ['link', String(i)], link)),
     group('loop', 'Loop', ['loop'], loop),
+    group('loop.damper', 'Damper’s own loop', ['loop', 'damper'], damper),
     group('wall', 'Wall', ['wall'], wall),
     ...Array.from({ length: countOf(scanned, 'wall', 'filter') }, (_, i) => {
       const type = textAt(scanned, 'wall', 'filter', String(i), 'type') ?? ''
@@ -206,6 +211,10 @@ export function deviceKey(toml = ''): string {
 /** link.stiffness and link.0.stiffness are one, as are mass and inertia. */
 export const fullKey = (key: string): string => key.replace(/^link\.(?=[a-z])/, 'link.0.').replace(/\.inertia$/, '.mass')
 export const sameKey = (a: string, b: string): boolean => a === b || fullKey(a) === fullKey(b)
+
+/** The period that must be a whole part or multiple of this one; nothing of other numbers. */
+export const otherPeriod = (key: string): string =>
+  ({ 'loop.sampling_period': 'loop.damper.sampling_period', 'loop.damper.sampling_period': 'loop.sampling_period' })[key] ?? ''
 
 /** What the page calls a number: "Body “motor”: mass". */
 export const titleOf = (group: Group, row: Row): string => `${group.title}: ${row.field.label}`

@@ -1,7 +1,7 @@
 // Bodies and links of a device, added and removed in its text. What makes no device, the server says.
 
 import { fullKey, isRotary, sameKey, shapeOf, type Shape } from './keys'
-import { append, find, removeTable, scan, set } from './toml'
+import { append, find, removeTable, scan, set, unset } from './toml'
 
 export type Role = 'actuated' | 'sensed' | 'held'
 export const roles: [Role, string][] = [
@@ -45,6 +45,14 @@ export const newDevice = (motion: 'linear' | 'rotary', name = 'body 1', mass = m
     `name = "new device"\n${motion === 'rotary' ? 'motion = "rotary"\n' : ''}\n[[body]]\nname = "${name}"\n${motion === 'rotary' ? `inertia = ${mass}\ndamping = 1e-4` : `mass = ${mass}\ndamping = 0.1`}\n\n[loop]\nsampling_period = 1e-3\n`,
     [`body.${name}.mass`, `body.${name}.damping`, 'loop.sampling_period'],
   )
+
+/** The text whose damper runs with its spring, in one loop. */
+export function removeDamper(text: string): string {
+  const own = scan(text).entries.filter(({ path }) => path[0] === 'loop' && path[1] === 'damper')
+  if (own.length === 0) return text
+  const without = own.reduce((out, { path }) => unset(confirm(out, path.join('.')), path), text)
+  return removeTable(without, ['loop', 'damper']).replace(/\n+$/, '\n')
+}
 
 const shape = (text: string): Shape => shapeOf(scan(text))
 export const choose = (text: string, role: Role, name: string): string => set(text, ['loop', role], JSON.stringify(name))

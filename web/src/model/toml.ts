@@ -222,6 +222,11 @@ export function removeTable(text: string, path: string[]): string {
   return table ? text.slice(0, table.start) + text.slice(lineEnd(text, table.insertAt)).replace(/^\n+/, '') : text
 }
 
+/** The table, or the inline one around it, within which no header may stand for it. */
+const tableOf = ({ tables }: Scan, path: string[]): Table | undefined =>
+  tables.findLast((each) => samePath(each.path, path)) ??
+  tables.findLast(({ kind, path: own }) => kind === 'inline' && own.every((part, i) => part === path[i]))
+
 /** The text with that value in place of the old one, or added to its table, which is added where it is missing. */
 export function set(text: string, path: string[], raw: string): string {
   const scanned = scan(text)
@@ -229,10 +234,13 @@ export function set(text: string, path: string[], raw: string): string {
   if (entry) return text.slice(0, entry.start) + raw + text.slice(entry.end)
   const parent = path.slice(0, -1)
   const key = path[path.length - 1]!
-  const table = scanned.tables.findLast((each) => samePath(each.path, parent))
+  const table = tableOf(scanned, parent)
   if (!table) return `${text.replace(/\n*$/, '\n')}\n[${parent.join('.')}]\n${key} = ${raw}\n`
   const insert = (what: string): string => text.slice(0, table.insertAt) + what + text.slice(table.insertAt)
-  if (table.kind === 'inline') return insert(table.empty ? ` ${key} = ${raw} ` : `, ${key} = ${raw}`)
+  if (table.kind === 'inline') {
+    const line = `${path.slice(table.path.length).join('.')} = ${raw}`
+    return insert(table.empty ? ` ${line} ` : `, ${line}`)
+  }
   const at = lineEnd(text, table.insertAt)
   const name = table.kind === 'dotted' ? path.join('.') : key
   return `${text.slice(0, at)}\n${name} = ${raw}${text.slice(at)}`
@@ -242,7 +250,7 @@ export function set(text: string, path: string[], raw: string): string {
 export function unset(text: string, path: string[]): string {
   const scanned = scan(text)
   const entry = find(scanned, path)
-  const parent = scanned.tables.findLast((each) => samePath(each.path, path.slice(0, -1)))
+  const parent = tableOf(scanned, path.slice(0, -1))
   if (!entry) return text
   const isInline = parent?.kind === 'inline'
   const before = text.slice(0, entry.start).replace(isInline ? /[^{,]*$/ : /[^\n]*$/, '')

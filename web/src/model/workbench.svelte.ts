@@ -117,10 +117,10 @@ class Workbench {
     if (toml !== this.state.toml) this.change({ toml })
   }
 
-  /** The plain SI number of the file or its default of 0; null where it has a unit of its own or is none. */
+  /** The plain SI number of the file or what holds without it; null where it has a unit of its own or is none. */
   plain(key: string): number | null {
     const row = this.row(key)
-    if (row?.value === undefined) return row?.field.mayBeZero ? 0 : null
+    if (row?.value === undefined) return row?.field.like ? this.plain(row.field.like) : row?.field.mayBeZero ? 0 : null
     const value = written(row.value)
     return value?.unit === null ? value.number : null
   }

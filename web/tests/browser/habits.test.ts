@@ -125,7 +125,7 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   await settled(page)
   await expect
     .poll(() => page.locator('#body-recording').innerText())
-    .toContain(`The device fitted: critical stiffness ${(inTime.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    .toContain(`The device fitted: critical stiffness ${Number((inTime.critical_stiffness / 1000).toPrecision(4))} kN/m`)
   await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
   await page.getByLabel('By', { exact: true }).selectOption('frequency-response')
   await page.getByLabel('Fit', { exact: true }).selectOption('two-body')
@@ -149,7 +149,7 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   ) as { critical_stiffness: number }
   await expect
     .poll(() => page.locator('#body-recording').innerText())
-    .toContain(`The device fitted: critical stiffness ${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    .toContain(`The device fitted: critical stiffness ${Number((held.critical_stiffness / 1000).toPrecision(4))} kN/m`)
   await page.getByRole('button', { name: 'Use this device' }).click()
   await settled(page)
   await expect.poll(() => page.locator('[data-answer="example"]').count()).toBe(0)
@@ -179,7 +179,7 @@ it('shows the limits while one works further down, and with a user the limit tha
     await settled(page)
     await expect
       .poll(() => page.locator('[data-answer="user"]').innerText())
-      .toBe(`${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+      .toBe(`${Number((held.critical_stiffness / 1000).toPrecision(4))} kN/m`)
     expect(complaints).toEqual([])
     await context.close()
   }

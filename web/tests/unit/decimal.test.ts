@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { percent, say, shifted, shown, tomlOfNumber, tomlOfTyped, written } from '../../src/model/decimal'
+import { percent, say, shifted, shown, tomlOfNumber, tomlOfTyped, wholeRatio, written } from '../../src/model/decimal'
 
 describe('decimal', () => {
   it('moves the point without rounding', () => {
@@ -60,5 +60,14 @@ describe('decimal', () => {
     expect(written(0.3)).toEqual({ number: 0.3, unit: null })
     expect(written('0,01')).toBeNull() // a comma is no unit
     expect(tomlOfNumber(1e21)).toBe('1e21')
+  })
+
+  it('goes from period to period that fit', () => {
+    expect(wholeRatio(1.3e-4, 1e-3)).toBe(1.25e-4)
+    expect(wholeRatio(2.4e-3, 1e-3)).toBe(2e-3)
+    expect(wholeRatio(1.01e-4, 1e-3, 1e-4)).toBe(1.11111111111e-4)
+    expect(wholeRatio(0.99e-4, 1e-3, 1e-4)).toBe(9.09090909091e-5)
+    expect(wholeRatio(1.01e-3, 1e-3, 1e-3)).toBe(2e-3)
+    expect(wholeRatio(1e-9, 1e-3)).toBe(1e-6)
   })
 })

@@ -1,5 +1,6 @@
 import { readFileSync, readdirSync } from 'node:fs'
 import { describe, expect, it } from 'vitest'
+import { setsFrom } from '../../src/model/commands'
 import { groupsOf, shapeOf } from '../../src/model/keys'
 import {
   addBody,
@@ -11,6 +12,7 @@ import {
   newDevice,
   newLinkedDevice,
   removeBody,
+  removeDamper,
   removeLink,
 } from '../../src/model/parts'
 import { find, scan, set, unset, withoutComments } from '../../src/model/toml'
@@ -153,6 +155,19 @@ describe('assumed numbers', () => {
     expect(assumedKeys(removeLink(confirm(three, 'link.1.damping'), 0))).toEqual(['body.handle.mass', 'body.knob.mass', 'link.0.stiffness'])
     expect(assumedKeys(removeBody(three, 'handle'))).toEqual(['body.knob.mass'])
     expect(removeBody(removeBody(three, 'handle'), 'knob')).not.toContain('uncertainty')
+  })
+  it('go with the damper’s own loop, which comes and goes in any kind of table', () => {
+    const damped = set(set(lhifam, ['loop', 'damper', 'sampling_period'], '1e-4'), ['loop', 'damper', 'delay'], '0')
+    expect(damped).toContain('\n[loop.damper]\nsampling_period = 1e-4\ndelay = 0\n')
+    expect(setsFrom(lhifam, damped)).toEqual(['loop.damper.sampling_period=1e-4', 'loop.damper.delay=0'])
+    expect(removeDamper(damped)).toBe(lhifam)
+    expect(removeDamper(lhifam)).toBe(lhifam)
+    const assumed = `${damped}\n[uncertainty]\nassumed = ["loop.delay", "loop.damper.delay"]\n`
+    expect(assumedKeys(removeDamper(assumed))).toEqual(['loop.delay'])
+    const inline = 'loop = { sampling_period = 1e-3 }\n'
+    const within = set(inline, ['loop', 'damper', 'delay'], '0')
+    expect(within).toBe('loop = { sampling_period = 1e-3, damper.delay = 0 }\n')
+    expect(removeDamper(within)).toBe(inline)
   })
   it('leave what else is said of the uncertainty', () => {
     const doubted = '[[body]]\nname = "a"\nmass = 1\n\n[uncertainty]\nwarning = "w" # why\nassumed = ["body.a.mass"]\n'

@@ -14,6 +14,6 @@ void add_actuator_lag(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival actuator_lag() { return {"actuator_lag", add_actuator_lag, RivalMeasure::time}; }
+Rival actuator_lag() { return {"actuator_lag", add_actuator_lag, RivalMeasure::time, true}; }
 
 }  // namespace zwidth::internal

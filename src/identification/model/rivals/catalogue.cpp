@@ -7,6 +7,24 @@
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
+namespace {
+
+/// What each that is `wanted` adds, in their order.
+template <class Wanted>
+std::vector<AddedRival> add_each(const RivalSetting& setting, ModelParts& parts, Wanted wanted) {
+  std::vector<AddedRival> added;
+  for (const Rival& rival : rivals()) {
+    if (!wanted(rival)) continue;
+    const std::size_t before = parts.numbers.size();
+    rival.add(setting, parts);
+    AddedRival each{rival.code, {}, rival.measure};
+    for (std::size_t i = before; i < parts.numbers.size(); ++i) each.keys.push_back(parts.numbers[i].key);
+    if (!each.keys.empty()) added.push_back(std::move(each));
+  }
+  return added;
+}
+
+}  // namespace
 
 std::span<const Rival> rivals() {
   static const std::array all = {constant_force(),    coulomb_friction(), presliding(),     drag(),
@@ -16,20 +34,17 @@ std::span<const Rival> rivals() {
 }
 
 std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts) {
-  std::vector<AddedRival> added;
-  for (const Rival& rival : rivals()) {
-    const std::size_t before = parts.numbers.size();
-    rival.add(setting, parts);
-    AddedRival each{rival.code, {}, rival.measure};
-    for (std::size_t i = before; i < parts.numbers.size(); ++i) each.keys.push_back(parts.numbers[i].key);
-    if (!each.keys.empty()) added.push_back(std::move(each));
-  }
+  std::vector<AddedRival> added = add_each(setting, parts, [](const Rival&) { return true; });
   const auto others = std::ranges::stable_partition(
       parts.numbers, [&](const Number& number) { return parameter(setting.device, number.key).has_value(); });
   std::ranges::stable_partition(others, [](const Number& number) {
     return number.key == key_of_damping_drift || number.key == key_of_delay_drift;
   });
   return added;
+}
+
+std::vector<AddedRival> add_linear_rivals(const RivalSetting& setting, ModelParts& parts) {
+  return add_each(setting, parts, [](const Rival& rival) { return rival.is_linear; });
 }
 
 }  // namespace zwidth::internal

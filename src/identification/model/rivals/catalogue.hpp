@@ -28,5 +28,7 @@ namespace zwidth::internal {
 /// Adds every rival to the parts that have the device's numbers, and puts those of the device first, as DeviceFamily takes them,
 /// behind them its drifts.
 std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts);
+/// Those alone that are linear: all that shows in a response.
+std::vector<AddedRival> add_linear_rivals(const RivalSetting& setting, ModelParts& parts);
 
 }  // namespace zwidth::internal

@@ -19,6 +19,6 @@ void add_ground_spring(const RivalSetting& setting, ModelParts& parts) {
 
 }  // namespace
 
-Rival ground_spring() { return {"ground_spring", add_ground_spring, RivalMeasure::stiffness}; }
+Rival ground_spring() { return {"ground_spring", add_ground_spring, RivalMeasure::stiffness, true}; }
 
 }  // namespace zwidth::internal

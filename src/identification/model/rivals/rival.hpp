@@ -59,6 +59,7 @@ struct Rival {
   /// Nothing where the setting rules it out, or the parts have its numbers.
   void (*add)(const RivalSetting& setting, ModelParts& parts);
   RivalMeasure measure = RivalMeasure::force;  ///< of its numbers
+  bool is_linear = false;                      ///< a response shows it too
 };
 
 }  // namespace zwidth::internal

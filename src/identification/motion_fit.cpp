@@ -1,0 +1,187 @@
+#include "identification/motion_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "identification/contradicted_numbers.hpp"
+#include "identification/model/number_keys.hpp"
+#include "identification/motion_search.hpp"
+#include "identification/verdict/confidence.hpp"
+#include "identification/verdict/limit_instant.hpp"
+#include "identification/verdict/log_critical_stiffness.hpp"
+#include "identification/verdict/profile.hpp"
+#include "identification/verdict/segment_residuals.hpp"
+#include "identification/verdict/widening.hpp"
+#include "model/loop_keys.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+/// The limit over the fits that are as likely, before what is left is asked.
+struct LimitRange {
+  double instant = 0.5;  ///< of a record: 0 its beginning, 1 its end
+  double best = 0.0;     ///< logarithms
+  ProfileEnd low;
+  ProfileEnd high;
+  double last_change = 0.0;  ///< of ends that were stopped, and of a best that still gave way to a better one
+};
+
+/// The limit of a found motion, nobody holding, no damper.
+class LimitOfMotion {
+ public:
+  explicit LimitOfMotion(FoundMotion& found) : found_(found) {}
+
+  /// log K_CR at an instant of a record, 0 to 1; nothing where there is none.
+  [[nodiscard]] std::optional<double> at(const Eigen::VectorXd& z, double instant) const {
+    return log_critical_stiffness(found_.model->family().device_at(z, instant));
+  }
+
+  /// An end that is more likely than the best was none: the search goes on from there.
+  [[nodiscard]] std::optional<LimitRange> range() {
+    constexpr int most_begins = 4;
+    constexpr MinimiseOptions fine{.most_steps = 15, .least_gain = 0.02};
+    std::optional<LimitRange> range;
+    for (int begins = 0; begins < most_begins; ++begins) {
+      const auto instant = instant_at_best();
+      if (!instant) return std::nullopt;
+      const double best = at(found_.best.z, *instant).value_or(0.0);
+      range = LimitRange{*instant, best, end(*instant, -1.0), {best, found_.best.z}};
+      if (!range->low.found_better) range->high = end(*instant, 1.0);
+      const ProfileEnd& better = range->low.found_better ? range->low : range->high;
+      range->last_change = std::max(range->low.last_change, range->high.last_change);
+      if (!better.found_better) return range;
+      auto again = minimise(*found_.likelihood, better.z, fine);
+      if (!again) return range;
+      found_.best = *std::move(again);
+    }
+    if (const auto last = at(found_.best.z, range->instant)) range->last_change = std::abs(*last - range->best);
+    return range;
+  }
+
+  /// How log K_CR hangs on the numbers.
+  [[nodiscard]] Eigen::VectorXd slope(double instant) const {
+    return slope_of([&](const Eigen::VectorXd& z) { return at(z, instant); }, found_.best.z,
+                    found_.model->family().of_limit(), found_.likelihood->lowest());
+  }
+
+ private:
+  [[nodiscard]] std::optional<double> instant_at_best() const {
+    const DeviceFamily& family = found_.model->family();
+    return limit_instant([&](const Eigen::VectorXd& z, double instant) { return at(z, instant); }, found_.best,
+                         family.of_device(), family.of_limit());
+  }
+  [[nodiscard]] ProfileEnd end(double instant, double direction) const {
+    return profile_end(
+        *found_.likelihood, found_.best, [&](const Eigen::VectorXd& z) { return at(z, instant); },
+        found_.model->family().of_limit(), direction, rise_of_95);
+  }
+
+  FoundMotion& found_;
+};
+
+std::vector<FittedMotion> motions_of(const FoundMotion& found, std::span<const Recording> recordings,
+                                     const FoundDevice& device) {
+  const auto numbers = static_cast<Eigen::Index>(found.model->numbers().size());
+  const auto left =
+      found.evidence->residuals(found.best.z.head(numbers), found.best.z.tail(found.best.z.size() - numbers));
+  std::vector<FittedMotion> motions;
+  for (std::size_t record = 0; record < recordings.size(); ++record) {
+    const Recording& recording = recordings[record];
+    FittedMotion motion;
+    motion.source = recording.source;
+    motion.sampling_period = recording.sampling_period;
+    motion.noise = found.evidence->noise()[record].deviation;
+    motion.recorded = recording.channels[1].samples;
+    motion.residuals.assign(motion.recorded.size(), 0.0);
+    std::size_t fitted = 0;
+    for (std::size_t i = 0; left && i < left->size(); ++i) {
+      const Segment& segment = found.evidence->segments()[i];
+      if (segment.record != record) continue;
+      fitted += segment.count;
+      for (std::size_t k = 0; k < segment.count; ++k)
+        motion.residuals[segment.first + k] = -(*left)[i](static_cast<Eigen::Index>(k));
+    }
+    const Eigen::Map<const Eigen::VectorXd> recorded(motion.recorded.data(),
+                                                     static_cast<Eigen::Index>(motion.recorded.size()));
+    const Eigen::Map<const Eigen::VectorXd> rest(motion.residuals.data(), recorded.size());
+    const double deviation = std::sqrt((recorded.array() - recorded.mean()).square().mean());
+    if (deviation > 0.0 && fitted > 0)
+      motion.unexplained = rest.norm() / std::sqrt(static_cast<double>(fitted)) / deviation;
+    for (Eigen::Index i = 0; i < numbers; ++i) {
+      const Number& number = device.best.numbers[static_cast<std::size_t>(i)];
+      if (number.key != constant_force_key(record)) continue;
+      motion.constant_force = number.value(device.best.x(i));
+      motion.constant_force_deviation =
+          number.slope(device.best.x(i)) * std::sqrt(std::max(0.0, device.best.covariance(i, i)));
+    }
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+/// What the data alone say of a delay that is given: the fit's less what was believed.
+std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNumbers& best, const LimitOfMotion& limit,
+                                         double instant) {
+  const auto place = std::ranges::find(best.numbers, key_of_delay, &Number::key);
+  if (place == best.numbers.end() || !std::isfinite(place->prior_deviation)) return std::nullopt;
+  const auto i = static_cast<Eigen::Index>(place - best.numbers.begin());
+  const double believed = 1.0 / (place->prior_deviation * place->prior_deviation);
+  const double told = 1.0 / best.covariance(i, i) - believed;
+  constexpr double least_told = 1e-3;
+  if (!(told > least_told * believed)) return std::nullopt;
+  const double shown = (best.x(i) * (told + believed) - place->expected * believed) / told;
+  Eigen::VectorXd z = found.best.z;
+  z.head(best.x.size()) += best.covariance.col(i) / best.covariance(i, i) * (shown - best.x(i));
+  z = z.cwiseMax(found.likelihood->lowest());
+  const auto then = limit.at(z, instant);
+  return GivenDelay{.given = place->unit * place->expected,
+                    .shown = place->unit * shown,
+                    .deviation = place->unit / std::sqrt(told),
+                    .sampling_period = place->unit,
+                    .stiffness = then ? std::exp(*then) : best.stiffness};
+}
+
+}  // namespace
+
+std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const FrequencyResponse& response,
+                                    const Device& structure, const MotionFitOptions& options) {
+  const MotionStart start = motion_start(recordings, response, structure, options.free);
+  auto motion = found_motion(start, options.free.locked, {options.segment, options.limits, options.tell});
+  if (!motion) return std::nullopt;
+  LimitOfMotion limit(*motion);
+  const auto range = limit.range();
+  if (!range) return std::nullopt;
+
+  const std::vector<Number>& numbers = motion->model->numbers();
+  const auto count = static_cast<Eigen::Index>(numbers.size());
+  const Eigen::VectorXd slope = limit.slope(range->instant);
+  Eigen::VectorXd precision(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    precision(i) = std::pow(numbers[static_cast<std::size_t>(i)].prior_deviation, -2.0);
+  MotionFit fit;
+  const auto segments = segment_residuals(*motion->evidence, motion->best.z);
+  const double wider = segments ? widening(*segments, {slope.head(count), precision}) : 1.0;
+  if (segments) fit.omnibus = omnibus(*segments);
+  FoundDevice& found = fit.found;
+  found.device = motion->model->family().device_at(motion->best.z, range->instant);
+  found.rivals = start.rivals;
+  found.last_change = std::max(range->last_change, last_change(motion->best, slope));
+  found.best = {
+      .numbers = numbers,
+      .x = motion->best.z.head(count),
+      .covariance = covariance_of(motion->best.picture.hessian).topLeftCorner(count, count),
+      .stiffness_slope = slope.head(count),
+      .stiffness = std::exp(range->best),
+      .interval = widened({range->best, range->low.value, range->high.value,
+                           std::sqrt(std::max(0.0, slope.dot(covariance_times(motion->best.picture.hessian, slope))))},
+                          wider),
+      .motion = structure.parameters().motion};
+  fit.motions = motions_of(*motion, recordings, found);
+  fit.contradicted =
+      contradicted_numbers(*motion, start, options.free.locked, found.best.interval, recordings.front().source);
+  fit.delay = given_delay_of(*motion, found.best, limit, range->instant);
+  return fit;
+}
+
+}  // namespace zwidth::internal
