@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -22,8 +23,10 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int most_steps = 100;
-constexpr double settled = 1e-13;               // m or rad, of a step
-constexpr double closed = 1e-9;                 // m or rad, of a loop
+constexpr double short_way = 0.1;        // m or rad, of a joint that is given: loops stay put together as they are
+constexpr double most_of_a_way = 100.0;  // steps
+constexpr double settled = 1e-13;        // m or rad, of a step
+constexpr double closed = 1e-9;          // m or rad, of a loop
 constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
 
 [[noreturn]] void refuse_file(const char* why) {
@@ -71,12 +74,13 @@ class Posed {
     data_.reset(mj_makeData(model_.get()));
     mj_resetData(model_.get(), data_.get());
     is_given_.assign(static_cast<std::size_t>(model_->njnt), false);
-    for (const auto& [joint, position] : file.pose) {
+    std::vector<Way> ways;
+    for (const auto& [joint, to] : file.pose) {
       const int of = index(mjOBJ_JOINT, "joint", joint);
-      data_->qpos[of] = position;  // of hinges and slides, each has one
+      ways.push_back({.joint = of, .from = data_->qpos[of], .to = to});  // of hinges and slides, each has one
       is_given_[static_cast<std::size_t>(of)] = true;
     }
-    settle();
+    go(ways);
   }
 
   [[nodiscard]] int index(mjtObj kind, const char* called, const std::string& wanted) const {
@@ -154,8 +158,30 @@ class Posed {
     if (at.cables.rows() == 0) at.cables.resize(0, n);
   }
 
-  // Joints that are not given close the loops; those of them that motors drive follow their cables.
-  void settle() {
+  struct Way {
+    int joint;
+    double from, to;
+  };
+
+  // A loop closes in several ways: of them, the one that the file's leads to.
+  void go(const std::vector<Way>& ways) {
+    double farthest = 0.0;
+    for (const Way& each : ways) farthest = std::max(farthest, std::abs(each.to - each.from));
+    const bool at_once = model_->neq == 0 || !(farthest > short_way);
+    const int steps = at_once ? 1 : static_cast<int>(std::min(std::ceil(farthest / short_way), most_of_a_way));
+    double open = 0.0;
+    for (int step = 1; step <= steps; ++step) {
+      for (const Way& each : ways) {
+        data_->qpos[each.joint] = step == steps ? each.to : each.from + (each.to - each.from) * step / steps;
+      }
+      open = settle();
+    }
+    if (!(open <= closed))
+      refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
+  }
+
+  // Joints that are not given close the loops; those of them that motors drive follow their cables. How far loops stay open.
+  double settle() {
     const int n = model_->nv;
     std::vector<bool> is_driven(static_cast<std::size_t>(n), false);
     for (int i = 0; i < model_->nu; ++i) {
@@ -167,7 +193,7 @@ class Posed {
       mj_fwdPosition(model_.get(), data_.get());
       const int loops = data_->ne;
       const int equations = loops + model_->ntendon;
-      if (equations == 0) return;
+      if (equations == 0) return 0.0;
       Eigen::VectorXd off = Eigen::VectorXd::Zero(equations);
       Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(equations, n);
       off.head(loops) = Eigen::Map<const Eigen::VectorXd>(data_->efc_pos, loops);
@@ -190,8 +216,7 @@ class Posed {
       Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
     }
     mj_fwdPosition(model_.get(), data_.get());
-    if (!(open <= closed))
-      refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
+    return open;
   }
 
   static bool is_unmoved(const Eigen::RowVectorXd& slope) { return slope.cwiseAbs().maxCoeff() == 0.0; }
