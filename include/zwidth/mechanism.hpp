@@ -33,8 +33,9 @@ struct MechanismFile {
 ///
 ///     M q'' + (sum d w w') q' + (sum k w w') q = A_m' tau,   y = A_e q,   x = J q
 struct MechanismAtPose {
-  Eigen::MatrixXd mass;                        ///< M, n x n
-  std::vector<Coordinates::Element> elements;  ///< springs and dampers of joints and cables
+  Eigen::MatrixXd mass;                          ///< M, n x n
+  std::vector<Coordinates::Element> elements;    ///< springs and dampers of joints and cables
+  std::vector<Coordinates::Friction> frictions;  ///< of joints and cables
   Eigen::MatrixXd cables;    ///< T, whose lengths T q the controller takes for constant: those with stiffness
   Eigen::MatrixXd motors;    ///< A_m: a row a motor
   Eigen::MatrixXd encoders;  ///< A_e: a row an encoder

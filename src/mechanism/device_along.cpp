@@ -72,6 +72,7 @@ Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& nor
   const Eigen::MatrixXd mass = 0.5 * (mechanism.mass + mechanism.mass.transpose());
   coordinates.mass.assign(mass.data(), mass.data() + mass.size());
   coordinates.elements = mechanism.elements;
+  coordinates.frictions = mechanism.frictions;
   parameters.loop.held = point(coordinates.points, "tip", along);
   parameters.loop.sensed = point(coordinates.points, "encoders", sensed);
   parameters.loop.actuated = point(coordinates.points, "motors", actuated);

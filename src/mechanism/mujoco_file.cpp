@@ -141,16 +141,19 @@ class Posed {
 
   void add_elements(MechanismAtPose& at) const {
     const int n = model_->nv;
-    const auto add = [&](const Eigen::VectorXd& along, double stiffness, double damping) {
+    const auto add = [&at](const Eigen::VectorXd& along, double stiffness, double damping, double friction) {
       if (stiffness > 0.0 || damping > 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
+      if (friction > 0.0) at.frictions.push_back({{along.begin(), along.end()}, friction});
     };
     for (int joint = 0; joint < n; ++joint) {
-      add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint]);
+      add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint],
+          model_->dof_frictionloss[joint]);
     }
     const Rows lengths = Eigen::Map<const Rows>(data_->ten_J, model_->ntendon, n);
     for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
       const double stiffness = model_->tendon_stiffness[tendon];
-      add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon]);
+      add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
+          model_->tendon_frictionloss[tendon]);
       if (!(stiffness > 0.0)) continue;
       at.cables.conservativeResize(at.cables.rows() + 1, n);
       at.cables.bottomRows(1) = lengths.row(tendon);

@@ -21,6 +21,7 @@ void add_coordinate(MechanismAtPose& mechanism, double inertia) {
   mechanism.mass.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, n + 1));
   mechanism.mass(n, n) = inertia;
   for (Coordinates::Element& each : mechanism.elements) each.weights.push_back(0.0);
+  for (Coordinates::Friction& each : mechanism.frictions) each.weights.push_back(0.0);
   for (Eigen::MatrixXd* rows : {&mechanism.cables, &mechanism.motors, &mechanism.encoders, &mechanism.tip}) {
     rows->conservativeResizeLike(Eigen::MatrixXd::Zero(rows->rows(), n + 1));
   }
@@ -51,9 +52,16 @@ void add_transmission(MechanismAtPose& mechanism, Eigen::Index joint, const Tran
 MechanismAtPose with_loops(const MechanismAtPose& mechanism, const Eigen::MatrixXd& free_motions) {
   MechanismAtPose result;
   result.mass = free_motions.transpose() * mechanism.mass * free_motions;
-  for (const auto& [weights, stiffness, damping] : mechanism.elements) {
+  const auto in_free_motions = [&free_motions](const std::vector<double>& weights) -> Eigen::VectorXd {
     const Eigen::Map<const Eigen::VectorXd> along(weights.data(), static_cast<Eigen::Index>(weights.size()));
-    add_element(result, free_motions.transpose() * along, stiffness, damping);
+    return free_motions.transpose() * along;
+  };
+  for (const auto& [weights, stiffness, damping] : mechanism.elements) {
+    add_element(result, in_free_motions(weights), stiffness, damping);
+  }
+  for (const auto& [weights, force] : mechanism.frictions) {
+    const Eigen::VectorXd along = in_free_motions(weights);
+    result.frictions.push_back({{along.begin(), along.end()}, force});
   }
   result.cables = mechanism.cables * free_motions;
   result.motors = mechanism.motors * free_motions;

@@ -66,6 +66,13 @@ std::optional<DeviceProblem> find_coordinates_problem(const DeviceParameters& pa
       return device_problem(key, {.code = ProblemCode::link_of_nothing});
     }
   }
+  for (std::size_t i = 0; i < of.frictions.size(); ++i) {
+    const std::string key = fmt::format("coordinates.frictions.{}", i);
+    if (!are_weights(of.frictions[i].weights, n)) return refused(key, ProblemCode::weights_not_one_a_coordinate);
+    const double force = of.frictions[i].force;
+    if (not_negative_numbers.contains(force) && force > 0.0) continue;
+    return device_problem(key, {.code = ProblemCode::no_finite_number, .evidence = {{"value", force}}});
+  }
   if (!is_mass_matrix(of.mass, n)) return refused("coordinates.mass", ProblemCode::no_mass_matrix);
   return std::nullopt;
 }

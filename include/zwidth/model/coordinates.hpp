@@ -18,14 +18,20 @@ struct Coordinates {
     double stiffness = 0.0;       ///< >= 0
     double damping = 0.0;         ///< >= 0, and stiffness + damping > 0
   };
+  /// Coulomb friction along a length w' q; no limit depends on it.
+  struct Friction {
+    std::vector<double> weights;  ///< n
+    double force = 0.0;           ///< > 0
+  };
   /// What moves by w' q.
   struct Point {
     std::string name;             ///< for people
     std::vector<double> weights;  ///< n, not all 0
   };
-  std::vector<double> mass;       ///< n x n, row by row; symmetric and positive definite
-  std::vector<Element> elements;  ///< all that is stiff or damped
-  std::vector<Point> points;      ///< what the loop can name
+  std::vector<double> mass;              ///< n x n, row by row; symmetric and positive definite
+  std::vector<Element> elements;         ///< all that is stiff or damped
+  std::vector<Point> points;             ///< what the loop can name
+  std::vector<Friction> frictions = {};  ///< all that rubs
   /// n
   [[nodiscard]] std::size_t size() const noexcept { return points.empty() ? 0 : points.front().weights.size(); }
 };
