@@ -1,8 +1,13 @@
 // Mechanism files by MuJoCo, which no other file knows.
 
+#include "mechanism/mujoco_file.hpp"
+
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -11,13 +16,11 @@
 
 #include "mechanism/refusal.hpp"
 #include "mechanism/transmissions.hpp"
-#include "zwidth/mechanism.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
 
-namespace zwidth {
-using internal::refuse_mechanism;
+namespace zwidth::internal {
 namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -29,8 +32,17 @@ constexpr double settled = 1e-13;        // m or rad, of a step
 constexpr double closed = 1e-9;          // m or rad, of a loop
 constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
 
+// On one line, whatever names the file gives.
+std::string plain(const char* said) {
+  std::string text(said);
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.pop_back();
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
 [[noreturn]] void refuse_file(const char* why) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", why}}});
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
 }
 
 // MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
@@ -57,13 +69,39 @@ class Handlers {
   void (*warning_)(const char*);
 };
 
+// MuJoCo looks for files among these first, and they name no others.
+class Texts {
+ public:
+  explicit Texts(const std::vector<MechanismText>& texts) {
+    mj_defaultVFS(files_.get());
+    for (const MechanismText& each : texts) {
+      mj_makeEmptyFileVFS(files_.get(), each.name.c_str(), static_cast<int>(each.text.size()));
+      const int at = mj_findFileVFS(files_.get(), each.name.c_str());
+      if (at < 0) refuse_file("too many files");
+      std::memcpy(files_->filedata[at], each.text.data(), each.text.size());
+    }
+  }
+  [[nodiscard]] const mjVFS* get() const { return files_.get(); }
+
+ private:
+  struct Delete {
+    void operator()(mjVFS* files) const {
+      mj_deleteVFS(files);
+      delete files;
+    }
+  };
+  std::unique_ptr<mjVFS, Delete> files_{new mjVFS};
+};
+
 // A model and its state, at a pose.
 class Posed {
  public:
-  explicit Posed(const MechanismFile& file) {
+  Posed(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+    const Texts given(texts);
     char why[1000] = "";
-    model_.reset(mj_loadXML(file.path.c_str(), nullptr, why, sizeof why));
+    model_.reset(mj_loadXML(texts.front().name.c_str(), given.get(), why, sizeof why));
     if (!model_) refuse_file(why);
+    if (model_->njnt == 0) refuse_file("it has no joint");
     for (int joint = 0; joint < model_->njnt; ++joint) {
       if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
       refuse_mechanism("mechanism.file",
@@ -76,19 +114,31 @@ class Posed {
     is_given_.assign(static_cast<std::size_t>(model_->njnt), false);
     std::vector<Way> ways;
     for (const auto& [joint, to] : file.pose) {
-      const int of = index(mjOBJ_JOINT, "joint", joint);
+      const std::string key = fmt::format("mechanism.pose.{}", joint);
+      const int of = index(key, mjOBJ_JOINT, joint);
+      const bool slides = model_->jnt_type[of] == mjJNT_SLIDE;
+      const auto unit = file.units_of_pose.find(joint);
+      if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
+        std::vector<Subject> subjects{{"name", joint}};
+        if (slides) subjects.push_back({"slides", "slides"});
+        refuse_mechanism(key.c_str(), {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
+      }
       ways.push_back({.joint = of, .from = data_->qpos[of], .to = to});  // of hinges and slides, each has one
       is_given_[static_cast<std::size_t>(of)] = true;
     }
     go(ways);
   }
 
-  [[nodiscard]] int index(mjtObj kind, const char* called, const std::string& wanted) const {
+  [[nodiscard]] int index(const std::string& key, mjtObj kind, const std::string& wanted) const {
     const int found = mj_name2id(model_.get(), kind, wanted.c_str());
-    if (found < 0)
-      refuse_mechanism("mechanism",
-                       {.code = ProblemCode::no_such_part, .subjects = {{"kind", called}, {"name", wanted}}});
-    return found;
+    if (found >= 0) return found;
+    std::string names;
+    for (int i = 0; i < (kind == mjOBJ_JOINT ? model_->njnt : kind == mjOBJ_SITE ? model_->nsite : 0); ++i) {
+      names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", plain(name(kind, i).c_str()));
+    }
+    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "site or body"}, {"name", wanted}};
+    if (!names.empty()) subjects.push_back({"names", names});
+    refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
   }
 
   // Motions that the loops leave free: q' = Z z'.
@@ -111,7 +161,7 @@ class Posed {
     add_elements(at);
     at.motors = Eigen::Map<const Rows>(data_->actuator_moment, model_->nu, n);
     std::vector<int> read;
-    for (const std::string& each : file.encoders) read.push_back(index(mjOBJ_JOINT, "joint", each));
+    for (const std::string& each : file.encoders) read.push_back(index("mechanism.encoders", mjOBJ_JOINT, each));
     for (int i = 0; file.encoders.empty() && i < model_->nu; ++i) {
       const int joint = model_->actuator_trnid[2 * i];
       const bool is_new = std::ranges::find(read, joint) == read.end();
@@ -130,11 +180,11 @@ class Posed {
 
   [[nodiscard]] Eigen::MatrixXd tip(const std::string& wanted) const {
     Rows jacobian(3, model_->nv);
-    const int site = mj_name2id(model_.get(), mjOBJ_SITE, wanted.c_str());
-    if (site >= 0) {
-      mj_jacSite(model_.get(), data_.get(), jacobian.data(), nullptr, site);
+    const int body = mj_name2id(model_.get(), mjOBJ_BODY, wanted.c_str());
+    if (mj_name2id(model_.get(), mjOBJ_SITE, wanted.c_str()) < 0 && body >= 0) {
+      mj_jacBody(model_.get(), data_.get(), jacobian.data(), nullptr, body);
     } else {
-      mj_jacBody(model_.get(), data_.get(), jacobian.data(), nullptr, index(mjOBJ_BODY, "tip", wanted));
+      mj_jacSite(model_.get(), data_.get(), jacobian.data(), nullptr, index("mechanism.tip", mjOBJ_SITE, wanted));
     }
     return jacobian;
   }
@@ -142,8 +192,8 @@ class Posed {
   void add_elements(MechanismAtPose& at) const {
     const int n = model_->nv;
     const auto add = [&at](const Eigen::VectorXd& along, double stiffness, double damping, double friction) {
-      if (stiffness > 0.0 || damping > 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
-      if (friction > 0.0) at.frictions.push_back({{along.begin(), along.end()}, friction});
+      if (stiffness != 0.0 || damping != 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
+      if (friction != 0.0) at.frictions.push_back({{along.begin(), along.end()}, friction});
     };
     for (int joint = 0; joint < n; ++joint) {
       add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint],
@@ -154,7 +204,7 @@ class Posed {
       const double stiffness = model_->tendon_stiffness[tendon];
       add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
           model_->tendon_frictionloss[tendon]);
-      if (!(stiffness > 0.0)) continue;
+      if (stiffness == 0.0) continue;
       at.cables.conservativeResize(at.cables.rows() + 1, n);
       at.cables.bottomRows(1) = lengths.row(tendon);
     }
@@ -219,6 +269,7 @@ class Posed {
       Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
     }
     mj_fwdPosition(model_.get(), data_.get());
+    if (data_->warning[mjWARN_CNSTRFULL].number > 0) refuse_file("it has too many loops");
     return open;
   }
 
@@ -235,12 +286,14 @@ class Posed {
 
 }  // namespace
 
-MechanismAtPose at_pose(const MechanismFile& file) {
+MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
   const Handlers handlers;
-  const Posed posed(file);
+  const Posed posed(file, texts);
   MechanismAtPose at = posed.whole(file);
-  for (const Transmission& each : file.transmissions) {
-    internal::add_transmission(at, posed.index(mjOBJ_JOINT, "joint", each.joint), each, file.encoders.empty());
+  for (std::size_t i = 0; i < file.transmissions.size(); ++i) {
+    const Transmission& each = file.transmissions[i];
+    const int joint = posed.index(fmt::format("transmission.{}.joint", i), mjOBJ_JOINT, each.joint);
+    add_transmission(at, joint, each, file.encoders.empty());
   }
   if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
   const Eigen::MatrixXd of_joints = posed.free_motions();
@@ -249,16 +302,16 @@ MechanismAtPose at_pose(const MechanismFile& file) {
   Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
   free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
   free.bottomRightCorner(motors, motors).setIdentity();
-  return internal::with_loops(at, free);
+  return with_loops(at, free);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal
 #else
-namespace zwidth {
+namespace zwidth::internal {
 
-MechanismAtPose at_pose(const MechanismFile&) {
-  internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+MechanismAtPose mujoco_at_pose(const MechanismFile&, const std::vector<MechanismText>&) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal
 #endif
