@@ -11,6 +11,7 @@
 #include <deque>
 #include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -183,7 +184,7 @@ double growth(SampledWall& wall, double stiffness, double frequency, double* lar
 
 unsigned mechanisms() {
   const char* wanted = std::getenv("ZWIDTH_MECHANISM_CASES");
-  return wanted != nullptr ? static_cast<unsigned>(std::atoi(wanted)) : test::by_tier(8U, 100U);
+  return wanted != nullptr ? static_cast<unsigned>(std::stoul(wanted)) : test::by_tier(8U, 100U);
 }
 
 TEST(SimulatedWall, grows_above_the_limit_and_decays_below_it) {

@@ -34,6 +34,16 @@ TEST(Coordinates, are_refused_where_they_make_no_device) {
       {"negative_stiffness", [](auto& d) { d.coordinates->elements[4].stiffness = -1.0; }, "coordinates.elements.4",
        no_finite_number},
       {"neither", [](auto& d) { d.coordinates->elements[0].damping = 0.0; }, "coordinates.elements.0", link_of_nothing},
+      {"friction_of_nothing",
+       [](auto& d) {
+         d.coordinates->frictions.push_back({{0.0, 0.0, 0.0, 0.0}, 1.0});
+       },
+       "coordinates.frictions.0", weights_not_one_a_coordinate},
+      {"friction_of_no_force",
+       [](auto& d) {
+         d.coordinates->frictions.push_back({{1.0, 0.0, 0.0, 0.0}, 0.0});
+       },
+       "coordinates.frictions.0", no_finite_number},
       {"asymmetric_mass", [](auto& d) { d.coordinates->mass[1] *= 1.5; }, "coordinates.mass", no_mass_matrix},
       {"indefinite_mass", [](auto& d) { d.coordinates->mass[15] = 0.0; }, "coordinates.mass", no_mass_matrix},
       {"no_such_point", [](auto& d) { d.loop.held = 2; }, "loop.held", no_body_number},
