@@ -160,7 +160,9 @@ class DeviceReader {
       TableReader reader(reading_, *table, fmt::format("transmission.{}", transmissions.size()));
       reader.refuse_keys_not_of(DeviceTable::transmission);
       if (!reader.has("joint")) reader.refuse_missing("joint", {"text"});
-      read_members(reader, DeviceTable::transmission, transmissions.emplace_back());
+      Transmission& transmission = transmissions.emplace_back();
+      transmission.joint = reader.text("joint").value_or("");
+      read_members(reader, DeviceTable::transmission, transmission);
     }
     reading_.set_motion(device_.motion);
   }

@@ -118,7 +118,11 @@ void write_mechanism(const DeviceParameters& device, Writer& out) {
   out.value("normal", array_value({normal.begin(), normal.end()}));
   if (!mechanism.pose.empty()) out.header(DeviceTable::mechanism_pose);
   for (const auto& [joint, position] : mechanism.pose) out.value(text_value(joint), number_value(position));
-  for (const Transmission& each : mechanism.transmissions) out.table(DeviceTable::transmission, each);
+  for (const Transmission& each : mechanism.transmissions) {
+    out.header(DeviceTable::transmission);
+    out.value("joint", text_value(each.joint));
+    out.members(DeviceTable::transmission, each);
+  }
 }
 
 void write_filters(const DeviceParameters& device, Writer& out) {

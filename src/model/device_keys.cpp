@@ -89,8 +89,7 @@ constexpr auto made_rows() {
       {{mechanism, "normal", numbers, none, none, needed_key, "three numbers, not all 0",
         "Normal of the wall in the world's frame."}},
 
-      {{transmission, "joint", text, none, none, needed_key, "a joint of the mechanism", "Joint that the motor drives."},
-       &Transmission::joint},
+      {{transmission, "joint", text, none, none, needed_key, "a joint of the mechanism", "Joint that the motor drives."}},
       {{transmission, "ratio", number, ratio, above_0, "1", "", "Turns of the motor per turn of the joint."},
        &Transmission::ratio},
       {{transmission, "inertia", number, mass, above_0, needed_key, "", "Inertia of the motor."},

@@ -18,7 +18,7 @@ using KeyMember =
                  double Wall::*, double WallFilter::*, double User::*, double MotorDrive::*, double Transmission::*,
                  std::optional<double> LoopDamper::*, std::optional<double> Actuator::*, std::optional<double> Wall::*,
                  std::optional<double> MotorDrive::*, int WallFilter::*, std::optional<int> MotorDrive::*,
-                 std::string MotorDrive::*, std::string MechanismFile::*, std::string Transmission::*>;
+                 std::string MotorDrive::*, std::string MechanismFile::*>;
 
 template <typename Member, typename... Members>
 constexpr bool is_member_of(std::type_identity<std::variant<Members...>>) {

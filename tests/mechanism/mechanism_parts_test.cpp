@@ -20,9 +20,9 @@
 namespace zwidth {
 namespace {
 
-constexpr double same = 1e-10;  // relative, of limits
+constexpr double same_limit = 1e-10;  // relative, of limits
 
-// Two hinges in a plane; what stands at %1 to %4 is of the shoulder, the elbow, the file after its bodies, and its tip.
+// Two hinges in a plane; with what else the file says of the shoulder, of the elbow, and after the bodies.
 std::string arm_in_mjcf(const std::string& shoulder, const std::string& elbow, const std::string& rest) {
   return fmt::format(
       R"(<mujoco><compiler angle="radian" autolimits="true"/><worldbody>)"
@@ -61,7 +61,7 @@ constexpr const char* arm_in_urdf = R"(<robot name="arm">
   </link>
 </robot>)";
 
-MechanismFile written(std::string_view text, const std::string& suffix = ".xml") {
+MechanismFile mechanism_in(std::string_view text, const std::string& suffix = ".xml") {
   const std::string path = testing::TempDir() + "mechanism_parts" + suffix;
   std::ofstream(path) << text;
   MechanismFile file;
@@ -71,17 +71,17 @@ MechanismFile written(std::string_view text, const std::string& suffix = ".xml")
   return file;
 }
 
-Transmission stiff(const std::string& joint, double ratio) {
+Transmission behind_joint(const std::string& joint, double ratio) {
   return {.joint = joint, .ratio = ratio, .inertia = 8e-5, .motor_damping = 2e-4};
 }
 
-double limit(const MechanismFile& file, const Eigen::Vector3d& normal = {0.6, -0.8, 0.0}) {
+double limit_of(const MechanismFile& file, const Eigen::Vector3d& normal = {0.6, -0.8, 0.0}) {
   DeviceParameters loop;
   loop.loop.sampling_period = 1e-3;
   return critical_stiffness(device_along(at_pose(file), normal, loop)).stiffness;
 }
 
-std::optional<ProblemCode> refusal(const MechanismFile& file, const Eigen::Vector3d& normal) {
+std::optional<ProblemCode> refusal_along(const MechanismFile& file, const Eigen::Vector3d& normal) {
   DeviceParameters loop;
   loop.loop.sampling_period = 1e-3;
   try {
@@ -95,19 +95,19 @@ std::optional<ProblemCode> refusal(const MechanismFile& file, const Eigen::Vecto
 
 // A signal of an actuator is torque by its gear, and its length turns by it: no wall knows the difference.
 TEST(MechanismParts, a_gear_changes_no_limit) {
-  const double expected = limit(written(arm_in_mjcf("", "", two_motors)));
+  const double expected = limit_of(mechanism_in(arm_in_mjcf("", "", two_motors)));
   const std::string geared =
       R"(<actuator><motor joint="shoulder" gear="-7"/><motor joint="elbow" gear="0.2"/></actuator>)";
-  EXPECT_NEAR(limit(written(arm_in_mjcf("", "", geared))) / expected, 1.0, same);
+  EXPECT_NEAR(limit_of(mechanism_in(arm_in_mjcf("", "", geared))) / expected, 1.0, same_limit);
 }
 
 TEST(MechanismParts, armature_is_the_inertia_of_a_transmission_without_a_cable) {
   const std::string shoulder = fmt::format(R"(armature="{}")", 100.0 * 8e-5);
   const std::string elbow = fmt::format(R"(armature="{}")", 25.0 * 8e-5);
-  MechanismFile armature = written(arm_in_mjcf(shoulder, elbow, two_motors));
+  MechanismFile armature = mechanism_in(arm_in_mjcf(shoulder, elbow, two_motors));
   const MechanismAtPose with_armature = at_pose(armature);
-  MechanismFile behind = written(arm_in_mjcf("", "", ""));
-  behind.transmissions = {stiff("shoulder", 10.0), stiff("elbow", 5.0)};
+  MechanismFile behind = mechanism_in(arm_in_mjcf("", "", ""));
+  behind.transmissions = {behind_joint("shoulder", 10.0), behind_joint("elbow", 5.0)};
   const MechanismAtPose with_transmissions = at_pose(behind);
   EXPECT_LT((with_armature.mass - with_transmissions.mass).norm(), 1e-16);
   EXPECT_EQ(with_transmissions.motors, Eigen::MatrixXd(Eigen::Vector2d(10.0, 5.0).asDiagonal()));
@@ -118,23 +118,23 @@ TEST(MechanismParts, armature_is_the_inertia_of_a_transmission_without_a_cable) 
 }
 
 TEST(MechanismParts, a_stiff_cable_is_none) {
-  MechanismFile rigid = written(arm_in_mjcf("", "", ""));
-  rigid.transmissions = {stiff("shoulder", 10.0), stiff("elbow", 5.0)};
+  MechanismFile rigid = mechanism_in(arm_in_mjcf("", "", ""));
+  rigid.transmissions = {behind_joint("shoulder", 10.0), behind_joint("elbow", 5.0)};
   MechanismFile with_cables = rigid;
   for (Transmission& each : with_cables.transmissions) {
     each.stiffness = 1e9;
     each.damping = 1e3;
   }
-  EXPECT_NEAR(limit(with_cables) / limit(rigid), 1.0, 1e-5);  // by the cables' compliance
+  EXPECT_NEAR(limit_of(with_cables) / limit_of(rigid), 1.0, 1e-5);  // by the cables' compliance
 }
 
 // A motor and an encoder at one joint by the file, at the other by a transmission.
 TEST(MechanismParts, transmissions_stand_beside_actuators) {
-  const double expected = limit(written(arm_in_mjcf(R"(armature="2e-3")", R"(armature="2e-3")", two_motors)));
+  const double expected = limit_of(mechanism_in(arm_in_mjcf(R"(armature="2e-3")", R"(armature="2e-3")", two_motors)));
   const std::string one_motor = R"(<actuator><motor joint="shoulder"/></actuator>)";
-  MechanismFile mixed = written(arm_in_mjcf(R"(armature="2e-3")", "", one_motor));
+  MechanismFile mixed = mechanism_in(arm_in_mjcf(R"(armature="2e-3")", "", one_motor));
   mixed.transmissions = {{.joint = "elbow", .ratio = 5.0, .inertia = 8e-5}};
-  EXPECT_NEAR(limit(mixed) / expected, 1.0, same);
+  EXPECT_NEAR(limit_of(mixed) / expected, 1.0, same_limit);
 }
 
 // Cables of a closed chain's file as transmissions: the same chain.
@@ -150,19 +150,20 @@ TEST(MechanismParts, transmissions_stand_behind_closed_chains) {
        at = text.find(R"( armature="1.03e-6")")) {
     text.erase(at, std::string_view(R"( armature="1.03e-6")").size());
   }
-  MechanismFile without = written(text + "</mujoco>");
+  MechanismFile without = mechanism_in(text + "</mujoco>");
   without.tip = "tip";
   without.pose = pantograph.pose;
   without.transmissions = {{.joint = "theta1", .ratio = 1.0, .inertia = 1.03e-6},
                            {.joint = "theta5", .ratio = 1.0, .inertia = 1.03e-6}};
-  EXPECT_NEAR(limit(without) / limit(pantograph), 1.0, same);
+  EXPECT_NEAR(limit_of(without) / limit_of(pantograph), 1.0, same_limit);
 }
 
 // MuJoCo joins links that are fixed: the tip's is found all the same.
 TEST(MechanismParts, urdf_is_the_mechanism_that_mjcf_is) {
-  MechanismFile mjcf = written(arm_in_mjcf(R"(frictionloss="0.01")", "", ""));
-  MechanismFile urdf = written(arm_in_urdf, ".urdf");
-  for (MechanismFile* file : {&mjcf, &urdf}) file->transmissions = {stiff("shoulder", 10.0), stiff("elbow", 5.0)};
+  MechanismFile mjcf = mechanism_in(arm_in_mjcf(R"(frictionloss="0.01")", "", ""));
+  MechanismFile urdf = mechanism_in(arm_in_urdf, ".urdf");
+  for (MechanismFile* file : {&mjcf, &urdf})
+    file->transmissions = {behind_joint("shoulder", 10.0), behind_joint("elbow", 5.0)};
   const MechanismAtPose expected = at_pose(mjcf);
   const MechanismAtPose found = at_pose(urdf);
   EXPECT_LT((found.mass - expected.mass).norm(), 1e-15);
@@ -174,13 +175,13 @@ TEST(MechanismParts, urdf_is_the_mechanism_that_mjcf_is) {
   }
   ASSERT_EQ(found.frictions.size(), 1U);
   EXPECT_EQ(found.frictions[0].force, 0.01);
-  EXPECT_NEAR(limit(urdf) / limit(mjcf), 1.0, same);
+  EXPECT_NEAR(limit_of(urdf) / limit_of(mjcf), 1.0, same_limit);
 }
 
 TEST(MechanismParts, friction_loss_is_coulomb_friction_and_changes_no_limit) {
   const std::string tendon =
       R"(<tendon><fixed frictionloss="0.3"><joint joint="shoulder" coef="1"/><joint joint="elbow" coef="-2"/></fixed></tendon>)";
-  const MechanismFile rubs = written(arm_in_mjcf(R"(frictionloss="0.02")", "", tendon + two_motors));
+  const MechanismFile rubs = mechanism_in(arm_in_mjcf(R"(frictionloss="0.02")", "", tendon + two_motors));
   const MechanismAtPose at = at_pose(rubs);
   ASSERT_EQ(at.frictions.size(), 2U);
   EXPECT_EQ(at.frictions[0].force, 0.02);
@@ -192,15 +193,15 @@ TEST(MechanismParts, friction_loss_is_coulomb_friction_and_changes_no_limit) {
   DeviceParameters loop;
   loop.loop.sampling_period = 1e-3;
   EXPECT_EQ(device_along(at, {1.0, 0.0, 0.0}, loop).parameters().coordinates->frictions.size(), 2U);
-  const double with = limit(rubs);
-  EXPECT_EQ(with, limit(written(arm_in_mjcf("", "", two_motors))));
+  const double with = limit_of(rubs);
+  EXPECT_EQ(with, limit_of(mechanism_in(arm_in_mjcf("", "", two_motors))));
 }
 
 TEST(MechanismParts, friction_in_a_closed_chain_is_along_its_free_motions) {
   test::RandomMechanism chain = test::five_bar_mechanism(3);
   const std::string joint = R"(<joint name="left elbow")";
   chain.xml.replace(chain.xml.find(joint), joint.size(), joint + R"( frictionloss="0.05")");
-  MechanismFile file = written(chain.xml);
+  MechanismFile file = mechanism_in(chain.xml);
   file.tip = "tip";
   file.pose = chain.pose;
   const MechanismAtPose at = at_pose(file);
@@ -211,13 +212,13 @@ TEST(MechanismParts, friction_in_a_closed_chain_is_along_its_free_motions) {
 
 // Stretched out the tip does not move along the arm; just before, it does.
 TEST(MechanismParts, singular_poses_are_refused_along_their_direction_alone) {
-  MechanismFile stretched = written(arm_in_mjcf("", "", two_motors));
+  MechanismFile stretched = mechanism_in(arm_in_mjcf("", "", two_motors));
   stretched.pose["elbow"] = 0.0;
   const Eigen::Vector3d along(std::cos(0.3), std::sin(0.3), 0.0);
   const Eigen::Vector3d across(-std::sin(0.3), std::cos(0.3), 0.0);
-  EXPECT_EQ(refusal(stretched, along), ProblemCode::tip_does_not_move);
-  EXPECT_EQ(refusal(stretched, across), std::nullopt);
-  EXPECT_EQ(refusal(stretched, Eigen::Vector3d::UnitZ()), ProblemCode::tip_does_not_move);
+  EXPECT_EQ(refusal_along(stretched, along), ProblemCode::tip_does_not_move);
+  EXPECT_EQ(refusal_along(stretched, across), std::nullopt);
+  EXPECT_EQ(refusal_along(stretched, Eigen::Vector3d::UnitZ()), ProblemCode::tip_does_not_move);
   try {
     (void)device_along(at_pose(stretched), 2.0 * along, {});
     FAIL();
@@ -231,7 +232,7 @@ TEST(MechanismParts, singular_poses_are_refused_along_their_direction_alone) {
   }
   MechanismFile almost = stretched;
   almost.pose["elbow"] = 1e-3;
-  EXPECT_EQ(refusal(almost, along), std::nullopt);
+  EXPECT_EQ(refusal_along(almost, along), std::nullopt);
 }
 
 // Where the rods of a five-bar linkage are one line, the tip moves though no motor does.
@@ -242,12 +243,12 @@ TEST(MechanismParts, a_linkage_that_its_motors_do_not_hold_is_refused) {
   // The ends of the cranks are as far apart as the two rods are long: 63 mm (cos t1 - cos t5) + 25 mm = 150 mm.
   const double turned = std::acos(0.5 * 0.125 / 0.063);
   file.pose = {{"theta1", turned}, {"theta5", std::numbers::pi - turned}};
-  const std::optional<ProblemCode> found = refusal(file, Eigen::Vector3d::UnitY());
+  const std::optional<ProblemCode> found = refusal_along(file, Eigen::Vector3d::UnitY());
   ASSERT_TRUE(found);
   EXPECT_TRUE(*found == ProblemCode::tip_not_moved_by_motors || *found == ProblemCode::tip_not_determined_by_encoders ||
               *found == ProblemCode::motor_or_encoder_depends || *found == ProblemCode::loop_does_not_close);
   file.pose = {{"theta1", 0.0}, {"theta5", std::numbers::pi}};  // 151 mm
-  EXPECT_EQ(refusal(file, Eigen::Vector3d::UnitY()), ProblemCode::loop_does_not_close);
+  EXPECT_EQ(refusal_along(file, Eigen::Vector3d::UnitY()), ProblemCode::loop_does_not_close);
 }
 
 }  // namespace
