@@ -120,10 +120,12 @@ std::span<const ProblemPhrase> model_problem_phrases() {
       ProblemPhrase{path_in_text, "path_in_text", "line {line:n}: <{name}> names a file",
                     "a mechanism that came as text names none; meshes may be left out: inertia alone counts"},
       ProblemPhrase{mass_of_mesh, "mass_of_mesh",
-                    "{?file|{file}: }line {line:n}: \"{name}\" has its mass of a mesh, and meshes are not read",
+                    "{?file|{file}: }line {line:n}: {?name|\"{name}\"}{!name|a body} has its mass of a mesh, and "
+                    "meshes are not read",
                     "must have <inertial>"},
       ProblemPhrase{include_not_read, "include_not_read",
-                    "{?file|{file}: }line {line:n}: \"{name}\" {?twice|is included twice}{!twice|cannot be read}",
+                    "{?file|{file}: }line {line:n}: {?name|\"{name}\"}{!name|an include} {?twice|is included "
+                    "twice}{!twice|cannot be read}",
                     "must be a file beside it, once"},
       ProblemPhrase{coordinates_not_known, "coordinates_not_known", "the device has coordinates in place of bodies",
                     "this is computed for bodies and links alone"},
