@@ -52,8 +52,8 @@ class MechanismReader {
     std::optional<std::string> text = file.text;
     if (may_name_files_) text = contents(path);
     if (!text) {
-      refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused,
-                                          .subjects = {{"why", fmt::format("\"{}\" cannot be read", path.string())}}});
+      refuse_mechanism("mechanism.file",
+                       {.code = ProblemCode::mechanism_file_refused, .subjects = {{"name", path.string()}}});
     }
     add("mechanism.xml", path.filename().string(), *std::move(text));
   }

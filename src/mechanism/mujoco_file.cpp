@@ -45,6 +45,10 @@ std::string plain(const char* said) {
   refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
 }
 
+[[noreturn]] void refuse_part(const char* part) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
+}
+
 // MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
 class Handlers {
  public:
@@ -77,7 +81,7 @@ class Texts {
     for (const MechanismText& each : texts) {
       mj_makeEmptyFileVFS(files_.get(), each.name.c_str(), static_cast<int>(each.text.size()));
       const int at = mj_findFileVFS(files_.get(), each.name.c_str());
-      if (at < 0) refuse_file("too many files");
+      if (at < 0) refuse_part("files");
       std::memcpy(files_->filedata[at], each.text.data(), each.text.size());
     }
   }
@@ -101,7 +105,7 @@ class Posed {
     char why[1000] = "";
     model_.reset(mj_loadXML(texts.front().name.c_str(), given.get(), why, sizeof why));
     if (!model_) refuse_file(why);
-    if (model_->njnt == 0) refuse_file("it has no joint");
+    if (model_->njnt == 0) refuse_part("joint");
     for (int joint = 0; joint < model_->njnt; ++joint) {
       if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
       refuse_mechanism("mechanism.file",
@@ -136,7 +140,7 @@ class Posed {
     for (int i = 0; i < (kind == mjOBJ_JOINT ? model_->njnt : kind == mjOBJ_SITE ? model_->nsite : 0); ++i) {
       names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", plain(name(kind, i).c_str()));
     }
-    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "site or body"}, {"name", wanted}};
+    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
     if (!names.empty()) subjects.push_back({"names", names});
     refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
   }
@@ -269,7 +273,7 @@ class Posed {
       Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
     }
     mj_fwdPosition(model_.get(), data_.get());
-    if (data_->warning[mjWARN_CNSTRFULL].number > 0) refuse_file("it has too many loops");
+    if (data_->warning[mjWARN_CNSTRFULL].number > 0) refuse_part("loops");
     return open;
   }
 

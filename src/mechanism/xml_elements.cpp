@@ -17,11 +17,11 @@ class XmlScanner {
   explicit XmlScanner(std::string_view text) : text_(text) {}
 
   tl::expected<std::vector<XmlElement>, XmlProblem> read() && {
-    if (text_.find('\0') != std::string_view::npos) fail("it has a byte of 0");
+    if (text_.find('\0') != std::string_view::npos) fail("zero");
     if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;
     while (why_.empty() && find_tag()) read_tag();
-    if (why_.empty() && !open_.empty()) fail("an element does not end");
-    if (why_.empty() && elements_.empty()) fail("it has no element");
+    if (why_.empty() && !open_.empty()) fail("unclosed");
+    if (why_.empty() && elements_.empty()) fail("none");
     if (!why_.empty()) return tl::unexpected(XmlProblem{line_of(at_), std::move(why_)});
     return std::move(elements_);
   }
@@ -32,7 +32,7 @@ class XmlScanner {
     const std::size_t next = text_.find('<', at_);
     const std::string_view before = text_.substr(at_, next == std::string_view::npos ? next : next - at_);
     const bool is_blank = std::ranges::all_of(before, is_space);
-    if (open_.empty() && !is_blank) fail("text stands outside of its element");
+    if (open_.empty() && !is_blank) fail("text");
     if (next == std::string_view::npos || !why_.empty()) return false;
     at_ = next;
     return true;
@@ -41,14 +41,14 @@ class XmlScanner {
   void read_tag() {
     if (is_here("<?")) return skip("<?", "?>");
     if (is_here("<!--")) return skip("<!--", "-->");
-    if (is_here("<!")) return fail("declarations and CDATA are not read");
+    if (is_here("<!")) return fail("declared");
     if (is_here("</")) return read_end();
     read_start();
   }
 
   void skip(std::string_view begins, std::string_view ends) {
     const std::size_t end = text_.find(ends, at_ + begins.size());
-    if (end == std::string_view::npos) return fail("a comment or declaration does not end");
+    if (end == std::string_view::npos) return fail("comment");
     at_ = end + ends.size();
   }
 
@@ -59,7 +59,7 @@ class XmlScanner {
     skip_spaces();
     if (open_.empty() || name.empty() || elements_[open_.back()].name != name || !is_here(">")) {
       at_ = begin;
-      return fail("a closing tag stands where none of its name is open");
+      return fail("closing");
     }
     ++at_;
     elements_[open_.back()].range.end = at_;
@@ -67,9 +67,9 @@ class XmlScanner {
   }
 
   void read_start() {
-    if (open_.empty() && !elements_.empty()) return fail("a second root element");
-    if (elements_.size() == most_elements) return fail("it has too many elements");
-    if (open_.size() == most_levels) return fail("elements stand in one another too deep");
+    if (open_.empty() && !elements_.empty()) return fail("roots");
+    if (elements_.size() == most_elements) return fail("many");
+    if (open_.size() == most_levels) return fail("deep");
     XmlElement element;
     element.range.begin = at_;
     element.line = line_of(at_);
@@ -77,11 +77,11 @@ class XmlScanner {
     ++at_;
     element.name = read_name();
     element.opened = at_;
-    if (element.name.empty()) return fail("a tag without a name");
+    if (element.name.empty()) return fail("nameless");
     while (true) {
       const bool is_apart = skip_spaces();
       if (is_here(">") || is_here("/>")) break;
-      if (!is_apart) return fail("an attribute does not stand apart");
+      if (!is_apart) return fail("apart");
       if (!read_attribute(element)) return;
     }
     const bool is_empty = is_here("/>");
@@ -100,13 +100,13 @@ class XmlScanner {
     if (has_value) ++at_;
     skip_spaces();
     if (!has_value || !(is_here("\"") || is_here("'"))) {
-      fail("an attribute without its value in quotes");
+      fail("quotes");
       return false;
     }
     const std::size_t begin = at_ + 1;
     const std::size_t end = text_.find(text_[at_], begin);
     if (end == std::string_view::npos) {
-      fail("an attribute does not end");
+      fail("open");
       return false;
     }
     attribute.value = text_.substr(begin, end - begin);
@@ -114,7 +114,7 @@ class XmlScanner {
     attribute.range.end = at_;
     const bool is_plain = attribute.value.find('<') == std::string_view::npos;
     if (!is_plain || std::ranges::count(element.attributes, attribute.name, &XmlAttribute::name) > 0) {
-      fail(is_plain ? "an attribute stands twice" : "an attribute's value has a <");
+      fail(is_plain ? "twice" : "value");
       return false;
     }
     element.attributes.push_back(attribute);

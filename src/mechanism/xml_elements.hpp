@@ -38,7 +38,7 @@ struct XmlElement {
 // What is no XML of the kind that is read.
 struct XmlProblem {
   std::size_t line = 0;
-  std::string why;
+  std::string why;  // by the name that the phrase of `no_xml` has for it
 };
 
 inline constexpr std::size_t most_elements = 10000;
