@@ -9,8 +9,8 @@
 namespace zwidth {
 namespace {
 
-// Relative: rows that depend on others to this are sums of them.
-constexpr double dependent_below = 1e-9;
+// Relative: rows that depend on others to this are sums of them. At a singular pose of a loop they do to the root of rounding.
+constexpr double dependent_below = 1e-6;
 // Relative to the largest: what rounding leaves of a weight that is 0.
 constexpr double no_weight_below = 1e-14;
 

@@ -67,7 +67,8 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "motors cannot push the tip along [{x:.6g}, {y:.6g}, {z:.6g}] alone",
                     "must be a motor for every motion"},
       ProblemPhrase{motor_or_encoder_depends, "motor_or_encoder_depends",
-                    "one of the motors or encoders turns as the others and the cables say", "leave it out"},
+                    "one of the motors or encoders turns as the others and the cables say",
+                    "leave it out, or give another pose"},
       ProblemPhrase{mechanism_file_refused, "mechanism_file_refused",
                     "{?why|{why}}{?name|\"{name}\" cannot be read}{?part=joint|has no joint}{?part=loops|has too many "
                     "loops}{?part=files|includes too many files}",

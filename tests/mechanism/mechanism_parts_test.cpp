@@ -243,10 +243,7 @@ TEST(MechanismParts, a_linkage_that_its_motors_do_not_hold_is_refused) {
   // The ends of the cranks are as far apart as the two rods are long: 63 mm (cos t1 - cos t5) + 25 mm = 150 mm.
   const double turned = std::acos(0.5 * 0.125 / 0.063);
   file.pose = {{"theta1", turned}, {"theta5", std::numbers::pi - turned}};
-  const std::optional<ProblemCode> found = refusal_along(file, Eigen::Vector3d::UnitY());
-  ASSERT_TRUE(found);
-  EXPECT_TRUE(*found == ProblemCode::tip_not_moved_by_motors || *found == ProblemCode::tip_not_determined_by_encoders ||
-              *found == ProblemCode::motor_or_encoder_depends || *found == ProblemCode::loop_does_not_close);
+  EXPECT_EQ(refusal_along(file, Eigen::Vector3d::UnitY()), ProblemCode::motor_or_encoder_depends);
   file.pose = {{"theta1", 0.0}, {"theta5", std::numbers::pi}};  // 151 mm
   EXPECT_EQ(refusal_along(file, Eigen::Vector3d::UnitY()), ProblemCode::loop_does_not_close);
 }
