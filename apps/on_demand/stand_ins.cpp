@@ -81,7 +81,7 @@ tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
   return loaded<on_demand::Fits>().open_mat73_file(path);
 }
 
-ModalForm exact_modal_form(const Device& device, Path path, double lag, const PoleLabels& labels,
+ModalForm exact_modal_form(const Device& device, const WeightedPath& path, double lag, const PoleLabels& labels,
                            std::shared_ptr<ExactlyFound>& found) {
   return loaded<on_demand::Digits>().exact_modal_form(device, path, lag, labels, found);
 }
@@ -102,6 +102,12 @@ void solve_group(const KernelGroup& group, const KernelDevices& devices, std::si
                  KernelScratch& scratch) {
   loaded<on_demand::Kernel>().solve_group(group, devices, count, answers, scratch);
 }
+
+#ifdef ZWIDTH_MUJOCO
+MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+  return loaded<on_demand::Mechanisms>().mujoco_at_pose(file, texts);
+}
+#endif
 
 }  // namespace internal
 

@@ -301,36 +301,66 @@ enum class ProblemCode : std::uint16_t {
   no_samples_in_file,        ///< a file has no samples, or a line that is none
 
   // models and designs
-  no_finite_number,               ///< a number is not above 0, below 0 or not finite
-  not_one_of,                     ///< a number or a name is none of those that there are
-  control_character,              ///< a text has a control character
-  too_many_bytes,                 ///< a text is too long
-  stands_too_often,               ///< more bodies, links or filters than there may be
-  name_empty,                     ///< a body without a name
-  names_two_bodies,               ///< two bodies of one name
-  no_body_number,                 ///< no body of the device has this number
-  tied_to_itself,                 ///< a link from a body to itself
-  link_of_nothing,                ///< a link without stiffness and damping
-  body_not_connected,             ///< no links lead from a body to the others
-  number_of_coefficients,         ///< too few or too many coefficients
-  coefficient_out_of_range,       ///< a coefficient is neither 0 nor in its range
-  all_coefficients_zero,          ///< a numerator is 0
-  begins_with_zero,               ///< a denominator's leading coefficient is 0
-  degree_not_lower,               ///< a numerator's degree is not below the denominator's
-  longer_than_denominator,        ///< a numerator with leading zeros is longer than the denominator
-  beside_transfer_function,       ///< bodies, links, a body of the loop or a user beside a transfer function
-  no_body_at_all,                 ///< a device without bodies and transfer function
-  no_such_body,                   ///< no body of the device is called that
-  delay_of_too_many_periods,      ///< a delay of more sampling periods than are kept
-  no_whole_ratio,                 ///< a damper's period is no whole part or multiple of the loop's
-  filters_beside_damper_loop,     ///< filters of the wall's force, whose damper runs in a loop of its own
-  damper_loop_not_known,          ///< a computation that knows one rate alone
-  travel_per_turn_missing,        ///< a linear device's drive without its travel per turn
-  no_letter,                      ///< a drive's command is not one letter
-  filter_not_stable,              ///< a filter's pole does not die out
-  static_gain_not_positive,       ///< a filter's static gain is not above 0
-  frequency_of_digital_filter,    ///< a digital filter has no frequency of its own
-  filter_frequency_out_of_range,  ///< a filter's frequency is not below Nyquist
+  no_finite_number,                ///< a number is not above 0, below 0 or not finite
+  not_one_of,                      ///< a number or a name is none of those that there are
+  control_character,               ///< a text has a control character
+  too_many_bytes,                  ///< a text is too long
+  stands_too_often,                ///< more bodies, links or filters than there may be
+  name_empty,                      ///< a body without a name
+  names_two_bodies,                ///< two bodies of one name
+  no_body_number,                  ///< no body of the device has this number
+  tied_to_itself,                  ///< a link from a body to itself
+  link_of_nothing,                 ///< a link without stiffness and damping
+  body_not_connected,              ///< no links lead from a body to the others
+  number_of_coefficients,          ///< too few or too many coefficients
+  coefficient_out_of_range,        ///< a coefficient is neither 0 nor in its range
+  all_coefficients_zero,           ///< a numerator is 0
+  begins_with_zero,                ///< a denominator's leading coefficient is 0
+  degree_not_lower,                ///< a numerator's degree is not below the denominator's
+  longer_than_denominator,         ///< a numerator with leading zeros is longer than the denominator
+  beside_transfer_function,        ///< bodies, links, a body of the loop or a user beside a transfer function
+  beside_coordinates,              ///< bodies, links or a transfer function beside coordinates
+  coordinates_out_of_range,        ///< no coordinates, or too many
+  weights_not_one_a_coordinate,    ///< weights that are not one a coordinate, or all 0
+  no_mass_matrix,                  ///< a matrix is not square, symmetric and positive definite
+  no_direction,                    ///< a normal is of length 0
+  tip_does_not_move,               ///< a tip cannot move along a normal
+  tip_not_determined_by_encoders,  ///< encoders do not determine how a tip moves
+  tip_not_moved_by_motors,         ///< motors cannot push a tip
+  motor_or_encoder_depends,        ///< a motor or an encoder turns as others and cables say
+  mechanism_file_refused,          ///< the reader of mechanism files refuses one
+  no_such_part,                    ///< a mechanism has no part of this name
+  joint_of_many_motions,           ///< a joint of a mechanism is neither hinge nor slide
+  loop_does_not_close,             ///< the loops of a mechanism do not close at a pose
+  no_motor,                        ///< a mechanism has no motor
+  built_without_mujoco,            ///< a build that reads no mechanisms
+  no_mechanism_at_pose,            ///< a mechanism without the coordinates that it has at its pose
+  beside_mechanism,                ///< bodies, links, a transfer function or bodies of the loop beside a mechanism
+  mechanism_of_rotary_motion,      ///< a mechanism's wall is linear
+  without_mechanism,               ///< a transmission without a mechanism
+  normal_not_three_numbers,        ///< a normal is not of three numbers
+  point_wall_not_known,            ///< a wall in every direction is not computed
+  unit_of_other_joint,             ///< a joint's position has the unit of the other kind of joint
+  file_beside_text,                ///< a mechanism's file where a device came as text
+  mechanism_too_large,             ///< a mechanism's text is too long, too deep or of too many elements
+  no_xml,                          ///< a mechanism's text is no XML
+  element_not_read,                ///< a mechanism has an element that is not read
+  path_in_text,                    ///< a mechanism that is no file names one
+  mass_of_mesh,                    ///< a body has its mass of a mesh
+  include_not_read,                ///< a file that a mechanism includes is not there, or stands twice
+  coordinates_not_known,           ///< a computation that knows bodies alone
+  no_body_at_all,                  ///< a device without bodies and transfer function
+  no_such_body,                    ///< no body of the device is called that
+  delay_of_too_many_periods,       ///< a delay of more sampling periods than are kept
+  no_whole_ratio,                  ///< a damper's period is no whole part or multiple of the loop's
+  filters_beside_damper_loop,      ///< filters of the wall's force, whose damper runs in a loop of its own
+  damper_loop_not_known,           ///< a computation that knows one rate alone
+  travel_per_turn_missing,         ///< a linear device's drive without its travel per turn
+  no_letter,                       ///< a drive's command is not one letter
+  filter_not_stable,               ///< a filter's pole does not die out
+  static_gain_not_positive,        ///< a filter's static gain is not above 0
+  frequency_of_digital_filter,     ///< a digital filter has no frequency of its own
+  filter_frequency_out_of_range,   ///< a filter's frequency is not below Nyquist
 
   // identification: options, recordings and responses
   no_rising_band,                   ///< a band does not rise

@@ -171,6 +171,7 @@ std::optional<OptionProblem> find_problem(const BatchOptions& options, const Dev
 
 BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterValues> changes,
                                const BatchOptions& options, const Progress& progress) {
+  require_no_coordinates(device);
   if (const auto problem = find_problem(device, changes)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
   }

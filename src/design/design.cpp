@@ -18,6 +18,7 @@ std::optional<OptionProblem> find_problem(const DesignOptions& options) {
 }
 
 Design design(const Device& device, const DesignOptions& options) {
+  require_no_coordinates(device);
   require_valid(find_problem(options));
   Design design;
   internal::StagedProgress stages(options.progress);

@@ -98,6 +98,7 @@ Identification identify(const Recording& recording, const Device& structure, con
 
 Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
+  require_no_coordinates(structure);
   require_open_damper(structure);
   require_valid(find_problem(options));
   require_motion(recordings, structure, options);
@@ -109,12 +110,14 @@ Identification identify(std::span<const Recording> recordings, const Device& str
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
+  require_no_coordinates(structure);
   require_open_damper(structure);
   require_valid(find_problem(options));
   return identified_by_lines(measured, structure, options);
 }
 
 Identification identify_from_limits(const Device& structure, const IdentifyOptions& options) {
+  require_no_coordinates(structure);
   require_one_rate(structure);
   require_valid(find_problem(options));
   if (options.limits.empty()) refuse_member("limits", {.code = ProblemCode::no_values});

@@ -45,6 +45,12 @@ class ExactSum {
     return *this;
   }
 
+  friend ExactSum operator*(const ExactSum& a, const ExactSum& b) {
+    ExactSum product(0.0);
+    arf_mul(arb_midref(product.sum_), arb_midref(a.sum_), arb_midref(b.sum_), ARF_PREC_EXACT, ARF_RND_DOWN);
+    return product;
+  }
+
   // Exponent of the last bit.
   [[nodiscard]] long last_bit() const {
     if (arf_is_zero(arb_midref(sum_))) return std::numeric_limits<long>::max();
@@ -106,6 +112,19 @@ class PolynomialMatrix {
   fmpz_poly_mat_t matrix_ = {};
 };
 
+// Weights times 2^-e into a row or column of integers; returns e.
+template <typename Border>
+long set_border(const Weights& weights, const Border& border) {
+  long lowest = std::numeric_limits<long>::max();
+  for (const auto& [of, weight] : weights) lowest = std::min(lowest, ExactSum(weight).last_bit());
+  Integer integer;
+  for (const auto& [of, weight] : weights) {
+    ExactSum(weight).get(integer, lowest);
+    fmpz_poly_set_coeff_fmpz(border(of), 0, integer);
+  }
+  return lowest;
+}
+
 }  // namespace
 
 ExactFraction exact_fraction(const TransferFunction& transfer_function) {
@@ -116,20 +135,20 @@ ExactFraction exact_fraction(const TransferFunction& transfer_function) {
   return result;
 }
 
-// Q(s) = M s² + D s + K: G = (-1)^(i+j) det(Q without row j and column i) / det Q.
-ExactFraction exact_fraction(const Device& device, Path path, IntegerPolynomial& denominator) {
-  const std::size_t n = device.bodies().size();
+// Q(s) = M s² + D s + K: G = -det [Q w_force; w_position' 0] / det Q.
+ExactFraction exact_fraction(const Device& device, const WeightedPath& path, IntegerPolynomial& denominator) {
+  const std::size_t n = device.degrees_of_freedom();
   if (n > max_exact_bodies) {
     throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_too_close_for_digits,
                                               .evidence = {counted("bodies", n), counted("most", max_exact_bodies)}});
   }
   const DeviceMatrices<ExactSum> m = device_matrices<ExactSum>(device);
   long lowest = std::numeric_limits<long>::max();
-  for (const auto* entries : {&m.mass, &m.damping, &m.stiffness}) {
+  for (const auto* entries : {&m.mass, &m.coupling, &m.damping, &m.stiffness}) {
     for (const ExactSum& entry : *entries) lowest = std::min(lowest, entry.last_bit());
   }
   PolynomialMatrix dynamic(n);
-  PolynomialMatrix minor(n - 1);
+  PolynomialMatrix bordered(n + 1);
   Integer integer;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
@@ -141,17 +160,22 @@ ExactFraction exact_fraction(const Device& device, Path path, IntegerPolynomial&
     m.mass[i].get(integer, lowest);
     fmpz_poly_set_coeff_fmpz(dynamic(i, i), 2, integer);
   }
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    for (std::size_t j = 0; j + 1 < n; ++j) {
-      fmpz_poly_set(minor(i, j), dynamic(i + (i >= path.force_at ? 1 : 0), j + (j >= path.position_of ? 1 : 0)));
-    }
+  for (std::size_t i = 0; i < m.coupling.size(); ++i) {
+    if (i % (n + 1) == 0) continue;
+    m.coupling[i].get(integer, lowest);
+    fmpz_poly_set_coeff_fmpz(dynamic(i / n, i % n), 2, integer);
   }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) fmpz_poly_set(bordered(i, j), dynamic(i, j));
+  }
+  const long of_force = set_border(path.force_at, [&](std::size_t i) { return bordered(i, n); });
+  const long of_position = set_border(path.position_of, [&](std::size_t j) { return bordered(n, j); });
   ExactFraction result;
   if (fmpz_poly_degree(denominator) < 0) dynamic.determinant(denominator);
   result.denominator = denominator;
-  minor.determinant(result.numerator);
-  if ((path.force_at + path.position_of) % 2 == 1) fmpz_poly_neg(result.numerator, result.numerator);
-  result.exponent = -lowest;
+  bordered.determinant(result.numerator);
+  fmpz_poly_neg(result.numerator, result.numerator);
+  result.exponent = of_force + of_position - lowest;
   return result;
 }
 

@@ -3,8 +3,8 @@
 // G(s) of a device without any rounding: the numbers of a device are doubles, hence rational.
 
 #include "model/balls.hpp"
+#include "model/device_lengths.hpp"
 #include "zwidth/model/device.hpp"
-#include "zwidth/model/modal_form.hpp"
 
 namespace zwidth::internal {
 
@@ -18,6 +18,6 @@ struct ExactFraction {
 ExactFraction exact_fraction(const TransferFunction& transfer_function);
 // Throws Error (did_not_converge) for more bodies than the exact determinant can take.
 // `denominator`: the device's, of degree -1 while it is not known.
-ExactFraction exact_fraction(const Device& device, Path path, IntegerPolynomial& denominator);
+ExactFraction exact_fraction(const Device& device, const WeightedPath& path, IntegerPolynomial& denominator);
 
 }  // namespace zwidth::internal

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "model/device_lengths.hpp"
 #include "model/pole_groups.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
@@ -16,10 +17,10 @@ inline constexpr double irrelevant_below = 1e-9;
 // What all paths of a device have in common, as far as it is known: the denominator and its poles.
 struct ExactlyFound;
 
-// `path`: of a device with bodies. `found`: empty for the first path of a device, and given again for its others.
+// `path`: of a device with bodies or coordinates. `found`: empty for the first path of a device, and given again for its others.
 // Throws Error (did_not_converge) for more bodies than the exact determinant can take, and where terms of
 // ModalTerm::max_degree still cancel too much.
-ModalForm exact_modal_form(const Device& device, Path path, double lag, const PoleLabels& labels,
+ModalForm exact_modal_form(const Device& device, const WeightedPath& path, double lag, const PoleLabels& labels,
                            std::shared_ptr<ExactlyFound>& found);
 
 }  // namespace zwidth::internal

@@ -146,13 +146,14 @@ ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vecto
 }
 
 template <typename Real>
-BodyPencil<Real> body_pencil(const Device& device, Path path, double lag) {
+BodyPencil<Real> body_pencil(const Device& device, const WeightedPath& path, double lag) {
   DeviceMatrices<Real> matrices = device_matrices<Real>(device);
   BodyPencil<Real> pencil;
   pencil.bodies = matrices.mass.size();
   pencil.force_at = path.force_at;
   pencil.position_of = path.position_of;
   pencil.mass = std::move(matrices.mass);
+  pencil.coupling = std::move(matrices.coupling);
   pencil.damping = std::move(matrices.damping);
   pencil.stiffness = std::move(matrices.stiffness);
   pencil.lag = lag;
@@ -162,7 +163,7 @@ BodyPencil<Real> body_pencil(const Device& device, Path path, double lag) {
 
 // One or two bodies as polynomials (eqs. 5-9 of Díaz & Gil): fewer operations than the matrix.
 template <typename Real>
-PolynomialPencil<Real> small_device_pencil(const Device& device, Path path, double lag) {
+PolynomialPencil<Real> small_device_pencil(const Device& device, const WeightedPath& path, double lag) {
   const DeviceMatrices<Real> d = device_matrices<Real>(device);
   PolynomialPencil<Real> pencil;
   pencil.lag = lag;
@@ -177,9 +178,10 @@ PolynomialPencil<Real> small_device_pencil(const Device& device, Path path, doub
     const Real &m1 = d.mass[0], &m2 = d.mass[1];
     pencil.denominator = {k1 * k2 - k12 * k12, b1 * k2 + b2 * k1 - Real(2.0) * b12 * k12,
                           m1 * k2 + m2 * k1 + b1 * b2 - b12 * b12, m1 * b2 + m2 * b1, m1 * m2};
-    if (path.force_at != path.position_of) {
+    const std::size_t force_at = path.force_at.front().of;
+    if (force_at != path.position_of.front().of) {
       pencil.numerator = {Real(0.0) - k12, Real(0.0) - b12};
-    } else if (path.force_at == 0) {
+    } else if (force_at == 0) {
       pencil.numerator = {k2, b2, m2};
     } else {
       pencil.numerator = {k1, b1, m1};
@@ -212,10 +214,11 @@ ModalForm single_body(const DeviceMatrices<double>& matrices, std::size_t zeros)
   return form;
 }
 
-ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles& found) {
+ModalForm expand_bodies(const Device& device, const WeightedPath& path, double lag, FoundPoles& found) {
   const DeviceMatrices<double> matrices = device_matrices<double>(device);
   const std::size_t zeros = poles_at_zero(device);
-  if (matrices.mass.size() == 1 && lag == 0.0) return single_body(matrices, zeros);
+  const bool is_small = device.has_bodies() && matrices.mass.size() <= 2;
+  if (is_small && matrices.mass.size() == 1 && lag == 0.0) return single_body(matrices, zeros);
   double mass = 0.0;
   double damping = device.parameters().user.damping;
   for (double m : matrices.mass) mass += m;
@@ -226,7 +229,7 @@ ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles&
   labels.has_dampers = std::ranges::any_of(matrices.damping, [](double each) { return each != 0.0; });
   labels.rigid_pole = damping / mass;
   std::vector<ComplexD> start;
-  if (matrices.mass.size() == 1) {
+  if (is_small && matrices.mass.size() == 1) {
     labels.lowest_mode_is_rigid = true;
     if (zeros == 1) start.emplace_back(-labels.rigid_pole);
     if (zeros == 0) {
@@ -236,6 +239,8 @@ ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles&
   } else {
     const UndampedModes modes = undamped_modes(device, matrices);
     labels.lowest_mode_is_rigid = zeros == 0 && modes.lowest_mode_is_rigid;
+    labels.rigid_poles = modes.damped_free;
+    if (!device.has_bodies()) labels.rigid_pole = modes.damped_free == 1 ? modes.damping[0] : 0.0;
     for (std::size_t k = 0; k < modes.stiffness.size(); ++k) {
       const auto [first, second] = quadratic_roots(modes.damping[k], modes.stiffness[k]);
       start.push_back(first);
@@ -245,7 +250,7 @@ ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles&
     std::sort(start.begin(), start.end(),
               [](const ComplexD& a, const ComplexD& b) { return magnitude(a) < magnitude(b); });
     start.erase(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(zeros));
-    if (zeros == 1) start.front() = ComplexD(-labels.rigid_pole);
+    if (zeros == 1 && labels.rigid_pole > 0.0) start.front() = ComplexD(-labels.rigid_pole);
   }
   // A start of zero (a mode lost in rounding) would divide by zero.
   for (ComplexD& s : start) {
@@ -253,7 +258,7 @@ ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles&
   }
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
   const auto exact = [&] { return exact_modal_form(device, path, lag, labels, found.exact); };
-  ModalForm form = matrices.mass.size() <= 2
+  ModalForm form = is_small
                        ? expand_poles(small_device_pencil<double>(device, path, lag),
                                       small_device_pencil<Extended>(device, path, lag), std::move(start), labels,
                                       nyquist, found, exact)
@@ -303,12 +308,12 @@ ModalForm expand_transfer_function(const Device& device) {
 }  // namespace
 
 ModalForm modal_form(const Device& device) {
-  if (!device.has_bodies()) return expand_transfer_function(device);
+  if (!device.is_mechanical()) return expand_transfer_function(device);
   return ModalForms(device, ActuatorLag::included).along({device.loop().actuated, device.loop().sensed});
 }
 
 ModalForm modal_form(const Device& device, Path path, ActuatorLag lag) {
-  if (!device.has_bodies()) {
+  if (!device.is_mechanical()) {
     throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_path_of_transfer_function});
   }
   return ModalForms(device, lag).along(path);
@@ -322,14 +327,17 @@ internal::ModalForms::ModalForms(const Device& device, ActuatorLag lag)
 internal::ModalForms::~ModalForms() = default;
 
 ModalForm internal::ModalForms::along(Path path) {
-  if (std::max(path.force_at, path.position_of) >= device_.bodies().size()) {
+  if (std::max(path.force_at, path.position_of) >= internal::points_of(device_)) {
     throw Error(ErrorCode::no_such_body,
                 {.code = ProblemCode::no_body_of_path,
                  .evidence = {internal::counted("body", std::max(path.force_at, path.position_of)),
-                              internal::counted("bodies", device_.bodies().size())}});
+                              internal::counted("bodies", internal::points_of(device_))}});
   }
-  return expand_bodies(device_, path, lag_, *found_);
+  return along(
+      WeightedPath{internal::weights_of(device_, path.force_at), internal::weights_of(device_, path.position_of)});
 }
+
+ModalForm internal::ModalForms::along(const WeightedPath& path) { return expand_bodies(device_, path, lag_, *found_); }
 
 std::complex<double> response(const ModalTerm& term, double frequency) {
   if (term.degree == 2) {  // nearly all: without the loop, and without the library's division where it is safe

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "model/device_lengths.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
 
@@ -12,7 +13,7 @@ struct FoundPoles;
 // modal_form() of one device along several paths: their poles, most of the work, are found once.
 class ModalForms {
  public:
-  // A device with bodies, which must outlive this.
+  // A device with bodies or coordinates, which must outlive this.
   ModalForms(const Device& device, ActuatorLag lag);
   ModalForms(const ModalForms&) = delete;
   ModalForms& operator=(const ModalForms&) = delete;
@@ -20,6 +21,8 @@ class ModalForms {
 
   // Throws Error (no_such_body), and as modal_form() does.
   [[nodiscard]] ModalForm along(Path path);
+  // Of a device with bodies, of one each.
+  [[nodiscard]] ModalForm along(const WeightedPath& path);
 
  private:
   const Device& device_;

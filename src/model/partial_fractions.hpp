@@ -120,15 +120,17 @@ PolynomialX pair_numerator(const Pencil& pencil, const PoleGroup& group, double 
 // p_I(s) sum_j mu_j s^-(j+1) with mu_j = 1/(2 pi i) contour integral of s^j G ds, in coordinates of the cluster's
 // centre.
 template <typename Pencil>
-ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double nearest) {
+ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, const std::vector<ComplexX>& all_poles) {
   const std::size_t k = group.poles.size();
+  const double nearest = isolation(group, all_poles);
   ComplexX center;
   for (const ComplexX& pole : group.poles) center += pole;
   center = center * (Extended(1.0) / Extended(static_cast<double>(k)));
   if (group.closed) center.im = Extended(0.0);
   double spread = 0.1 * nearest;
   for (const ComplexX& pole : group.poles) spread = std::max(spread, magnitude(pole - center));
-  const Extended radius = Extended(std::sqrt(spread * nearest));
+  const bool is_all = k == all_poles.size() && spread > 0.1 * nearest;  // no other pole is near a wider circle
+  const Extended radius = Extended(is_all ? 4.0 * spread : std::sqrt(spread * nearest));
 
   std::vector<ComplexX> points = circle_directions<contour_points>();
   std::vector<ComplexX> log_derivative(contour_points);
@@ -158,19 +160,22 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double near
   for (std::size_t j = 1; j <= k; ++j) sums.push_back(moment(log_derivative, j));
   PolynomialX denominator = from_power_sums(sums);
   if (magnitude(center) == 0.0) denominator = expand_product(group.poles);  // all at zero, exactly
+  const auto at_zero = std::ranges::count_if(group.poles, [](const ComplexX& pole) { return magnitude(pole) == 0.0; });
   PolynomialX numerator(k);
   for (std::size_t j = 0; j < k; ++j) {
     const ComplexX mu = moment(gain, j);
     for (std::size_t power = 0; power + j + 1 <= k; ++power) numerator[power] += denominator[power + j + 1] * mu;
   }
   cancel_common_factors(numerator, denominator, leading(radius));
-  return real_term(group, shifted(numerator, center), shifted(denominator, center));
+  denominator = shifted(denominator, center);
+  std::fill_n(denominator.begin(), std::min(at_zero, std::ssize(denominator) - 1), ComplexX());
+  return real_term(group, shifted(numerator, center), std::move(denominator));
 }
 
 template <typename Pencil>
 ModalTerm term_of(const Pencil& pencil, const PoleGroup& group, const std::vector<ComplexX>& all_poles) {
+  if (group.cluster) return cluster_term(pencil, group, all_poles);
   const double nearest = isolation(group, all_poles);
-  if (group.cluster) return cluster_term(pencil, group, nearest);
   PolynomialX denominator = expand_product(group.poles);
   PolynomialX numerator = group.poles.size() == 1 ? PolynomialX{analytic_value(pencil, group, group.poles[0], nearest)}
                                                   : pair_numerator(pencil, group, nearest);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "model/device_lengths.hpp"
 #include "model/extended_precision.hpp"
 
 namespace zwidth::internal {
@@ -50,14 +51,15 @@ struct PolynomialPencil {
   }
 };
 
-// p(s) = det Q(s) s^-zero_roots, Q(s) = M s² + D s + K; G(s) = e_position' Q(s)^-1 e_force / (lag s + 1).
+// p(s) = det Q(s) s^-zero_roots, Q(s) = M s² + D s + K; G(s) = w_position' Q(s)^-1 w_force / (lag s + 1).
 template <typename Real>
 class BodyPencil {
  public:
   std::size_t bodies = 0;
-  std::size_t force_at = 0;
-  std::size_t position_of = 0;
+  Weights force_at;
+  Weights position_of;
   std::vector<Real> mass;       // diagonal
+  std::vector<Real> coupling;   // the rest of M, bodies x bodies; empty: none
   std::vector<Real> damping;    // bodies x bodies, row by row
   std::vector<Real> stiffness;  // bodies x bodies
   Real lag{0.0};
@@ -71,6 +73,7 @@ class BodyPencil {
     slope_.resize(n * n);
     for (std::size_t i = 0; i < n * n; ++i) slope_[i] = Complex<Real>(damping[i]);
     for (std::size_t i = 0; i < n; ++i) slope_[i * n + i] += s * (mass[i] * Real(2.0));
+    for (std::size_t i = 0; i < coupling.size(); ++i) slope_[i] += s * (coupling[i] * Real(2.0));
     Complex<Real> log_slope;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t pivot = pivot_of(k);
@@ -101,11 +104,13 @@ class BodyPencil {
   [[nodiscard]] Complex<Real> gain(const Complex<Real>& s) const {
     factorise(s);
     for (Complex<Real>& entry : column_) entry = Complex<Real>();
-    column_[force_at] = Complex<Real>(Real(1.0));
+    for (const auto& [body, weight] : force_at) column_[body] = Complex<Real>(Real(weight));
     solve(column_);
+    Complex<Real> position;
+    for (const auto& [body, weight] : position_of) position += column_[body] * Real(weight);
     Complex<Real> lag_denominator = s * lag;
     lag_denominator.re += Real(1.0);
-    return column_[position_of] / lag_denominator;
+    return position / lag_denominator;
   }
 
  private:
@@ -121,6 +126,7 @@ class BodyPencil {
       matrix_[i].re += stiffness[i];
     }
     for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += s2 * mass[i];
+    for (std::size_t i = 0; i < coupling.size(); ++i) matrix_[i] += s2 * coupling[i];
   }
 
   [[nodiscard]] std::size_t pivot_of(std::size_t k) const {

@@ -132,8 +132,8 @@ std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zer
 
   PoleGroup rigid;
   rigid.poles.assign(zero_roots, ComplexX());
-  rigid.cluster = zero_roots > 2;
-  if (zero_roots == 1) {
+  const bool several = labels.rigid_poles > 1 || (labels.rigid_poles == 1 && zero_roots != 1);
+  if (zero_roots == 1 && !several) {
     const std::size_t partner = rigid_partner(single_real, labels);
     if (partner < single_real.size()) {
       rigid.poles.push_back(single_real[partner]);
@@ -142,6 +142,13 @@ std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zer
   }
   std::sort(single_real.begin(), single_real.end(),
             [](const ComplexX& a, const ComplexX& b) { return magnitude(a) < magnitude(b); });
+  if (several) {  // in one term with the poles at zero: apart they would cancel
+    const auto end =
+        single_real.begin() + static_cast<std::ptrdiff_t>(std::min(labels.rigid_poles, single_real.size()));
+    rigid.poles.insert(rigid.poles.end(), single_real.begin(), end);
+    single_real.erase(single_real.begin(), end);
+  }
+  rigid.cluster = rigid.poles.size() > 2;
   for (std::size_t i = 0; i < single_real.size(); i += 2) {
     PoleGroup group;
     group.poles.push_back(single_real[i]);

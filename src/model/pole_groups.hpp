@@ -15,6 +15,7 @@ struct PoleLabels {
   bool has_bodies = false;            // overdamped pairs are modes; of a transfer function they are not
   bool lowest_mode_is_rigid = false;  // springs to ground, not the links, carry the lowest mode
   bool has_dampers = false;           // of bodies: poles on the imaginary axis are so by structure, not by default
+  std::size_t rigid_poles = 0;        // of coordinates: real ones of the motions that no spring holds
   double rigid_pole = 0.0;            // b/m of the whole device, to tell -b/m from the poles of overdamped modes
 };
 

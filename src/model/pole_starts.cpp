@@ -4,11 +4,33 @@
 #include <cmath>
 
 #include "eigenvalues.hpp"
+#include "model/normal_coordinates.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 using ComplexD = Complex<double>;
+
+UndampedModes modes_of_coordinates(const Device& device) {
+  const NormalCoordinates normal = normal_coordinates(device);
+  const Eigen::Index held = normal.stiffness.rows() - normal.free;
+  UndampedModes modes;
+  if (normal.free > 0) {
+    const Eigen::MatrixXd damping = normal.damping.topLeftCorner(normal.free, normal.free);
+    for (const double each : symmetric_eigenvalues(damping)) modes.damping.push_back(std::max(each, 0.0));
+    modes.stiffness.assign(modes.damping.size(), 0.0);
+  }
+  SymmetricEigen sprung;
+  if (held > 0) sprung = symmetric_eigen(normal.stiffness.bottomRightCorner(held, held));
+  for (Eigen::Index k = 0; k < held; ++k) {
+    const auto shape = sprung.vectors.col(k);
+    modes.stiffness.push_back(std::max(sprung.values(k), 0.0));
+    modes.damping.push_back(std::max(shape.dot(normal.damping.bottomRightCorner(held, held) * shape), 0.0));
+  }
+  modes.lowest_mode_is_rigid = modes.stiffness.size() == 1;
+  modes.damped_free = static_cast<std::size_t>(normal.free - normal.loose);
+  return modes;
+}
 
 }  // namespace
 
@@ -24,6 +46,7 @@ std::pair<ComplexD, ComplexD> quadratic_roots(double c1, double c0) {
 }
 
 UndampedModes undamped_modes(const Device& device, const DeviceMatrices<double>& matrices) {
+  if (!device.has_bodies()) return modes_of_coordinates(device);
   const auto n = static_cast<Eigen::Index>(matrices.mass.size());
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::Map<const RowMajor> stiffness(matrices.stiffness.data(), n, n);

@@ -17,6 +17,7 @@ struct UndampedModes {
   std::vector<double> stiffness;  // w², ascending
   std::vector<double> damping;    // phi' D phi
   bool lowest_mode_is_rigid = false;
+  std::size_t damped_free = 0;  // of coordinates: motions that dampers alone hold
 };
 
 // Real modes of M, K (mass-normalised) with the diagonal of the modal damping.

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "model/normal_coordinates.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -51,6 +53,10 @@ void join_by_dampers_to_ground(const Device& device, Sets& sets) {
 }  // namespace
 
 std::size_t poles_at_zero(const Device& device) {
+  if (!device.has_bodies()) {
+    const NormalCoordinates normal = normal_coordinates(device);
+    return static_cast<std::size_t>(normal.free + normal.loose);
+  }
   Sets sets = joined_by_springs(device);
   const std::size_t without_spring = sets.off_ground();
   join_by_dampers_to_ground(device, sets);
@@ -62,20 +68,23 @@ std::size_t poles_at_zero(const Device& device) {
 // Slowly, sets off ground are held by dampers alone and what a spring ties to ground
 // stands still: x = D^-1 f / s, where D^-1 has an entry only between sets that dampers join without passing ground.
 // One pole then, two where no damper ties those sets to ground; every other one is cancelled by a zero.
-std::size_t poles_at_zero_seen(const Device& device, Path path) {
+std::size_t poles_at_zero_seen(const Device& device, const WeightedPath& path) {
+  if (!device.has_bodies()) return poles_at_zero_seen(normal_coordinates(device), path.force_at, path.position_of);
+  const std::size_t force_at = path.force_at.front().of;
+  const std::size_t position_of = path.position_of.front().of;
   const Sets springs = joined_by_springs(device);
-  if (springs.grounded(path.force_at) || springs.grounded(path.position_of)) return 0;
+  if (springs.grounded(force_at) || springs.grounded(position_of)) return 0;
   Sets sets = springs;
   for (const Link& link : device.links()) {
     if (link.damping > 0.0 && !springs.grounded(link.first) && !springs.grounded(link.second)) {
       sets.join(link.first, link.second);
     }
   }
-  if (!sets.together(path.force_at, path.position_of)) return 0;
+  if (!sets.together(force_at, position_of)) return 0;
   for (const Link& link : device.links())
     if (link.damping > 0.0) sets.join(link.first, link.second);
   join_by_dampers_to_ground(device, sets);
-  return sets.grounded(path.force_at) ? 1 : 2;
+  return sets.grounded(force_at) ? 1 : 2;
 }
 
 void cancel_at_zero(ModalForm& form, std::size_t seen) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "model/device_lengths.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
 
@@ -12,7 +13,7 @@ namespace zwidth::internal {
 [[nodiscard]] std::size_t poles_at_zero(const Device& device);
 
 // How many of them the path sees.
-[[nodiscard]] std::size_t poles_at_zero_seen(const Device& device, Path path);
+[[nodiscard]] std::size_t poles_at_zero_seen(const Device& device, const WeightedPath& path);
 
 // Poles at s = 0 that the path does not see are cancelled by zeros there, which rounding displaces: the sign of what is
 // left of them would decide whether the loop is stable at low gains. Takes them out of their term.

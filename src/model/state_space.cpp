@@ -1,6 +1,7 @@
 #include "zwidth/model/state_space.hpp"
 
 #include "model/device_matrices.hpp"
+#include "model/normal_coordinates.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -39,6 +40,20 @@ ContinuousStateSpace of_bodies(const Device& device) {
   return system;
 }
 
+// In normal coordinates, in which what no spring holds has no stiffness at all.
+ContinuousStateSpace of_coordinates(const Device& device) {
+  const NormalCoordinates normal = normal_coordinates(device);
+  const Eigen::Index n = normal.stiffness.rows();
+  ContinuousStateSpace system{Eigen::MatrixXd::Zero(2 * n, 2 * n), Eigen::VectorXd::Zero(2 * n),
+                              Eigen::RowVectorXd::Zero(2 * n)};
+  system.A.topRightCorner(n, n).setIdentity();
+  system.A.bottomLeftCorner(n, n) = -normal.stiffness;
+  system.A.bottomRightCorner(n, n) = -normal.damping;
+  system.B.tail(n) = normal.of(weights_of(device, device.loop().actuated));
+  system.C.head(n) = normal.of(weights_of(device, device.loop().sensed)).transpose();
+  return system;
+}
+
 ContinuousStateSpace of_transfer_function(const TransferFunction& transfer_function) {
   const std::vector<double>& denominator = transfer_function.denominator;
   const std::vector<double>& numerator = transfer_function.numerator;
@@ -58,8 +73,9 @@ ContinuousStateSpace of_transfer_function(const TransferFunction& transfer_funct
 }  // namespace
 
 ContinuousStateSpace state_space(const Device& device) {
-  ContinuousStateSpace system =
-      device.has_bodies() ? of_bodies(device) : of_transfer_function(*device.parameters().transfer_function);
+  ContinuousStateSpace system = device.has_bodies()      ? of_bodies(device)
+                                : device.is_mechanical() ? of_coordinates(device)
+                                                         : of_transfer_function(*device.parameters().transfer_function);
   const double lag = device.parameters().actuator.time_constant;
   return lag > 0.0 ? with_lag(system, lag) : system;
 }

@@ -169,6 +169,7 @@ std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, dou
 }
 
 RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress) {
+  require_no_coordinates(device);
   RelayResult result;
   result.motion = device.parameters().motion;
   result.sampling_period = device.loop().sampling_period;

@@ -30,6 +30,7 @@ double half_period_samples(const CriticalStiffness& linear, double period) {
 }  // namespace
 
 RelayPrediction relay_prediction(const Device& device, const Relay& relay, const Progress& progress) {
+  require_no_coordinates(device);
   check_relay(relay);
   StagedProgress stages(progress);
   stages.next(0.1);

@@ -9,6 +9,7 @@
 namespace zwidth {
 
 SyntheticRecord synthetic_record(const Device& device, std::span<const double> command, const SyntheticNoise& noise) {
+  require_no_coordinates(device);
   const Loop& loop = device.loop();
   const double step = device.parameters().sensor.resolution;
   std::mt19937_64 generator(noise.seed);

@@ -16,6 +16,7 @@ LIBRARY = {
     "signal": [],
     "sampling": ["model"],
     "control": ["model", "sampling"],
+    "mechanism": ["words", "model"],
     "batch/kernel": ["model", "sampling"],
     "stability": ["model", "sampling", "batch/kernel"],
     "io": ["model", "signal", "study"],

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/model/coordinates.hpp"
+#include "zwidth/model/mechanism_file.hpp"
 #include "zwidth/model/motor_drive.hpp"
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"
@@ -47,7 +49,8 @@ struct LoopDamper {
   std::optional<double> delay;            ///< s, in addition to the zero-order hold; >= 0; absent: that of the loop
 };
 
-/// How the loop is closed around the device. Body members are indices into DeviceParameters::bodies.
+/// How the loop is closed around the device. Body members are indices into DeviceParameters::bodies, or into the points of
+/// its coordinates.
 struct Loop {
   std::size_t actuated = 0;               ///< the body that the actuator pushes
   std::size_t sensed = 0;                 ///< the body whose position is sampled
@@ -98,6 +101,8 @@ struct DeviceParameters {
   User user;                                          ///< at the held body
   std::optional<Uncertainty> uncertainty;             ///< of some of the numbers above
   std::optional<MotorDrive> driver = {};              ///< what a rig reaches the motor through
+  std::optional<Coordinates> coordinates = {};        ///< instead of bodies and links
+  std::optional<MechanismDirection> mechanism = {};   ///< what the coordinates are of; device_of_mechanism() makes them
 };
 
 /// The first thing that makes DeviceParameters impossible.
@@ -123,8 +128,9 @@ inline constexpr double max_rate_ratio = 1000;                ///< of the period
 ///
 /// Checks: all numbers finite and in the ranges given with each member, and 0 or within 1e-30..1e30 in magnitude
 /// (coefficients of a transfer function: 1e-100..1e100), so that no product of a few of them overflows; body names
-/// unique and not empty; link ends distinct and existing; every body connected to every other through links; either
-/// bodies or a transfer function; no user, link or second body with a transfer function; uncertain parameters
+/// unique and not empty; link ends distinct and existing; every body connected to every other through links; one of
+/// bodies, coordinates and a transfer function; of coordinates sizes that agree and a mass matrix that is symmetric and
+/// positive definite; no user, link or second body with a transfer function; uncertain parameters
 /// known, present and each once, their covariance square, symmetric and positive semidefinite; the damper's own period a
 /// whole part or multiple of the loop's (to 1e-9), at most max_rate_ratio, and without filters of the wall where it is
 /// another.
@@ -144,14 +150,20 @@ class Device {
   [[nodiscard]] const DeviceParameters& parameters() const noexcept { return parameters_; }
   /// For people.
   [[nodiscard]] const std::string& name() const noexcept { return parameters_.name; }
-  /// Empty for a transfer function.
+  /// Empty for coordinates and for a transfer function.
   [[nodiscard]] const std::vector<Body>& bodies() const noexcept { return parameters_.bodies; }
   /// Between the bodies.
   [[nodiscard]] const std::vector<Link>& links() const noexcept { return parameters_.links; }
   /// How it is sampled, and where.
   [[nodiscard]] const Loop& loop() const noexcept { return parameters_.loop; }
-  /// False for a transfer function.
+  /// False for coordinates and for a transfer function.
   [[nodiscard]] bool has_bodies() const noexcept { return !parameters_.bodies.empty(); }
+  /// Bodies or coordinates: what has mass, and can be held. False for a transfer function.
+  [[nodiscard]] bool is_mechanical() const noexcept { return !parameters_.transfer_function; }
+  /// How many bodies or coordinates there are; 0 for a transfer function.
+  [[nodiscard]] std::size_t degrees_of_freedom() const noexcept {
+    return parameters_.coordinates ? parameters_.coordinates->size() : parameters_.bodies.size();
+  }
 
   /// Index of the body of that name; throws Error (no_such_body).
   [[nodiscard]] std::size_t body_index(const std::string& name) const;
@@ -159,5 +171,8 @@ class Device {
  private:
   DeviceParameters parameters_;
 };
+
+/// Throws Error (needs_bodies) for a device of coordinates: for computations that know bodies and transfer functions alone.
+void require_no_coordinates(const Device& device);
 
 }  // namespace zwidth

@@ -229,6 +229,7 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
 }
 
 Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
+  require_no_coordinates(device);
   require_valid(find_problem(options, device));
   Diagnosis diagnosis;
   diagnosis.frequency = options.frequency;
@@ -261,6 +262,7 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
 }
 
 Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options) {
+  require_no_coordinates(device);
   require_valid(find_problem(options, device, recording));
   Diagnosis diagnosis;
   if (const auto found = recorded_oscillation(recording)) {

@@ -126,6 +126,7 @@ std::vector<std::vector<AbsoluteStabilityPoint>> ranges_of(Sampler& sampler,
 AbsoluteStabilityRegion absolute_stability_region(const Device& device, const StableWalls& walls,
                                                   double largest_damping,
                                                   const AbsoluteStabilityRegionOptions& options) {
+  require_no_coordinates(device);
   require_positive({"largest damping", largest_damping});
   require_fraction({"deviation", options.deviation});
   StagedProgress stages(options.progress);

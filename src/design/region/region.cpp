@@ -151,6 +151,9 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     const double period = damper_timing(device.loop()).sampling_period;
     result.force_per_count = force_per_count_rates(device.parameters().wall, period, resolution);
   }
+  if (options.any_user && device.parameters().coordinates) {
+    result.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+  }
   if (options.any_user && device.has_bodies() && result.region.most_damped &&
       result.region.most_damped->damping > 0.0) {
     if (has_damper_loop(device.loop())) {

@@ -228,6 +228,7 @@ double checked_first_slope(const Device& free, const DesignParameter& parameter,
 }  // namespace
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device) {
+  require_no_coordinates(device);
   require_one_rate(device);
   const Wall& wall = device.parameters().wall;
   return absolute_stability_sensitivities(device,
@@ -235,6 +236,7 @@ std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device) 
 }
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device, const AbsoluteStabilityLimit& limit) {
+  require_no_coordinates(device);
   require_one_rate(device);
   if (!(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) return {};
   const Device free = device_without_user(device);

@@ -195,6 +195,7 @@ std::optional<OptionProblem> find_problem(const SweepOptions& options, const Dev
 
 ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis>& axes, SweepOptions options,
                                const Progress& progress) {
+  require_no_coordinates(device);
   if (const auto problem = find_sweep_problem(device, axes)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
   }

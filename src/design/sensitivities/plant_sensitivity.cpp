@@ -60,6 +60,7 @@ typename P::Matrix generator_of_bodies(const Device& device) {
 
 template <typename P>
 Generator<P> generator_of(const Device& device) {
+  require_no_coordinates(device);
   using Real = typename P::Real;
   Generator<P> result;
   if (device.has_bodies()) {
@@ -336,6 +337,7 @@ PlantSensitivity derivatives_up_to(const Device& device, double angle, std::span
 
 PlantSensitivity plant_sensitivity(const Device& device, double angle, std::span<const DesignParameter> parameters,
                                    std::optional<std::complex<double>> reference) {
+  require_no_coordinates(device);
   const auto size = device.has_bodies() ? 2 * device.bodies().size() + 2
                                         : device.parameters().transfer_function->denominator.size() + 1;
   return size <= static_cast<std::size_t>(small_size)

@@ -174,6 +174,7 @@ class DamperRecommendation {
 }  // namespace
 
 WallRecommendation recommend_damper(const Device& device, const RecommendationOptions& options) {
+  require_no_coordinates(device);
   require_one_rate(device);
   return DamperRecommendation(device, options).answer();
 }

@@ -319,6 +319,7 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 }
 
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
+  require_no_coordinates(device);
   require_valid(find_problem(options, device));
   DesignTargets result;
   const NumberLimit own = number_limit(device, options.limit_of);

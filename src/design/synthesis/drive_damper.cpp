@@ -49,6 +49,7 @@ constexpr std::uintmax_t most_refinements_of_damping = 16;
 }  // namespace
 
 BestDamping best_damping(const Device& device, const std::function<double(double)>& value, const Progress& progress) {
+  require_no_coordinates(device);
   BestDamping best{0.0, value(0.0)};
   const Device alone = with_loop_of_damper(device);
   const double largest =

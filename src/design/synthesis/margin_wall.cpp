@@ -165,6 +165,7 @@ std::optional<OptionProblem> find_problem(const RequiredMargins& margins) {
 }
 
 double stiffest_wall(const Device& device, const RequiredMargins& margins) {
+  require_no_coordinates(device);
   require_one_rate(device);
   const VirtualDamper damper = virtual_damper(device);
   StiffnessRange range;
@@ -208,6 +209,7 @@ double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const Req
 }
 
 bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins) {
+  require_no_coordinates(device);
   require_one_rate(device);
   const FilteredPlant plant = filtered_plant(device);
   const VirtualDamper damper = virtual_damper(device);

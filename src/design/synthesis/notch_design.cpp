@@ -215,10 +215,12 @@ Device with_modal_shift(const Device& device, double modal_shift) {
 }
 
 double stiffest_wall(const Device& device, const NotchOptions& options) {
+  require_no_coordinates(device);
   return internal::stiffest_wall(device, required(options));
 }
 
 NotchDesign design_notch(const Device& device, const NotchOptions& options) {
+  require_no_coordinates(device);
   require_valid(find_problem(options, device));
   StagedProgress stages(options.progress);
   NotchOptions staged = options;

@@ -281,6 +281,7 @@ std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
 }
 
 SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
+  require_no_coordinates(device);
   // Two rates are known with the damper as it is, of a device whose numbers are certain.
   const bool knows_two_rates =
       options.damping == SafeWallOptions::Damping::own && !is_uncertain(device) && knows_all_users(device.loop());

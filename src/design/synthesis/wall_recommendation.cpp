@@ -346,6 +346,7 @@ WallRecommendation refused(Trust trust) {
 }  // namespace
 
 WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
+  require_no_coordinates(device);
   if (!knows_all_users(device.loop())) require_one_rate(device);
   require_valid(find_problem(options, device));
   Trust trust = trust_of(device);

@@ -127,6 +127,7 @@ void add_margins(const Device& device, const Progress& progress, WallSummary& su
 }  // namespace
 
 WallSummary wall_summary(const Device& device, const Analysis& analysis, const WallSummaryOptions& options) {
+  require_no_coordinates(device);
   WallSummary summary;
   if (analysis.trust.refused()) {
     summary.why_no_damper = summary.why_no_margins = Finding{.code = FindingCode::device_refused};

@@ -38,10 +38,37 @@ struct Continuous {
   std::size_t size;
 };
 
+// M^-1 [-K -D b]
+void set_coupled(Continuous& system, const DeviceMatrices<Ball>& matrices, const Device& device) {
+  const std::size_t n = matrices.mass.size();
+  BallMatrix mass(n, n);
+  BallMatrix forces(n, 2 * n + 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    system(i, n + i) = Ball(1.0);
+    for (std::size_t j = 0; j < n; ++j) {
+      const std::size_t entry = i * n + j;
+      arb_set(mass(i, j), (i == j ? matrices.mass[i] : matrices.coupling[entry]).get());
+      arb_neg(forces(i, j), matrices.stiffness[entry].get());
+      arb_neg(forces(i, n + j), matrices.damping[entry].get());
+    }
+  }
+  for (const auto& [i, weight] : weights_of(device, device.loop().actuated)) arb_set_d(forces(i, 2 * n), weight);
+  BallMatrix solution(n, 2 * n + 1);
+  arb_mat_spd_solve(solution, mass, forces, BallDigits::bits());
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= 2 * n; ++j) arb_set(system(n + i, j).get(), solution(i, j));
+  }
+  for (const auto& [i, weight] : weights_of(device, device.loop().sensed)) system.output[i] = Ball(weight);
+}
+
 Continuous of_bodies(const Device& device, bool lag) {
   const DeviceMatrices<Ball> matrices = device_matrices<Ball>(device);
   const std::size_t n = matrices.mass.size();
   Continuous system(2 * n + (lag ? 1 : 0));
+  if (!matrices.coupling.empty()) {
+    set_coupled(system, matrices, device);
+    return system;
+  }
   for (std::size_t i = 0; i < n; ++i) {
     system(i, n + i) = Ball(1.0);
     for (std::size_t j = 0; j < n; ++j) {
@@ -73,8 +100,8 @@ Continuous of_transfer_function(const TransferFunction& function, bool lag) {
 Continuous continuous(const Device& device) {
   const double tau = device.parameters().actuator.time_constant;
   const bool lag = tau > 0.0;
-  Continuous system =
-      device.has_bodies() ? of_bodies(device, lag) : of_transfer_function(*device.parameters().transfer_function, lag);
+  Continuous system = device.is_mechanical() ? of_bodies(device, lag)
+                                             : of_transfer_function(*device.parameters().transfer_function, lag);
   if (lag) {
     const std::size_t last = system.output.size() - 1;
     system(last, last) = Ball(-1.0) / Ball(tau);

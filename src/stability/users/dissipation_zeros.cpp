@@ -33,28 +33,28 @@ bool is_zero(const DigitPolynomial& p) {
   return std::all_of(p.begin(), p.end(), [](const ManyDigits& each) { return each.is_zero(); });
 }
 
+/// The motion of a point or along a length. A rigid body moves as one: what is left of its motion is rounding.
+DigitPolynomial motion_of(const Weights& weights, const MotionPolynomials& motions) {
+  DigitPolynomial sum{ManyDigits(0.0)};
+  std::vector<ManyDigits> sizes;
+  for (const auto& [of, weight] : weights) {
+    const DigitPolynomial& motion = motions.numerators[of];
+    add_scaled(sum, motion, weight);
+    sizes.resize(sum.size(), ManyDigits(0.0));
+    for (std::size_t k = 0; k < motion.size(); ++k) sizes[k] += std::abs(weight) * abs(motion[k]);
+  }
+  for (std::size_t k = 0; k < sum.size(); ++k) {
+    if (abs(sum[k]) <= zero_in_digits * sizes[k]) sum[k] = 0.0;
+  }
+  drop_leading_zeros(sum);
+  return sum;
+}
+
 /// q^H Dmp q |det|² as a polynomial in X = w².
 DigitPolynomial dissipation_of(const Device& device, const MotionPolynomials& motions) {
   DigitPolynomial sum{ManyDigits(0.0)};
-  for (std::size_t i = 0; i < device.bodies().size(); ++i) {
-    const double damping = device.bodies()[i].damping;
-    if (damping > 0.0) add_scaled(sum, squared_size(motions.numerators[i]), damping);
-  }
-  for (const Link& link : device.links()) {
-    if (!(link.damping > 0.0)) continue;
-    DigitPolynomial length = motions.numerators[link.first];
-    add_scaled(length, motions.numerators[link.second], -1.0);
-    // A rigid body moves as one: what is left of its motion is rounding.
-    const DigitPolynomial& first = motions.numerators[link.first];
-    const DigitPolynomial& second = motions.numerators[link.second];
-    for (std::size_t k = 0; k < length.size(); ++k) {
-      ManyDigits size = 0.0;
-      if (k < first.size()) size += abs(first[k]);
-      if (k < second.size()) size += abs(second[k]);
-      if (abs(length[k]) <= zero_in_digits * size) length[k] = 0.0;
-    }
-    drop_leading_zeros(length);
-    add_scaled(sum, squared_size(length), link.damping);
+  for (const DeviceLength& each : lengths_of(device)) {
+    if (each.damping > 0.0) add_scaled(sum, squared_size(motion_of(each.weights, motions)), each.damping);
   }
   drop_leading_zeros(sum);
   return sum;
@@ -62,6 +62,7 @@ DigitPolynomial dissipation_of(const Device& device, const MotionPolynomials& mo
 
 /// Beyond a hundred digits: without dips where all bodies are damped alike to within a factor.
 bool is_damped_alike(const Device& device) {
+  if (!device.has_bodies()) return false;
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
   for (const Body& body : device.bodies()) {
@@ -215,21 +216,22 @@ class ZeroSearch {
 }  // namespace
 
 DissipationZeros::DissipationZeros(const Device& device, double nyquist) {
-  const std::size_t bodies = device.bodies().size();
+  const std::size_t bodies = device.degrees_of_freedom();
   if (bodies > most_bodies_for_polynomials) {
     is_unknown = !is_damped_alike(device);
     return;
   }
   are_complete = true;
-  if (bodies == 2) {
+  if (device.has_bodies() && bodies == 2) {
     if (auto zeros = zeros_of_two_bodies(device, nyquist)) {
       others = *std::move(zeros);
       return;
     }
   }
   const Loop& loop = device.loop();
-  const MotionPolynomials motions = motion_polynomials(device, loop.held);
-  const MotionsInDigits of{motions.numerators[loop.sensed], motions.numerators[loop.actuated], motions.determinant,
+  const MotionPolynomials motions = motion_polynomials(device, weights_of(device, loop.held));
+  const MotionsInDigits of{motion_of(weights_of(device, loop.sensed), motions),
+                           motion_of(weights_of(device, loop.actuated), motions), motions.determinant,
                            dissipation_of(device, motions)};
   if (is_zero(of.dissipation) || is_zero(of.sensed) || is_zero(of.actuated)) return;
   const double lag = device.parameters().actuator.time_constant;

@@ -12,7 +12,7 @@ namespace zwidth::internal {
 
 struct DissipationZeros {
   explicit DissipationZeros() = default;
-  /// Of a device without user that has bodies, motion_polynomials() allowing. `nyquist`: in rad/s.
+  /// Of a device without user that has bodies or coordinates, motion_polynomials() allowing. `nyquist`: in rad/s.
   DissipationZeros(const Device& device, double nyquist);
 
   struct Zero {

@@ -40,21 +40,22 @@ struct Solved {
   std::vector<Digits> numerators;
 };
 
-/// det Z and x det Z of Z x = e_forced, Z = L D L^T; most of a chain's entries are zero.
-Solved solved_at(const DeviceMatrices<Digits>& matrices, std::size_t forced, const Digits& s) {
+/// det Z and x det Z of Z x = w_forced, Z = L D L^T; most of a chain's entries are zero.
+Solved solved_at(const DeviceMatrices<Digits>& matrices, const Weights& forced, const Digits& s) {
   const std::size_t n = matrices.mass.size();
   std::vector<Digits> z(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       const std::size_t at = i * n + j;
+      if (!matrices.coupling.empty() && !matrices.coupling[at].is_zero()) z[at] = s * s * matrices.coupling[at];
       if (matrices.stiffness[at].is_zero() && matrices.damping[at].is_zero()) continue;
-      z[at] = matrices.stiffness[at] + s * matrices.damping[at];
+      z[at] += matrices.stiffness[at] + s * matrices.damping[at];
     }
     z[i * n + i] += s * s * matrices.mass[i];
   }
   Solved solved{Digits(1.0), std::vector<Digits>(n)};
   std::vector<Digits>& x = solved.numerators;
-  x[forced] = 1.0;
+  for (const auto& [i, weight] : forced) x[i] = weight;
   std::vector<Digits> inverse(n);
   for (std::size_t k = 0; k < n; ++k) {
     solved.determinant *= z[k * n + k];
@@ -108,7 +109,7 @@ void trim(Polynomial<Digits>& p, const Digits& lowest, const Digits& highest) {
 
 }  // namespace
 
-MotionPolynomials motion_polynomials(const Device& device, std::size_t forced) {
+MotionPolynomials motion_polynomials(const Device& device, const Weights& forced) {
   const DeviceMatrices<Digits> matrices = device_matrices<Digits>(device);
   const std::size_t n = matrices.mass.size();
   const std::vector<Digits> speeds = interpolation_speeds(matrices);

@@ -1,12 +1,13 @@
 #pragma once
 
-// The motions per force at one body as quotients of polynomials in s, with a hundred digits: zeros that coincide are
+// The motions per force at one point as quotients of polynomials in s, with a hundred digits: zeros that coincide are
 // told from zeros that lie close together.
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cstddef>
 #include <vector>
 
+#include "model/device_lengths.hpp"
 #include "stability/second_route/characteristic_polynomial.hpp"
 #include "zwidth/model/device.hpp"
 
@@ -23,11 +24,11 @@ inline constexpr double zero_in_digits = 1e-40;
 
 struct MotionPolynomials {
   Polynomial<ManyDigits> determinant;              // det Z(s), Z = s² M + s D + K
-  std::vector<Polynomial<ManyDigits>> numerators;  // of each body's position, over the determinant
+  std::vector<Polynomial<ManyDigits>> numerators;  // of each body's or coordinate's position, over the determinant
 };
 
-// The device must have bodies, most_bodies_for_polynomials at most. From Z's inverse at 2 n + 1 positive s, where it is
+// The device must have bodies or coordinates, most_bodies_for_polynomials at most. From Z's inverse at 2 n + 1 positive s, where it is
 // positive definite, by Newton's interpolation.
-[[nodiscard]] MotionPolynomials motion_polynomials(const Device& device, std::size_t forced);
+[[nodiscard]] MotionPolynomials motion_polynomials(const Device& device, const Weights& forced);
 
 }  // namespace zwidth::internal

@@ -34,7 +34,7 @@ Number inverse(const Number& a) {
 
 // (K - w² M + jw D) x = f by elimination with row pivots; most of a chain's entries are zero. `rows` has room for n rows
 // of n + 1; x is left in their last column.
-void solve(const DeviceMatrices<long double>& matrices, std::size_t forced, long double w, Number* rows) {
+void solve(const DeviceMatrices<long double>& matrices, const Weights& forced, long double w, Number* rows) {
   const std::size_t n = matrices.mass.size();
   const std::size_t width = n + 1;
   for (std::size_t i = 0; i < n; ++i) {
@@ -42,8 +42,11 @@ void solve(const DeviceMatrices<long double>& matrices, std::size_t forced, long
       rows[i * width + j] = {matrices.stiffness[i * n + j], w * matrices.damping[i * n + j]};
     }
     rows[i * width + i].real -= w * w * matrices.mass[i];
-    rows[i * width + n] = {i == forced ? 1.0L : 0.0L, 0.0L};
+    rows[i * width + n] = {0.0L, 0.0L};
   }
+  for (std::size_t i = 0; i < matrices.coupling.size(); ++i)
+    rows[i / n * width + i % n].real -= w * w * matrices.coupling[i];
+  for (const auto& [i, weight] : forced) rows[i * width + n].real = weight;
   const auto size = [&](std::size_t i, std::size_t j) {
     return std::abs(rows[i * width + j].real) + std::abs(rows[i * width + j].imaginary);
   };
@@ -74,8 +77,8 @@ void solve(const DeviceMatrices<long double>& matrices, std::size_t forced, long
 
 }  // namespace
 
-SolvedMotions::SolvedMotions(const Device& device, std::size_t forced)
-    : matrices_(device_matrices<long double>(device)), forced_(forced) {}
+SolvedMotions::SolvedMotions(const Device& device, Weights forced)
+    : matrices_(device_matrices<long double>(device)), forced_(std::move(forced)) {}
 
 void SolvedMotions::responses(double frequency, std::complex<double>* values) const {
   constexpr std::size_t few = 6;  // bodies, for which there is room without the heap
@@ -86,9 +89,11 @@ void SolvedMotions::responses(double frequency, std::complex<double>* values) co
   Number* rows = more.empty() ? room.data() : more.data();
   solve(matrices_, forced_, static_cast<long double>(frequency), rows);
   for (std::size_t i = 0; i < motions_.size(); ++i) {
-    const auto [body, past] = motions_[i];
-    Number motion = rows[body * width + n];
-    if (past != body) subtract(motion, rows[past * width + n]);
+    Number motion = {0.0L, 0.0L};
+    for (const auto& [body, weight] : motions_[i]) {
+      const Number& own = rows[body * width + n];
+      subtract(motion, {-weight * own.real, -weight * own.imaginary});
+    }
     values[i] = {static_cast<double>(motion.real), static_cast<double>(motion.imaginary)};
   }
 }

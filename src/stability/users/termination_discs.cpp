@@ -64,36 +64,36 @@ TerminationDiscs::TerminationDiscs(const Device& device, const Progress& progres
       period_(device.loop().sampling_period),
       delay_(device.loop().delay),
       plant_(filtered_plant(device_without_user(device))) {
-  if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_for_user});
+  if (!device.is_mechanical()) throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::no_body_for_user});
   const Device free = device_without_user(device);
   ModalForms forms(free, ActuatorLag::left_out);
-  std::vector<ModalForm> motions;
-  for (std::size_t i = 0; i < free.bodies().size(); ++i) {
+  std::vector<ModalForm> motions;  // of the points
+  for (std::size_t i = 0; i < points_of(free); ++i) {
     tell(progress, 0.0);
     motions.push_back(forms.along({held_, i}));
   }
-  solved_ = SolvedMotions(free, held_);
-  motions_.add(motions[sensed_]);
-  motions_.add(motions[actuated_]);
-  solved_.add_body(sensed_);
-  solved_.add_body(actuated_);
-  for (std::size_t i = 0; i < free.bodies().size(); ++i) {
-    if (!(free.bodies()[i].damping > 0.0)) continue;
-    motions_.add(motions[i]);
-    solved_.add_body(i);
-    dampings_.push_back(free.bodies()[i].damping);
+  const auto motion_along = [&](const Weights& length) {
+    if (!free.has_bodies()) return forms.along({weights_of(free, held_), length});
+    return length.size() == 1 ? motions[length[0].of] : difference(motions[length[0].of], motions[length[1].of]);
+  };
+  solved_ = SolvedMotions(free, weights_of(free, held_));
+  for (const std::size_t point : {sensed_, actuated_}) {
+    motions_.add(motions[point]);
+    solved_.add(weights_of(free, point));
   }
-  for (const Link& link : free.links()) {
-    if (!(link.damping > 0.0)) continue;
-    motions_.add(difference(motions[link.first], motions[link.second]));
-    solved_.add_length(link.first, link.second);
-    dampings_.push_back(link.damping);
+  const std::vector<DeviceLength> lengths = lengths_of(free);
+  for (const DeviceLength& each : lengths) {
+    if (!(each.damping > 0.0)) continue;
+    motions_.add(motion_along(each.weights));
+    solved_.add(each.weights);
+    dampings_.push_back(each.damping);
   }
   held_motion_ = motions[held_];
   sensed_motion_ = motions[sensed_];
   actuated_motion_ = motions[actuated_];
   through_ = forms.along({actuated_, sensed_});
   matrices_ = device_matrices<long double>(free);
+  for (const std::size_t point : {actuated_, sensed_, held_}) ports_.push_back(weights_of(free, point));
   poles_ = held_motion_.terms;
   for (const ModalForm* each : {&through_, &sensed_motion_, &actuated_motion_}) {
     if (each->terms.size() > poles_.size()) poles_ = each->terms;
@@ -110,8 +110,9 @@ TerminationDiscs::TerminationDiscs(const Device& device, const Progress& progres
     highest_mode = std::max(highest_mode, mode.frequency);
     highest_corner = std::max(highest_corner, mode.frequency * (1.0 + 2.0 * mode.damping_ratio));
   }
-  for (const Link& link : free.links()) {
-    if (link.damping > 0.0) highest_corner = std::max(highest_corner, link.stiffness / link.damping);
+  for (const DeviceLength& each : lengths) {
+    const bool is_to_ground = free.has_bodies() && each.weights.size() == 1;
+    if (each.damping > 0.0 && !is_to_ground) highest_corner = std::max(highest_corner, each.stiffness / each.damping);
   }
   double highest_zero = 0.0;
   for (const SharpZero& zero : zeros_.sharp) highest_mode = std::max(highest_mode, zero.frequency);
@@ -229,15 +230,14 @@ TerminationDiscs::OtherAliases TerminationDiscs::sum_of_aliases(double frequency
 /// The response X = G_hh with the sensed position kept at 0 by a force at the actuated body; 0 where either is the held
 /// body. In long double, for the digits of a small imaginary part.
 ///
-///     [-w² M + jw C + K   -e_a] [x]   [e_h]
-///     [      e_s^T          0 ] [f] = [ 0 ],    X = e_h^T x
+///     [-w² M + jw C + K   -w_a] [x]   [w_h]
+///     [      w_s^T          0 ] [f] = [ 0 ],    X = w_h^T x
 std::complex<double> TerminationDiscs::kept_motion(double frequency) const {
   using Real = long double;
   using Number = std::complex<Real>;
   if (held_ == sensed_ || held_ == actuated_) return 0.0;
   const auto n = static_cast<Eigen::Index>(matrices_.mass.size());
-  const auto held = static_cast<Eigen::Index>(held_);
-  if (n == 2) {  // the other body stands still
+  if (n == 2 && matrices_.coupling.empty()) {  // the other body stands still
     const std::size_t entry = held_ * 2 + held_;
     const Number kept =
         Real(1.0) / Number(matrices_.stiffness[entry] - Real(frequency) * Real(frequency) * matrices_.mass[held_],
@@ -253,16 +253,23 @@ std::complex<double> TerminationDiscs::kept_motion(double frequency) const {
       bordered(i, j) = {matrices_.stiffness[entry], Real(frequency) * matrices_.damping[entry]};
     }
     bordered(i, i) -= Real(frequency) * Real(frequency) * matrices_.mass[static_cast<std::size_t>(i)];
+    if (!matrices_.coupling.empty()) {
+      for (Eigen::Index j = 0; j < n; ++j) {
+        bordered(i, j) -= Real(frequency) * Real(frequency) * matrices_.coupling[static_cast<std::size_t>(i * n + j)];
+      }
+    }
     for (Eigen::Index j = 0; j < n; ++j) {
       size = std::max({size, std::abs(bordered(i, j).real()), std::abs(bordered(i, j).imag())});
     }
   }
   // The border as large as the rest.
-  bordered(static_cast<Eigen::Index>(actuated_), n) = -size;
-  bordered(n, static_cast<Eigen::Index>(sensed_)) = size;
+  for (const auto& [i, weight] : ports_[0]) bordered(static_cast<Eigen::Index>(i), n) = -size * Real(weight);
+  for (const auto& [i, weight] : ports_[1]) bordered(n, static_cast<Eigen::Index>(i)) = size * Real(weight);
   Eigen::Matrix<Number, Eigen::Dynamic, 1> force = Eigen::Matrix<Number, Eigen::Dynamic, 1>::Zero(n + 1);
-  force(held) = Real(1.0);
-  const Number kept = bordered.partialPivLu().solve(force)(held);
+  for (const auto& [i, weight] : ports_[2]) force(static_cast<Eigen::Index>(i)) = Real(weight);
+  const Eigen::Matrix<Number, Eigen::Dynamic, 1> motion = bordered.partialPivLu().solve(force);
+  Number kept = 0.0L;
+  for (const auto& [i, weight] : ports_[2]) kept += motion(static_cast<Eigen::Index>(i)) * Real(weight);
   return {static_cast<double>(kept.real()), static_cast<double>(kept.imag())};
 }
 

@@ -21,7 +21,7 @@ inline constexpr double clear_angle = 0.1;
 /// The passive termination circles of the sampled plant: at each frequency the disc |p - centre| <= radius (see absolute_stability.hpp).
 class TerminationDiscs {
  public:
-  /// The device must have bodies; its user is left out.
+  /// The device must have bodies or coordinates; its user is left out.
   explicit TerminationDiscs(const Device& device, const Progress& progress = {});
 
   struct Disc {
@@ -131,6 +131,7 @@ class TerminationDiscs {
   ModalForm actuated_motion_;
   ModalForm through_;  // actuated -> sensed, the lag left out
   DeviceMatrices<long double> matrices_;
+  std::vector<Weights> ports_;    // actuated, sensed and held
   std::vector<ModalTerm> poles_;  // the terms whose denominators are those of the device
   SharedPoles motions_;           // for a force at the held body: sensed, actuated, and the length of each damper
   SolvedMotions solved_;          // the same, where terms of these cancel

@@ -1,0 +1,93 @@
+#include <Eigen/QR>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "mechanism/refusal.hpp"
+#include "zwidth/mechanism.hpp"
+
+namespace zwidth {
+namespace {
+
+// Relative: rows that depend on others to this are sums of them. At a singular pose of a loop they do to the root of rounding.
+constexpr double dependent_below = 1e-6;
+// Relative to the largest: what rounding leaves of a weight that is 0.
+constexpr double no_weight_below = 1e-14;
+
+[[noreturn]] void refuse_normal(ProblemCode code, const Eigen::Vector3d& normal) {
+  internal::refuse_mechanism("mechanism.normal",
+                             {.code = code, .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
+}
+
+Eigen::Index rank_of(const Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0) return 0;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.rowwise().normalized().transpose());
+  qr.setThreshold(dependent_below);
+  return qr.rank();
+}
+
+// g' A of the motion along q that is g' A where T q = 0: along = t' T + g' A.
+Eigen::VectorXd through_cables(const Eigen::VectorXd& along, const Eigen::MatrixXd& cables, const Eigen::MatrixXd& rows,
+                               ProblemCode not_determined, const Eigen::Vector3d& normal) {
+  Eigen::MatrixXd all(cables.rows() + rows.rows(), along.size());
+  all << cables, rows;
+  if (rank_of(all) < rank_of(cables) + rows.rows()) refuse_normal(ProblemCode::motor_or_encoder_depends, normal);
+  const Eigen::MatrixXd columns = all.rowwise().normalized().transpose();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(dependent_below);
+  solver.compute(columns);
+  const Eigen::VectorXd shares = solver.solve(along);
+  if (!((columns * shares - along).norm() <= dependent_below * along.norm())) refuse_normal(not_determined, normal);
+  return columns.rightCols(rows.rows()) * shares.tail(rows.rows());
+}
+
+std::vector<double> weights(const Eigen::VectorXd& values) {
+  const double least = no_weight_below * values.cwiseAbs().maxCoeff();
+  std::vector<double> result;
+  for (const double value : values) result.push_back(std::abs(value) > least ? value : 0.0);
+  return result;
+}
+
+// The index of a point that moves by these weights, a new one where there is none.
+std::size_t point(std::vector<Coordinates::Point>& points, const char* name, const Eigen::VectorXd& values) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Map<const Eigen::VectorXd> there(points[i].weights.data(), values.size());
+    if ((there - values).norm() <= no_weight_below * values.norm()) return i;
+  }
+  points.push_back({name, weights(values)});
+  return points.size() - 1;
+}
+
+}  // namespace
+
+Device device_of_mechanism(DeviceParameters parameters) {
+  if (!parameters.mechanism) internal::refuse_mechanism("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
+  const MechanismDirection& along = *parameters.mechanism;
+  const Eigen::Vector3d normal(along.normal.data());
+  const MechanismAtPose at = at_pose(along.mechanism);
+  return device_along(at, normal, std::move(parameters));
+}
+
+Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal, DeviceParameters parameters) {
+  if (!(normal.norm() > 0.0) || !normal.allFinite()) refuse_normal(ProblemCode::no_direction, normal);
+  const Eigen::VectorXd along = mechanism.tip.transpose() * normal.normalized();
+  if (!(along.norm() > dependent_below * mechanism.tip.norm())) refuse_normal(ProblemCode::tip_does_not_move, normal);
+  const Eigen::VectorXd sensed =
+      through_cables(along, mechanism.cables, mechanism.encoders, ProblemCode::tip_not_determined_by_encoders, normal);
+  const Eigen::VectorXd actuated =
+      through_cables(along, mechanism.cables, mechanism.motors, ProblemCode::tip_not_moved_by_motors, normal);
+  Coordinates coordinates;
+  const Eigen::MatrixXd mass = 0.5 * (mechanism.mass + mechanism.mass.transpose());
+  coordinates.mass.assign(mass.data(), mass.data() + mass.size());
+  coordinates.elements = mechanism.elements;
+  coordinates.frictions = mechanism.frictions;
+  parameters.loop.held = point(coordinates.points, "tip", along);
+  parameters.loop.sensed = point(coordinates.points, "encoders", sensed);
+  parameters.loop.actuated = point(coordinates.points, "motors", actuated);
+  parameters.bodies.clear();
+  parameters.links.clear();
+  parameters.coordinates = std::move(coordinates);
+  return Device(std::move(parameters));
+}
+
+}  // namespace zwidth

@@ -1,0 +1,321 @@
+// Mechanism files by MuJoCo, which no other file knows.
+
+#include "mechanism/mujoco_file.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/refusal.hpp"
+#include "mechanism/transmissions.hpp"
+
+#ifdef ZWIDTH_MUJOCO
+#include <mujoco/mujoco.h>
+
+namespace zwidth::internal {
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int most_steps = 100;
+constexpr double short_way = 0.1;        // m or rad, of a joint that is given: loops stay put together as they are
+constexpr double most_of_a_way = 100.0;  // steps
+constexpr double settled = 1e-13;        // m or rad, of a step
+constexpr double closed = 1e-9;          // m or rad, of a loop
+constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
+
+// On one line, whatever names the file gives.
+std::string plain(const char* said) {
+  std::string text(said);
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.pop_back();
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+[[noreturn]] void refuse_file(const char* why) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
+}
+
+[[noreturn]] void refuse_part(const char* part) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
+}
+
+// MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
+class Handlers {
+ public:
+  Handlers() : lock_(mutex()), error_(mju_user_error), warning_(mju_user_warning) {
+    mju_user_error = refuse_file;
+    mju_user_warning = [](const char*) {};
+  }
+  Handlers(const Handlers&) = delete;
+  Handlers& operator=(const Handlers&) = delete;
+  ~Handlers() {
+    mju_user_error = error_;
+    mju_user_warning = warning_;
+  }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::lock_guard<std::mutex> lock_;
+  void (*error_)(const char*);
+  void (*warning_)(const char*);
+};
+
+// MuJoCo looks for files among these first, and they name no others.
+class Texts {
+ public:
+  explicit Texts(const std::vector<MechanismText>& texts) {
+    mj_defaultVFS(files_.get());
+    for (const MechanismText& each : texts) {
+      mj_makeEmptyFileVFS(files_.get(), each.name.c_str(), static_cast<int>(each.text.size()));
+      const int at = mj_findFileVFS(files_.get(), each.name.c_str());
+      if (at < 0) refuse_part("files");
+      std::memcpy(files_->filedata[at], each.text.data(), each.text.size());
+    }
+  }
+  [[nodiscard]] const mjVFS* get() const { return files_.get(); }
+
+ private:
+  struct Delete {
+    void operator()(mjVFS* files) const {
+      mj_deleteVFS(files);
+      delete files;
+    }
+  };
+  std::unique_ptr<mjVFS, Delete> files_{new mjVFS};
+};
+
+// A model and its state, at a pose.
+class Posed {
+ public:
+  Posed(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+    const Texts given(texts);
+    char why[1000] = "";
+    model_.reset(mj_loadXML(texts.front().name.c_str(), given.get(), why, sizeof why));
+    if (!model_) refuse_file(why);
+    if (model_->njnt == 0) refuse_part("joint");
+    for (int joint = 0; joint < model_->njnt; ++joint) {
+      if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
+      refuse_mechanism("mechanism.file",
+                       {.code = ProblemCode::joint_of_many_motions, .subjects = {{"name", name(mjOBJ_JOINT, joint)}}});
+    }
+    model_->opt.jacobian = mjJAC_DENSE;
+    model_->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
+    data_.reset(mj_makeData(model_.get()));
+    mj_resetData(model_.get(), data_.get());
+    is_given_.assign(static_cast<std::size_t>(model_->njnt), false);
+    std::vector<Way> ways;
+    for (const auto& [joint, to] : file.pose) {
+      const std::string key = fmt::format("mechanism.pose.{}", joint);
+      const int of = index(key, mjOBJ_JOINT, joint);
+      const bool slides = model_->jnt_type[of] == mjJNT_SLIDE;
+      const auto unit = file.units_of_pose.find(joint);
+      if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
+        std::vector<Subject> subjects{{"name", joint}};
+        if (slides) subjects.push_back({"slides", "slides"});
+        refuse_mechanism(key.c_str(), {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
+      }
+      ways.push_back({.joint = of, .from = data_->qpos[of], .to = to});  // of hinges and slides, each has one
+      is_given_[static_cast<std::size_t>(of)] = true;
+    }
+    go(ways);
+  }
+
+  [[nodiscard]] int index(const std::string& key, mjtObj kind, const std::string& wanted) const {
+    const int found = mj_name2id(model_.get(), kind, wanted.c_str());
+    if (found >= 0) return found;
+    std::string names;
+    for (int i = 0; i < (kind == mjOBJ_JOINT ? model_->njnt : kind == mjOBJ_SITE ? model_->nsite : 0); ++i) {
+      names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", plain(name(kind, i).c_str()));
+    }
+    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
+    if (!names.empty()) subjects.push_back({"names", names});
+    refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
+  }
+
+  // Motions that the loops leave free: q' = Z z'.
+  [[nodiscard]] Eigen::MatrixXd free_motions() const {
+    const Rows loops = Eigen::Map<const Rows>(data_->efc_J, data_->ne, model_->nv);
+    if (loops.rows() == 0) return Eigen::MatrixXd::Identity(model_->nv, model_->nv);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(loops.transpose());
+    qr.setThreshold(dependent_loops_below);
+    const Eigen::MatrixXd q = qr.householderQ();
+    return q.rightCols(model_->nv - qr.rank());
+  }
+
+  [[nodiscard]] MechanismAtPose whole(const MechanismFile& file) const {
+    const int n = model_->nv;
+    MechanismAtPose at;
+    Rows mass(n, n);
+    mj_fullM(model_.get(), mass.data(), data_->qM);
+    at.mass = mass;
+    at.tip = tip(file.tip);
+    add_elements(at);
+    at.motors = Eigen::Map<const Rows>(data_->actuator_moment, model_->nu, n);
+    std::vector<int> read;
+    for (const std::string& each : file.encoders) read.push_back(index("mechanism.encoders", mjOBJ_JOINT, each));
+    for (int i = 0; file.encoders.empty() && i < model_->nu; ++i) {
+      const int joint = model_->actuator_trnid[2 * i];
+      const bool is_new = std::ranges::find(read, joint) == read.end();
+      if (model_->actuator_trntype[i] == mjTRN_JOINT && is_new) read.push_back(joint);
+    }
+    at.encoders = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(read.size()), n);
+    for (std::size_t i = 0; i < read.size(); ++i) at.encoders(static_cast<Eigen::Index>(i), read[i]) = 1.0;
+    return at;
+  }
+
+ private:
+  [[nodiscard]] std::string name(mjtObj kind, int of) const {
+    const char* found = mj_id2name(model_.get(), kind, of);
+    return found != nullptr ? found : std::to_string(of);
+  }
+
+  [[nodiscard]] Eigen::MatrixXd tip(const std::string& wanted) const {
+    Rows jacobian(3, model_->nv);
+    const int body = mj_name2id(model_.get(), mjOBJ_BODY, wanted.c_str());
+    if (mj_name2id(model_.get(), mjOBJ_SITE, wanted.c_str()) < 0 && body >= 0) {
+      mj_jacBody(model_.get(), data_.get(), jacobian.data(), nullptr, body);
+    } else {
+      mj_jacSite(model_.get(), data_.get(), jacobian.data(), nullptr, index("mechanism.tip", mjOBJ_SITE, wanted));
+    }
+    return jacobian;
+  }
+
+  void add_elements(MechanismAtPose& at) const {
+    const int n = model_->nv;
+    const auto add = [&at](const Eigen::VectorXd& along, double stiffness, double damping, double friction) {
+      if (stiffness != 0.0 || damping != 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
+      if (friction != 0.0) at.frictions.push_back({{along.begin(), along.end()}, friction});
+    };
+    for (int joint = 0; joint < n; ++joint) {
+      add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint],
+          model_->dof_frictionloss[joint]);
+    }
+    const Rows lengths = Eigen::Map<const Rows>(data_->ten_J, model_->ntendon, n);
+    for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
+      const double stiffness = model_->tendon_stiffness[tendon];
+      add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
+          model_->tendon_frictionloss[tendon]);
+      if (stiffness == 0.0) continue;
+      at.cables.conservativeResize(at.cables.rows() + 1, n);
+      at.cables.bottomRows(1) = lengths.row(tendon);
+    }
+    if (at.cables.rows() == 0) at.cables.resize(0, n);
+  }
+
+  struct Way {
+    int joint;
+    double from, to;
+  };
+
+  // A loop closes in several ways: of them, the one that the file's leads to.
+  void go(const std::vector<Way>& ways) {
+    double farthest = 0.0;
+    for (const Way& each : ways) farthest = std::max(farthest, std::abs(each.to - each.from));
+    const bool at_once = model_->neq == 0 || !(farthest > short_way);
+    const int steps = at_once ? 1 : static_cast<int>(std::min(std::ceil(farthest / short_way), most_of_a_way));
+    double open = 0.0;
+    for (int step = 1; step <= steps; ++step) {
+      for (const Way& each : ways) {
+        data_->qpos[each.joint] = step == steps ? each.to : each.from + (each.to - each.from) * step / steps;
+      }
+      open = settle();
+    }
+    if (!(open <= closed))
+      refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
+  }
+
+  // Joints that are not given close the loops; those of them that motors drive follow their cables. How far loops stay open.
+  double settle() {
+    const int n = model_->nv;
+    std::vector<bool> is_driven(static_cast<std::size_t>(n), false);
+    for (int i = 0; i < model_->nu; ++i) {
+      if (model_->actuator_trntype[i] == mjTRN_JOINT)
+        is_driven[static_cast<std::size_t>(model_->actuator_trnid[2 * i])] = true;
+    }
+    double open = 0.0;
+    for (int step = 0; step < most_steps; ++step) {
+      mj_fwdPosition(model_.get(), data_.get());
+      const int loops = data_->ne;
+      const int equations = loops + model_->ntendon;
+      if (equations == 0) return 0.0;
+      Eigen::VectorXd off = Eigen::VectorXd::Zero(equations);
+      Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(equations, n);
+      off.head(loops) = Eigen::Map<const Eigen::VectorXd>(data_->efc_pos, loops);
+      slopes.topRows(loops) = Eigen::Map<const Rows>(data_->efc_J, loops, n);
+      for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
+        if (!(model_->tendon_stiffness[tendon] > 0.0)) continue;
+        off(loops + tendon) = data_->ten_length[tendon] - model_->tendon_lengthspring[tendon];
+        slopes.row(loops + tendon) = Eigen::Map<const Eigen::RowVectorXd>(data_->ten_J + tendon * n, n);
+        for (int joint = 0; joint < n; ++joint) {
+          if (!is_driven[static_cast<std::size_t>(joint)]) slopes(loops + tendon, joint) = 0.0;
+        }
+        if (is_unmoved(slopes.row(loops + tendon))) off(loops + tendon) = 0.0;
+      }
+      for (int joint = 0; joint < n; ++joint) {
+        if (is_given_[static_cast<std::size_t>(joint)]) slopes.col(joint).setZero();
+      }
+      open = loops > 0 ? off.head(loops).cwiseAbs().maxCoeff() : 0.0;
+      const Eigen::VectorXd move = slopes.completeOrthogonalDecomposition().solve(off);
+      if (!(move.cwiseAbs().maxCoeff() > settled)) break;
+      Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
+    }
+    mj_fwdPosition(model_.get(), data_.get());
+    if (data_->warning[mjWARN_CNSTRFULL].number > 0) refuse_part("loops");
+    return open;
+  }
+
+  static bool is_unmoved(const Eigen::RowVectorXd& slope) { return slope.cwiseAbs().maxCoeff() == 0.0; }
+
+  struct Delete {
+    void operator()(mjModel* model) const { mj_deleteModel(model); }
+    void operator()(mjData* data) const { mj_deleteData(data); }
+  };
+  std::unique_ptr<mjModel, Delete> model_;
+  std::unique_ptr<mjData, Delete> data_;
+  std::vector<bool> is_given_;  // of the joints
+};
+
+}  // namespace
+
+MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+  const Handlers handlers;
+  const Posed posed(file, texts);
+  MechanismAtPose at = posed.whole(file);
+  for (std::size_t i = 0; i < file.transmissions.size(); ++i) {
+    const Transmission& each = file.transmissions[i];
+    const int joint = posed.index(fmt::format("transmission.{}.joint", i), mjOBJ_JOINT, each.joint);
+    add_transmission(at, joint, each, file.encoders.empty());
+  }
+  if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
+  const Eigen::MatrixXd of_joints = posed.free_motions();
+  if (of_joints.cols() == of_joints.rows()) return at;  // no loops
+  const Eigen::Index motors = at.mass.rows() - of_joints.rows();
+  Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
+  free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
+  free.bottomRightCorner(motors, motors).setIdentity();
+  return with_loops(at, free);
+}
+
+}  // namespace zwidth::internal
+#else
+namespace zwidth::internal {
+
+MechanismAtPose mujoco_at_pose(const MechanismFile&, const std::vector<MechanismText>&) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+}
+
+}  // namespace zwidth::internal
+#endif

@@ -1,0 +1,73 @@
+#include "mechanism/transmissions.hpp"
+
+#include <vector>
+
+namespace zwidth::internal {
+namespace {
+
+void add_row(Eigen::MatrixXd& rows, const Eigen::VectorXd& row) {
+  rows.conservativeResize(rows.rows() + 1, row.size());
+  rows.bottomRows(1) = row.transpose();
+}
+
+void add_element(MechanismAtPose& mechanism, const Eigen::VectorXd& along, double stiffness, double damping) {
+  if (stiffness == 0.0 && damping == 0.0) return;
+  mechanism.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
+}
+
+// One more coordinate, of which nothing depends yet.
+void add_coordinate(MechanismAtPose& mechanism, double inertia) {
+  const Eigen::Index n = mechanism.mass.rows();
+  mechanism.mass.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, n + 1));
+  mechanism.mass(n, n) = inertia;
+  for (Coordinates::Element& each : mechanism.elements) each.weights.push_back(0.0);
+  for (Coordinates::Friction& each : mechanism.frictions) each.weights.push_back(0.0);
+  for (Eigen::MatrixXd* rows : {&mechanism.cables, &mechanism.motors, &mechanism.encoders, &mechanism.tip}) {
+    rows->conservativeResizeLike(Eigen::MatrixXd::Zero(rows->rows(), n + 1));
+  }
+}
+
+}  // namespace
+
+void add_transmission(MechanismAtPose& mechanism, Eigen::Index joint, const Transmission& motor, bool is_read) {
+  if (motor.stiffness == 0.0) {
+    const Eigen::VectorXd turns = motor.ratio * Eigen::VectorXd::Unit(mechanism.mass.rows(), joint);
+    mechanism.mass(joint, joint) += motor.ratio * motor.ratio * motor.inertia;
+    add_element(mechanism, turns, 0.0, motor.motor_damping);
+    add_row(mechanism.motors, turns);
+    if (is_read) add_row(mechanism.encoders, turns);
+    return;
+  }
+  add_coordinate(mechanism, motor.inertia);
+  const Eigen::Index n = mechanism.mass.rows();
+  const Eigen::VectorXd turns = Eigen::VectorXd::Unit(n, n - 1);
+  const Eigen::VectorXd stretch = turns / motor.ratio - Eigen::VectorXd::Unit(n, joint);
+  add_element(mechanism, turns, 0.0, motor.motor_damping);
+  add_element(mechanism, stretch, motor.stiffness, motor.damping);
+  add_row(mechanism.cables, stretch);
+  add_row(mechanism.motors, turns);
+  if (is_read) add_row(mechanism.encoders, turns);
+}
+
+MechanismAtPose with_loops(const MechanismAtPose& mechanism, const Eigen::MatrixXd& free_motions) {
+  MechanismAtPose result;
+  result.mass = free_motions.transpose() * mechanism.mass * free_motions;
+  const auto in_free_motions = [&free_motions](const std::vector<double>& weights) -> Eigen::VectorXd {
+    const Eigen::Map<const Eigen::VectorXd> along(weights.data(), static_cast<Eigen::Index>(weights.size()));
+    return free_motions.transpose() * along;
+  };
+  for (const auto& [weights, stiffness, damping] : mechanism.elements) {
+    add_element(result, in_free_motions(weights), stiffness, damping);
+  }
+  for (const auto& [weights, force] : mechanism.frictions) {
+    const Eigen::VectorXd along = in_free_motions(weights);
+    result.frictions.push_back({{along.begin(), along.end()}, force});
+  }
+  result.cables = mechanism.cables * free_motions;
+  result.motors = mechanism.motors * free_motions;
+  result.encoders = mechanism.encoders * free_motions;
+  result.tip = mechanism.tip * free_motions;
+  return result;
+}
+
+}  // namespace zwidth::internal
