@@ -359,6 +359,9 @@ enum class ProblemCode : std::uint16_t {
   loop_does_not_close,             ///< the loops of a mechanism do not close at a pose
   no_motor,                        ///< a mechanism has no motor
   built_without_mujoco,            ///< a build that reads no mechanisms
+  tip_stands_still,                ///< a tip cannot move at all
+  no_wall_stiffness,               ///< margins of a wall that is not given
+  one_direction_alone,             ///< what a wall in several directions does not know
   coordinates_not_known,           ///< a computation that knows bodies alone
   no_body_at_all,                  ///< a device without bodies and transfer function
   no_such_body,                    ///< no body of the device is called that
