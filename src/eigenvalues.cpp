@@ -1,11 +1,22 @@
 #include "eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace zwidth::internal {
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+}
+
+EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  const Eigen::MatrixXcd right = solver.eigenvectors();
+  return {solver.eigenvalues(), right, right.inverse()};
+}
+
+Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& matrix) {
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(matrix, false).eigenvalues();
 }
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {

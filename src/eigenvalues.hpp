@@ -9,6 +9,17 @@ namespace zwidth::internal {
 /// Eigenvalues of a real square matrix, in no particular order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
+/// The same with right eigenvectors, column by column, and left ones, row by row: left * right = 1.
+struct EigenDecomposition {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd right;
+  Eigen::MatrixXcd left;
+};
+EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix);
+
+/// Eigenvalues of a complex square matrix, in no particular order.
+Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& matrix);
+
 /// Eigenvalues by rising size and, column by column, orthonormal eigenvectors of a real symmetric matrix.
 struct SymmetricEigen {
   Eigen::VectorXd values;

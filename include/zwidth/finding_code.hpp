@@ -26,6 +26,7 @@ enum class FindingCode : std::uint16_t {
   interval_open,                 ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
   second_route_contradicts,      ///< two computations contradict each other on one wall's stability
   second_route_undecided,        ///< no second computation confirms one wall's stability
+  poles_along_circle,            ///< poles run along the unit circle: the least limit in several directions is open
   touch_without_pole,            ///< the limit is a pole's touch of the circle that a second computation does not find
   slow_instability,              ///< the free device is unstable so slowly that rounded coefficients explain it
   delay_margin_contradicts,      ///< two computations contradict each other on the delay margin

@@ -348,6 +348,9 @@ enum class ProblemCode : std::uint16_t {
   path_in_text,                    ///< a mechanism that is no file names one
   mass_of_mesh,                    ///< a body has its mass of a mesh
   include_not_read,                ///< a file that a mechanism includes is not there, or stands twice
+  tip_stands_still,                ///< a tip cannot move at all
+  no_wall_stiffness,               ///< margins of a wall that is not given
+  one_direction_alone,             ///< what a wall in several directions does not know
   coordinates_not_known,           ///< a computation that knows bodies alone
   no_body_at_all,                  ///< a device without bodies and transfer function
   no_such_body,                    ///< no body of the device is called that

@@ -128,6 +128,11 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "{?file|{file}: }line {line:n}: {?name|\"{name}\"}{!name|an include} {?twice|is included "
                     "twice}{!twice|cannot be read}",
                     "must be a file beside it, once"},
+      ProblemPhrase{tip_stands_still, "tip_stands_still", "the tip cannot move at this pose", "must be another pose"},
+      ProblemPhrase{no_wall_stiffness, "no_wall_stiffness", "the wall has no stiffness", "must be a number > 0"},
+      ProblemPhrase{one_direction_alone, "one_direction_alone",
+                    "the wall's filters and a damper in a loop of its own are known along one normal alone",
+                    "must be a wall without them"},
       ProblemPhrase{coordinates_not_known, "coordinates_not_known", "the device has coordinates in place of bodies",
                     "this is computed for bodies and links alone"},
       ProblemPhrase{no_body_at_all, "no_body_at_all",

@@ -24,6 +24,10 @@ std::span<const Phrase> stability_phrases() {
              "nothing confirms the answer at {stiffness:.6g}, so it may be wrong: the loop has too many states for a "
              "second computation, or a pole too near the unit circle",
              "", "shorten the delay or merge bodies that hardly move against each other"},
+      Phrase{poles_along_circle, "poles_along_circle", refusal,
+             "which wall in several directions is the softest unstable one is open, so no limit is given: some motion is "
+             "hardly damped, and its poles run along the unit circle",
+             "", "give joints and cables the damping that they have"},
       Phrase{touch_without_pole, "touch_without_pole", doubt,
              "the limit of {limit:.6g} may be too low: a pole is to touch the unit circle there, and none does by a "
              "second computation",

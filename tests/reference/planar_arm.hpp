@@ -2,11 +2,13 @@
 
 // planar_arm.xml by its equations of motion: shoulder, elbow, motor 1, motor 2.
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth::planar_arm {
 
@@ -50,6 +52,21 @@ inline DeviceParameters device(Pose pose, double nx, double ny) {
       .points = {{"wall", {0.0, 0.0, ratio * by_shoulder, ratio * by_elbow}},
                  {"tip", {by_shoulder, by_elbow, 0.0, 0.0}}}};
   return parameters;
+}
+
+/// In all directions at once.
+inline TipMotion tip_motion(Pose pose) {
+  TipMotion motion;
+  motion.tip = motion.sensed = motion.pushed = Eigen::MatrixXd::Zero(3, 4);
+  for (int axis = 0; axis < 2; ++axis) {
+    const Coordinates along = *device(pose, axis == 0 ? 1.0 : 0.0, axis == 0 ? 0.0 : 1.0).coordinates;
+    motion.mass = Eigen::Map<const Eigen::Matrix4d>(along.mass.data());
+    motion.elements = along.elements;
+    motion.sensed.row(axis) = Eigen::Map<const Eigen::RowVector4d>(along.points[0].weights.data());
+    motion.tip.row(axis) = Eigen::Map<const Eigen::RowVector4d>(along.points[1].weights.data());
+  }
+  motion.pushed = motion.sensed;
+  return motion;
 }
 
 }  // namespace zwidth::planar_arm

@@ -29,7 +29,7 @@ LIBRARY = {
 }
 # Sub-rooms of a room, in their order: each includes those before it. What stands in the room itself includes them all.
 SUB_ROOMS = {
-    "stability": ["loop", "roots", "second_route", "limit", "users", "margins"],
+    "stability": ["loop", "roots", "second_route", "limit", "users", "margins", "tip"],
     "identification": ["crossover", "response", "initial_fit", "model", "optimiser", "evidence", "verdict"],
     "design": ["region", "sensitivities", "synthesis", "diagnosis"],
 }

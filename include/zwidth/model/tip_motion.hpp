@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "zwidth/model/coordinates.hpp"
+
+namespace zwidth {
+
+/// How the tip of a mechanism at a pose moves, is read and is pushed in all directions at once, in n coordinates q.
+///
+///     M q'' + (sum d w w') q' + (sum k w w') q = S_a' f + J' f_h,   x = S_s q,   x_tip = J q
+///
+/// f: the controller's force, x: the tip as the controller knows it, f_h: the user's force. World's frame, m and N. Source:
+/// theory, section 9 (S_s = J_e A, S_a = J_m A).
+struct TipMotion {
+  Eigen::MatrixXd mass;                        ///< M, n x n; symmetric and positive definite
+  std::vector<Coordinates::Element> elements;  ///< all that is stiff or damped
+  Eigen::MatrixXd sensed;                      ///< S_s, 3 x n
+  Eigen::MatrixXd pushed;                      ///< S_a, 3 x n
+  Eigen::MatrixXd tip;                         ///< J, 3 x n
+};
+
+}  // namespace zwidth

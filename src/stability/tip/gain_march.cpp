@@ -1,0 +1,130 @@
+#include "stability/tip/gain_march.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "eigenvalues.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr double least_gain = 1e-9;     // of the loop's unit: below, poles leave z = 1 in proportion to the gain
+constexpr double greatest_gain = 1e12;  // of the unit
+constexpr int most_gain_steps = 20000;
+constexpr int most_newton_steps = 40;
+constexpr double of_certain_step = 0.999;
+constexpr double followed_until = 1e-7;  // relative, below the crossing
+constexpr double close_to_crossing = 0.05;
+constexpr double of_rounding = 1e-14;  // |z|
+constexpr double free_pole_below = 1e-11;
+
+struct LoopPole {
+  double excess = 0.0;  // |z| - 1
+  double growth = 0.0;  // of it with the gain
+  double angle = 0.0;
+  double residue = 0.0;  // |C r| |l B|
+  Eigen::VectorXcd motion;
+};
+
+// Of delta = z - 1.
+std::vector<LoopPole> poles_at(const GainLoop& loop, double gain) {
+  const EigenDecomposition of = eigen_decomposition(loop.state - gain * loop.input * loop.output);
+  const Eigen::MatrixXcd motions = loop.output * of.right;
+  const Eigen::MatrixXcd drives = of.left * loop.input;
+  std::vector<LoopPole> poles;
+  for (Eigen::Index i = 0; i < of.values.size(); ++i) {
+    const std::complex<double> delta = of.values(i);
+    const std::complex<double> z = 1.0 + delta;
+    LoopPole pole;
+    pole.excess = (2.0 * delta.real() + std::norm(delta)) / (std::abs(z) + 1.0);
+    const std::complex<double> moves = -(drives.row(i) * motions.col(i)).value();
+    pole.growth = std::abs(z) > 0.0 ? (std::conj(z) * moves).real() / std::abs(z) : 0.0;
+    pole.angle = std::abs(std::arg(z));
+    pole.residue = motions.col(i).norm() * drives.row(i).norm();
+    pole.motion = motions.col(i);
+    const bool is_free = std::abs(delta) < free_pole_below && pole.residue * std::max(gain, 1.0) < free_pole_below;
+    if (!is_free) poles.push_back(std::move(pole));
+  }
+  return poles;
+}
+
+// How far the gain may move; nothing where the loop is not surely stable.
+std::optional<double> certain_step(const std::vector<LoopPole>& poles) {
+  double sum = 0.0;
+  for (const LoopPole& pole : poles) {
+    if (!(pole.excess < -of_rounding)) return std::nullopt;
+    sum += pole.residue / -pole.excess;
+  }
+  return std::isfinite(sum) && sum > 0.0 ? std::optional(1.0 / sum) : std::nullopt;
+}
+
+// The pole that reaches the circle first where each goes on as it goes.
+const LoopPole* first_to_leave(const std::vector<LoopPole>& poles) {
+  const LoopPole* first = nullptr;
+  for (const LoopPole& each : poles) {
+    if (!(each.growth > 0.0)) continue;
+    if (first == nullptr || -each.excess * first->growth < -first->excess * each.growth) first = &each;
+  }
+  return first;
+}
+
+}  // namespace
+
+std::optional<GainLimit> polished_crossing(const GainLoop& loop, double gain, double angle) {
+  double moved = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < most_newton_steps; ++step) {
+    const std::vector<LoopPole> poles = poles_at(loop, gain);
+    const auto distance = [angle](const LoopPole& a) { return std::hypot(a.excess, a.angle - angle); };
+    const auto nearest = std::ranges::min_element(
+        poles, [&](const LoopPole& a, const LoopPole& b) { return distance(a) < distance(b); });
+    if (nearest == poles.end() || nearest->growth == 0.0) return std::nullopt;
+    const double change = -nearest->excess / nearest->growth;
+    angle = nearest->angle;
+    const bool is_settled = std::abs(change) <= 4.0 * std::numeric_limits<double>::epsilon() * gain ||
+                            (step > 3 && std::abs(change) >= moved && std::abs(change) < followed_until * gain);
+    if (is_settled) return GainLimit{GainLimit::Kind::crossing, gain, angle, nearest->motion};
+    moved = std::abs(change);
+    gain = std::clamp(gain + change, 0.5 * gain, 2.0 * gain);
+  }
+  return std::nullopt;
+}
+
+GainLimit first_crossing(const GainLoop& loop) {
+  double gain = least_gain;
+  std::vector<LoopPole> poles = poles_at(loop, gain);
+  if (!certain_step(poles)) return {.kind = GainLimit::Kind::none_stable};
+  std::optional<GainLimit> ahead;
+  for (int step = 0; step < most_gain_steps; ++step) {
+    const std::optional<double> certain = certain_step(poles);
+    if (!certain) break;
+    if (gain > greatest_gain) return {.kind = GainLimit::Kind::unbounded};
+    const LoopPole* next = first_to_leave(poles);
+    if (next != nullptr && -next->excess < close_to_crossing * gain * next->growth) {
+      // Found once, and again only where the march has come past it.
+      if (!ahead || ahead->gain <= gain)
+        ahead = polished_crossing(loop, gain - next->excess / next->growth, next->angle);
+      if (ahead && ahead->gain > gain && gain >= (1.0 - followed_until) * ahead->gain) return *ahead;
+    }
+    gain += of_certain_step * *certain;
+    poles = poles_at(loop, gain);
+  }
+  return {};
+}
+
+bool is_stable(const GainLoop& loop, double gain) {
+  for (const std::complex<double>& delta : eigenvalues(loop.state - gain * loop.input * loop.output)) {
+    if (2.0 * delta.real() + std::norm(delta) > 0.0 && std::abs(delta) > free_pole_below) return false;
+  }
+  return true;
+}
+
+double stability_excess(const GainLoop& loop, double gain) {
+  double largest = -1.0;
+  for (const LoopPole& pole : poles_at(loop, gain)) largest = std::max(largest, pole.excess);
+  return largest;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "stability/tip/tip_response.hpp"
+#include "stability/tip/tip_states.hpp"
+#include "stability/users/alias_sum_quadrature.hpp"
+
+namespace zwidth::internal {
+
+// What the tip's plant becomes in any passive grasp, at one frequency. In m <= 3 directions of the tip; entries beyond are 0.
+//
+//     P - jw h_s (Z^-1 + Y)^-1 h_a,   (Z^-1 + Y)^-1 = R^-1/2 (1 + U) R^-1/2,   R = Y + Y^H,  |U| <= 1
+//     h_s = G(held -> sensed), h_a = G(pushed -> held), Y = jw G(held -> held)
+//
+// Sampled, each alias has a U of its own: the plant is `centre` + sum of weight L U R over the aliases, |weight L U R| along a
+// normal at most weight sqrt(n' L L^H n) sqrt(n' R^H R n).
+class GraspDiscs {
+ public:
+  GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, const Eigen::MatrixXd& directions,
+             const SampledTip& plant);
+
+  // Of one alias: h_s R^-1 h_a, h_s R^-1 h_s^H and h_a^H R^-1 h_a.
+  struct Alias {
+    double weight = 1.0;
+    Eigen::Matrix3cd shift;
+    Eigen::Matrix3cd left;
+    Eigen::Matrix3cd right;
+  };
+  // The frequency itself apart from what the others add; all but `plant` over `shared`.
+  struct Sample {
+    double angle = 0.0;
+    std::complex<double> shared;  // (1 - e^{-jwT}) e^{-jwt_d}/T
+    Eigen::Matrix3cd plant;       // free
+    Alias own;
+    Eigen::Matrix3cd shift_of_others;
+    std::vector<Alias> others;  // without shift
+  };
+  // 0 < angle = w T <= pi.
+  [[nodiscard]] Sample at(double angle) const;
+  // Without the others.
+  [[nodiscard]] Sample own_at(double angle) const;
+
+  // Nothing dissipates some motion of the tip: some grasp destabilises any wall.
+  [[nodiscard]] bool is_undamped() const { return undamped_; }
+
+ private:
+  [[nodiscard]] Alias alias(double frequency) const;
+
+  TipCoordinates of_;
+  TipResponse response_;
+  double period_ = 0.0;
+  double delay_ = 0.0;
+  double lag_ = 0.0;
+  bool undamped_ = false;
+  AliasSumQuadrature rule_;
+};
+
+}  // namespace zwidth::internal

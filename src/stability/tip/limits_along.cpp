@@ -1,0 +1,316 @@
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "stability/loop/damper_response.hpp"
+#include "stability/tip/gain_march.hpp"
+#include "stability/tip/grasp_discs.hpp"
+#include "stability/tip/grasp_stiffness.hpp"
+#include "stability/tip/tip_response.hpp"
+#include "stability/tip/tip_states.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/stability/grasp_limit.hpp"
+#include "zwidth/stability/point_wall.hpp"
+
+namespace zwidth {
+namespace {
+
+using internal::GraspDiscs;
+using internal::OthersAlong;
+using internal::SampledTip;
+using internal::TipResponse;
+using std::numbers::pi;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double lowest_angle = 1e-3;  // of the scan over grasps, rad per sample
+constexpr int grasp_angles = 90;       // spaced evenly in their logarithm
+constexpr double lowest_crossover = 1e-5;
+constexpr int crossover_angles = 120;
+constexpr double same_angle = 1e-6;    // relative
+constexpr double confirmed_to = 1e-6;  // relative, of K
+constexpr double still_normal = 1e-9;  // what the tip moves of it
+constexpr int most_halvings = 80;
+constexpr double worth_refining = 1.3;  // times the least of the scan
+constexpr int exact_bits = 26;
+constexpr int quick_bits = 14;
+
+std::vector<double> scan_angles(double lowest, int count, std::vector<double> angles) {
+  for (int i = 0; i <= count; ++i) angles.push_back(lowest * std::pow(pi / lowest, static_cast<double>(i) / count));
+  for (int i = 1; i < count / 4; ++i) angles.push_back(pi * 4.0 * i / count);
+  std::erase_if(angles, [lowest](double each) { return each < lowest || each > pi * (1.0 - same_angle); });
+  angles.push_back(pi);
+  std::ranges::sort(angles);
+  const auto is_same = [](double a, double b) { return b - a < same_angle * b; };
+  angles.erase(std::unique(angles.begin(), angles.end(), is_same), angles.end());
+  return angles;
+}
+
+VirtualDamper damper_of(const DeviceParameters& loop) { return {loop.wall.damping, loop.wall.velocity_filter_hz}; }
+
+DeviceParameters without_user(DeviceParameters loop) {
+  loop.user = {};
+  return loop;
+}
+
+// What is of the pose.
+struct Posed {
+  Posed(const TipMotion& of, const DeviceParameters& with)
+      : motion(of),
+        loop(without_user(with)),
+        directions(internal::directions_of(of)),
+        plant(internal::sampled_tip(internal::tip_coordinates(of, checked(directions)), loop)) {
+    internal::require_plain_wall(loop);
+  }
+
+  static const Eigen::MatrixXd& checked(const Eigen::MatrixXd& directions) {
+    if (directions.cols() == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_stands_still});
+    return directions;
+  }
+
+  // In the tip's directions, padded with 0.
+  [[nodiscard]] Eigen::Vector3d along(const Eigen::Vector3d& normal) const {
+    Eigen::Vector3d result = Eigen::Vector3d::Zero();
+    result.head(directions.cols()) = directions.transpose() * normal.normalized();
+    if (result.norm() > still_normal) return result;
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_does_not_move,
+                                              .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
+  }
+
+  const TipMotion& motion;
+  DeviceParameters loop;
+  Eigen::MatrixXd directions;
+  SampledTip plant;
+};
+
+struct Minimum {
+  double value = infinity;
+  double angle = 0.0;
+};
+
+// The least of a function whose samples at rising angles are given: lows of the scan are refined.
+template <typename Function>
+Minimum refined_minimum(const std::vector<double>& angles, const std::vector<double>& values, int bits,
+                        const Function& function) {
+  const auto scanned = std::ranges::min_element(values);
+  Minimum least{*scanned, angles[static_cast<std::size_t>(scanned - values.begin())]};
+  const double scan = least.value;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1;
+    const std::size_t after = std::min(i + 1, values.size() - 1);
+    const bool is_low = values[i] <= values[before] && values[i] <= values[after] && values[i] <= worth_refining * scan;
+    if (!is_low || !(scan > 0.0) || !std::isfinite(scan)) continue;
+    std::uintmax_t most = 60;
+    const auto found = boost::math::tools::brent_find_minima(
+        [&](double angle) {
+          const double value = function(i, angle);
+          return std::isfinite(value) ? value : std::numeric_limits<double>::max();
+        },
+        angles[before], angles[after], bits, most);
+    if (found.second < least.value) least = {found.second, found.first};
+  }
+  return least;
+}
+
+class GraspScan {
+ public:
+  explicit GraspScan(const Posed& posed)
+      : period_(posed.plant.period),
+        damper_(damper_of(posed.loop)),
+        discs_(posed.motion, posed.loop, posed.directions, posed.plant),
+        angles_(scan_angles(lowest_angle, grasp_angles, TipResponse(posed.plant).angles_of_poles())) {
+    if (discs_.is_undamped()) return;
+    for (const double angle : angles_) samples_.push_back(discs_.at(angle));
+  }
+
+  [[nodiscard]] GraspLimit along(const Eigen::Vector3d& normal) const {
+    return least_along(normal, exact_bits, [&](std::size_t, double angle, const std::vector<OthersAlong>&) {
+      const GraspDiscs::Sample sample = discs_.at(angle);
+      return internal::least_stiffness_along(sample, internal::others_along(sample, normal), normal, damper_, period_);
+    });
+  }
+
+  // What the other aliases add, by a parabola through the scan.
+  [[nodiscard]] GraspLimit quickly_along(const Eigen::Vector3d& normal) const {
+    return least_along(normal, quick_bits, [&](std::size_t i, double angle, const std::vector<OthersAlong>& others) {
+      return internal::least_stiffness_along(discs_.own_at(angle), interpolated(others, i, angle), normal, damper_,
+                                             period_);
+    });
+  }
+
+  [[nodiscard]] PointGraspLimit of_point(Eigen::Index m) const {
+    if (discs_.is_undamped()) return {};
+    const auto at = [&](const GraspDiscs::Sample& sample) {
+      return internal::least_stiffness_of_point(sample, m, damper_, period_);
+    };
+    std::vector<double> lower;
+    std::vector<double> upper;
+    for (const GraspDiscs::Sample& sample : samples_) {
+      const internal::PointStiffness point = at(sample);
+      lower.push_back(point.at_least);
+      upper.push_back(point.at_most);
+    }
+    const Minimum least = refined_minimum(angles_, lower, exact_bits,
+                                          [&](std::size_t, double angle) { return at(discs_.at(angle)).at_least; });
+    const Minimum most = refined_minimum(angles_, upper, exact_bits,
+                                         [&](std::size_t, double angle) { return at(discs_.at(angle)).at_most; });
+    return {least.value, most.value, least.angle / period_};
+  }
+
+ private:
+  template <typename Function>
+  [[nodiscard]] GraspLimit least_along(const Eigen::Vector3d& normal, int bits, const Function& function) const {
+    if (discs_.is_undamped()) return {};
+    std::vector<OthersAlong> others;
+    std::vector<double> values;
+    for (const GraspDiscs::Sample& sample : samples_) {
+      others.push_back(internal::others_along(sample, normal));
+      values.push_back(internal::least_stiffness_along(sample, others.back(), normal, damper_, period_));
+    }
+    const Minimum least =
+        refined_minimum(angles_, values, bits, [&](std::size_t i, double angle) { return function(i, angle, others); });
+    return {least.value, least.value > 0.0 && std::isfinite(least.value) ? least.angle / period_ : 0.0};
+  }
+
+  [[nodiscard]] OthersAlong interpolated(const std::vector<OthersAlong>& others, std::size_t near, double angle) const {
+    const std::size_t first = std::clamp<std::size_t>(near, 1, angles_.size() - 2) - 1;
+    OthersAlong sum;
+    for (std::size_t i = first; i < first + 3; ++i) {
+      double share = 1.0;
+      for (std::size_t j = first; j < first + 3; ++j) {
+        if (j != i) share *= (angle - angles_[j]) / (angles_[i] - angles_[j]);
+      }
+      sum.shift += share * others[i].shift;
+      sum.radius += share * others[i].radius;
+    }
+    sum.radius = std::max(sum.radius, 0.0);
+    return sum;
+  }
+
+  double period_;
+  VirtualDamper damper_;
+  GraspDiscs discs_;
+  std::vector<double> angles_;
+  std::vector<GraspDiscs::Sample> samples_;
+};
+
+// -1/P - B v, which is K where it is real.
+class CrossoverScan {
+ public:
+  explicit CrossoverScan(const Posed& posed)
+      : damper_(damper_of(posed.loop)),
+        period_(posed.plant.period),
+        response_(posed.plant),
+        angles_(scan_angles(lowest_crossover, crossover_angles, response_.angles_of_poles())) {
+    for (const double angle : angles_) samples_.push_back(response_.at(angle));
+  }
+
+  struct Found {
+    double stiffness = infinity;
+    double angle = 0.0;
+  };
+  [[nodiscard]] Found least_along(const Eigen::VectorXd& normal) const {
+    std::vector<std::complex<double>> values;
+    for (std::size_t i = 0; i < angles_.size(); ++i) values.push_back(stiffness(samples_[i], angles_[i], normal));
+    Found least;
+    if (values.back().real() > 0.0) least = {values.back().real(), pi};
+    for (std::size_t i = 0; i + 2 < values.size(); ++i) {
+      if (!(values[i].imag() * values[i + 1].imag() < 0.0)) continue;
+      if (values[i].real() < 0.0 && values[i + 1].real() < 0.0) continue;
+      const Found found = crossover(normal, angles_[i], values[i], angles_[i + 1], values[i + 1]);
+      if (found.stiffness > 0.0 && found.stiffness < least.stiffness) least = found;
+    }
+    return least;
+  }
+
+ private:
+  [[nodiscard]] std::complex<double> stiffness(const Eigen::MatrixXcd& plant, double angle,
+                                               const Eigen::VectorXd& normal) const {
+    const std::complex<double> p = (normal.transpose() * plant * normal).value();
+    return -1.0 / p - internal::damper_response(damper_, period_, angle / period_);
+  }
+
+  // False position, by which no end stays twice (Illinois).
+  [[nodiscard]] Found crossover(const Eigen::VectorXd& normal, double a, std::complex<double> at_a, double b,
+                                std::complex<double> at_b) const {
+    double fa = at_a.imag();
+    double fb = at_b.imag();
+    Found found;
+    for (int step = 0; step < most_halvings; ++step) {
+      found.angle = std::clamp(b - fb * (b - a) / (fb - fa), std::min(a, b), std::max(a, b));
+      const std::complex<double> value = stiffness(response_.at(found.angle), found.angle, normal);
+      found.stiffness = value.real();
+      const bool is_there = value.imag() == 0.0 || std::abs(b - a) <= 4e-15 * b ||
+                            std::abs(value.imag()) < 1e-15 * std::abs(value.real());
+      if (is_there) break;
+      if (value.imag() * fb < 0.0) {
+        a = b;
+        fa = fb;
+      } else {
+        fa *= 0.5;
+      }
+      b = found.angle;
+      fb = value.imag();
+    }
+    return found;
+  }
+
+  VirtualDamper damper_;
+  double period_;
+  TipResponse response_;
+  std::vector<double> angles_;
+  std::vector<Eigen::MatrixXcd> samples_;
+};
+
+NormalLimits nobody_along(const Posed& posed, const CrossoverScan& scan, const Eigen::Vector3d& normal) {
+  const Eigen::VectorXd along = posed.along(normal).head(posed.directions.cols());
+  const CrossoverScan::Found found = scan.least_along(along);
+  if (std::isfinite(found.stiffness)) {
+    SampledTip plant = posed.plant;
+    plant.Gamma1 = (posed.plant.Gamma1 * along).eval();
+    if (plant.has_fraction()) plant.Gamma2 = (posed.plant.Gamma2 * along).eval();
+    plant.C = (along.transpose() * posed.plant.C).eval();
+    const internal::GainLoop loop = internal::stiffness_loop(plant, posed.loop.wall);
+    const double gain = found.stiffness / loop.unit;
+    if (internal::is_stable(loop, gain * (1.0 - confirmed_to)) &&
+        !internal::is_stable(loop, gain * (1.0 + confirmed_to))) {
+      return {StiffnessStatus::finite, found.stiffness, found.angle / posed.plant.period};
+    }
+  }
+  const PointWallLimit limit = normal_wall_limit(posed.motion, posed.loop, normal);
+  return {limit.status, limit.stiffness, limit.frequency};
+}
+
+}  // namespace
+
+GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal) {
+  const Posed posed(motion, loop);
+  return GraspScan(posed).along(posed.along(normal));
+}
+
+PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop) {
+  const Posed posed(motion, loop);
+  return GraspScan(posed).of_point(posed.directions.cols());
+}
+
+std::vector<NormalLimits> limits_along(const TipMotion& motion, const DeviceParameters& loop,
+                                       const std::vector<Eigen::Vector3d>& normals,
+                                       const NormalLimitsOptions& options) {
+  const Posed posed(motion, loop);
+  const CrossoverScan crossovers(posed);
+  std::optional<GraspScan> grasps;
+  if (options.any_grasp) grasps.emplace(posed);
+  std::vector<NormalLimits> limits;
+  for (const Eigen::Vector3d& normal : normals) {
+    limits.push_back(nobody_along(posed, crossovers, normal));
+    if (grasps) limits.back().any_grasp = grasps->quickly_along(posed.along(normal));
+  }
+  return limits;
+}
+
+}  // namespace zwidth

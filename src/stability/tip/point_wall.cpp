@@ -1,0 +1,95 @@
+#include "zwidth/stability/point_wall.hpp"
+
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "stability/tip/gain_march.hpp"
+#include "stability/tip/tip_states.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+using internal::GainLimit;
+
+Eigen::MatrixXd all_directions(const TipMotion& motion) {
+  Eigen::MatrixXd directions = internal::directions_of(motion);
+  if (directions.cols() == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_stands_still});
+  return directions;
+}
+
+// Along which a motion a cos + b sin is largest.
+Eigen::Vector3d largest_along(const Eigen::MatrixXd& directions, const Eigen::VectorXcd& motion) {
+  const std::complex<double> square = (motion.transpose() * motion).value();
+  const Eigen::VectorXd largest = (motion * std::polar(1.0, -0.5 * std::arg(square))).real();
+  return (directions * largest).normalized();
+}
+
+PointWallLimit limit_along(const TipMotion& motion, const DeviceParameters& loop, const Eigen::MatrixXd& directions) {
+  internal::require_plain_wall(loop);
+  const internal::GainLoop closed = internal::stiffness_loop(
+      internal::sampled_tip(internal::tip_coordinates(motion, directions, loop.user), loop), loop.wall);
+  const GainLimit found = internal::first_crossing(closed);
+  PointWallLimit limit;
+  switch (found.kind) {
+    case GainLimit::Kind::crossing:
+      limit.status = StiffnessStatus::finite;
+      limit.stiffness = found.gain * closed.unit;
+      limit.frequency = found.angle / closed.period;
+      limit.direction = largest_along(directions, found.motion);
+      break;
+    case GainLimit::Kind::none_stable:
+      limit.status = StiffnessStatus::none_stable;
+      break;
+    case GainLimit::Kind::unbounded:
+      limit.status = StiffnessStatus::unbounded;
+      limit.stiffness = std::numeric_limits<double>::infinity();
+      break;
+    case GainLimit::Kind::not_determined:
+      limit.stiffness = std::numeric_limits<double>::quiet_NaN();
+      limit.trust.refuse({.code = FindingCode::poles_along_circle});
+      break;
+  }
+  return limit;
+}
+
+}  // namespace
+
+PointWallLimit point_wall_limit(const TipMotion& motion, const DeviceParameters& loop) {
+  return limit_along(motion, loop, all_directions(motion));
+}
+
+PointWallLimit normal_wall_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal) {
+  return limit_along(motion, loop, normal.normalized());
+}
+
+PointWallMargins point_wall_margins(const TipMotion& motion, const DeviceParameters& loop) {
+  if (!(loop.wall.stiffness.value_or(0.0) > 0.0)) {
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_wall_stiffness});
+  }
+  internal::require_plain_wall(loop);
+  const Eigen::MatrixXd directions = all_directions(motion);
+  const internal::GainLoop closed = internal::stiffness_loop(
+      internal::sampled_tip(internal::tip_coordinates(motion, directions, loop.user), loop), loop.wall);
+  const double excess = internal::stability_excess(closed, *loop.wall.stiffness / closed.unit);
+  PointWallMargins margins{.stable = excess < 0.0, .spectral_radius = 1.0 + excess};
+  if (!margins.stable) return margins;
+  const PointWallLimit limit = limit_along(motion, loop, directions);
+  const bool is_below = limit.status == StiffnessStatus::finite && limit.stiffness > *loop.wall.stiffness;
+  if (is_below) margins.stiffness_margin = limit.stiffness / *loop.wall.stiffness;
+  return margins;
+}
+
+std::vector<PointWallLimit> point_wall_limits(const TipMotion& motion, const DeviceParameters& loop,
+                                              const std::vector<double>& dampings) {
+  std::vector<PointWallLimit> limits;
+  DeviceParameters with = loop;
+  for (const double damping : dampings) {
+    with.wall.damping = damping;
+    limits.push_back(point_wall_limit(motion, with));
+  }
+  return limits;
+}
+
+}  // namespace zwidth
