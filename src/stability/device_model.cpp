@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "stability/limit/two_rate_stiffness.hpp"
-#include "stability/wall_judgement.hpp"
+#include "stability/loop/damper_loop_remarks.hpp"
 #include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {

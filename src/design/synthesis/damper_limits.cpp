@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "design/sensitivities/number_limit.hpp"
-#include "design/synthesis/absolute_stability_check.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
 #include "staged_progress.hpp"
@@ -51,11 +50,10 @@ double DamperLimits::limit(double velocity_filter_hz, bool& of_users) const {
                           found_damping(critical_damping(device_without_user(filtered))));
   of_users = false;
   if (!can_be_held(device_)) return least;
-  const AbsoluteStabilityCheck::Limit users =
-      absolute_stability_limit_of(filtered, WallNumber::damping, options_.progress);
+  const AbsoluteStabilityDamping users = absolute_stability_damping(filtered, options_.progress);
   if (users.trust.refused()) throw Error(ErrorCode::did_not_converge, users.trust.reasons.front());
-  of_users = users.value <= least;
-  return std::min(least, users.value);
+  of_users = users.damping <= least;
+  return std::min(least, users.damping);
 }
 
 bool DamperLimits::keeps_phase(VirtualDamper damper) const {

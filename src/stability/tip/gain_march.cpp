@@ -11,7 +11,7 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double least_gain = 1e-9;     // of the loop's unit: below, poles leave z = 1 in proportion to the gain
+constexpr double first_gain = 1e-9;     // of the loop's unit: below, poles leave z = 1 in proportion to the gain
 constexpr double greatest_gain = 1e12;  // of the unit
 constexpr int most_gain_steps = 20000;
 constexpr int most_newton_steps = 40;
@@ -93,7 +93,7 @@ std::optional<GainLimit> polished_crossing(const GainLoop& loop, double gain, do
 }
 
 GainLimit first_crossing(const GainLoop& loop) {
-  double gain = least_gain;
+  double gain = first_gain;
   std::vector<LoopPole> poles = poles_at(loop, gain);
   if (!certain_step(poles)) return {.kind = GainLimit::Kind::none_stable};
   std::optional<GainLimit> ahead;

@@ -12,7 +12,7 @@ namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
-using Complex = std::complex<double>;
+using ComplexNumber = std::complex<double>;
 
 constexpr double past_modes = 2.5;    // aliases beyond this many times the highest mode are summed by the rule
 constexpr double past_corners = 4.0;  // beyond this many times the highest corner frequency its tail begins
@@ -32,9 +32,9 @@ void solve_motion(Eigen::MatrixXcd& rows, Eigen::MatrixXcd& b) {
       for (Eigen::Index j = k; j < n; ++j) std::swap(rows(k, j), rows(pivot, j));
       for (Eigen::Index j = 0; j < b.cols(); ++j) std::swap(b(k, j), b(pivot, j));
     }
-    const Complex one_over = 1.0 / rows(k, k);
+    const ComplexNumber one_over = 1.0 / rows(k, k);
     for (Eigen::Index i = k + 1; i < n; ++i) {
-      const Complex factor = rows(i, k) * one_over;
+      const ComplexNumber factor = rows(i, k) * one_over;
       for (Eigen::Index j = k + 1; j < n; ++j) rows(i, j) -= factor * rows(k, j);
       for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) -= factor * b(k, j);
     }
@@ -77,22 +77,22 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
 // R = 2 w^2 g^H D g with g = G(held -> all), in which nothing cancels; R = L L^H.
 GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   const Eigen::Index m = of_.tip.rows();
-  Eigen::MatrixXcd rows = of_.stiffness.cast<Complex>();
-  rows += Complex(0.0, frequency) * of_.damping;
+  Eigen::MatrixXcd rows = of_.stiffness.cast<ComplexNumber>();
+  rows += ComplexNumber(0.0, frequency) * of_.damping;
   rows.diagonal().array() -= frequency * frequency;
-  Eigen::MatrixXcd g = of_.tip.transpose().cast<Complex>();
+  Eigen::MatrixXcd g = of_.tip.transpose().cast<ComplexNumber>();
   solve_motion(rows, g);
   const Eigen::MatrixXcd damped = of_.damping * g;
   Eigen::Matrix3cd r = Eigen::Matrix3cd::Zero();
   r.topLeftCorner(m, m) = 2.0 * frequency * frequency * (g.adjoint() * damped);
   const double size = r.norm();
   // Columns: L^-1 h_s^H, L^-1 h_a.
-  Eigen::Matrix<Complex, 3, 6> both = Eigen::Matrix<Complex, 3, 6>::Zero();
+  Eigen::Matrix<ComplexNumber, 3, 6> both = Eigen::Matrix<ComplexNumber, 3, 6>::Zero();
   both.block(0, 0, m, m) = (of_.sensed * g).adjoint();
   both.block(0, 3, m, m) = (of_.pushed * g).transpose();
   for (Eigen::Index i = 0; i < m; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      Complex entry = r(i, j);
+      ComplexNumber entry = r(i, j);
       for (Eigen::Index k = 0; k < j; ++k) entry -= r(i, k) * std::conj(r(j, k));
       r(i, j) = entry / r(j, j).real();
       both.row(i) -= r(i, j) * both.row(j);
@@ -107,7 +107,7 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   const Eigen::Matrix3cd right = both.rightCols<3>();
   Alias alias{1.0, left.adjoint() * right, left.adjoint() * left, right.adjoint() * right};
   if (lag_ > 0.0) {
-    const Complex lagged = 1.0 / Complex(1.0, lag_ * frequency);
+    const ComplexNumber lagged = 1.0 / ComplexNumber(1.0, lag_ * frequency);
     alias.shift *= lagged;
     alias.right *= std::norm(lagged);
   }
@@ -120,7 +120,7 @@ GraspDiscs::Sample GraspDiscs::own_at(double angle) const {
   sample.angle = angle;
   const double sine = std::sin(0.5 * angle);
   sample.shared =
-      2.0 * sine / period_ * Complex(sine, std::cos(0.5 * angle)) * std::polar(1.0, -angle * delay_ / period_);
+      2.0 * sine / period_ * ComplexNumber(sine, std::cos(0.5 * angle)) * std::polar(1.0, -angle * delay_ / period_);
   sample.plant.setZero();
   sample.plant.topLeftCorner(m, m) = response_.at(angle);
   sample.own = alias(angle / period_);

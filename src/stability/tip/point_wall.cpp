@@ -73,7 +73,7 @@ PointWallMargins point_wall_margins(const TipMotion& motion, const DeviceParamet
   const internal::GainLoop closed = internal::stiffness_loop(
       internal::sampled_tip(internal::tip_coordinates(motion, directions, loop.user), loop), loop.wall);
   const double excess = internal::stability_excess(closed, *loop.wall.stiffness / closed.unit);
-  PointWallMargins margins{.stable = excess < 0.0, .spectral_radius = 1.0 + excess};
+  PointWallMargins margins{.stable = excess < 0.0, .spectral_radius = 1.0 + excess, .stiffness_margin = {}};
   if (!margins.stable) return margins;
   const PointWallLimit limit = limit_along(motion, loop, directions);
   const bool is_below = limit.status == StiffnessStatus::finite && limit.stiffness > *loop.wall.stiffness;

@@ -289,7 +289,7 @@ double TwoRateUsers::limit_on_grid(VirtualDamper damper) const {
 }
 
 double TwoRateUsers::limit_at(double frequency, VirtualDamper damper) const {
-  return looks_->discs.is_undamped() ? 0.0 : looks_->discs.limit_at(frequency, damper);
+  return grid_->discs.is_undamped() ? 0.0 : grid_->discs.limit_at(frequency, damper);
 }
 
 }  // namespace zwidth::internal
