@@ -9,6 +9,10 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& righ
   return matrix.partialPivLu().solve(right);
 }
 
+Eigen::VectorXd solve_pivoted(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  return matrix.fullPivLu().solve(right);
+}
+
 Eigen::VectorXcd solve_complex(const Eigen::MatrixXcd& matrix, const Eigen::VectorXcd& right) {
   return matrix.fullPivLu().solve(right);
 }

@@ -11,6 +11,7 @@ namespace zwidth::internal {
 Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 /// x of M x = b by LU factors with complete pivoting.
+Eigen::VectorXd solve_pivoted(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 Eigen::VectorXcd solve_complex(const Eigen::MatrixXcd& matrix, const Eigen::VectorXcd& right);
 
 /// x of M x = b by L D L^T. M is symmetric; its lower triangle is read.

@@ -71,6 +71,7 @@ set(slow
   "^(Frf\\.TheUnits|Relay\\.AVeryLong)"
   "^Design\\.(ADamperAlone|Slopes)"
   "^SameAnswerOfRecordings\\."
+  "^Command/TwoRates\\."
   "^Commands/SameAnswerOn\\.EveryDeviceFile"
   "^Commands/SameAnswerOnRecordings\\..*/(Rigid|LinkOfTwoBodies|Lines)$"
   "^Devices/(Export|ExportWall)\\..*(Octave|Python|Scipy).*/(lhifam|three_masses|.*_delay|filters|one_filter|lag|transfer_function)$"

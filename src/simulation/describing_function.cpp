@@ -1,4 +1,4 @@
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "linear_systems.hpp"
 #include "simulation/check_relay.hpp"
 #include "simulation/loop_schedule.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
@@ -97,7 +98,7 @@ class FrictionBalance {
         moved[k] -= difference_step;  // downwards: never past Nyquist
         jacobian.col(k) = (at - excess(moved, share)) / difference_step;
       }
-      const Eigen::VectorXd step = jacobian.fullPivLu().solve(-at);
+      const Eigen::VectorXd step = solve_pivoted(jacobian, -at);
       if (!step.allFinite()) return std::nullopt;
       unknowns += step;
       const Eigen::VectorXd moved = (unknowns - start).cwiseAbs();
