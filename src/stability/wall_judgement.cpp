@@ -8,7 +8,6 @@
 #include "stability/margins/confirmed_margins.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
-#include "zwidth/quantity.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::internal {
@@ -83,14 +82,6 @@ void judge_two_rate_wall(const Device& device, Analysis& analysis) {
   if (wall.stable && !(wall.delay_margin && wall.spring_delay_margin && wall.damper_delay_margin)) {
     analysis.remarks.push_back(left_out_beside_damper_loop("long_delays"));
   }
-}
-
-Remark damper_closed_at_own_rate(const Device& device) {
-  const double period = damper_timing(device.loop()).sampling_period;
-  return note({.code = FindingCode::damper_closed_at_own_rate,
-               .evidence = {{"damping", device.parameters().wall.damping, units_of(device.parameters().motion).damping},
-                            {"rate_hz", 1.0 / period, "Hz"}},
-               .key = "loop.damper.sampling_period"});
 }
 
 Remark left_out_beside_damper_loop(const char* what) {
