@@ -35,13 +35,14 @@ constexpr double whole_within = 1e-6;     // periods of the damper, of the diffe
 
 class TwoRateDiscs {
  public:
-  TwoRateDiscs(const Device& free, double whole)
+  // `whole`: periods of the damper by which the delays differ.
+  TwoRateDiscs(const Device& free, double whole, bool is_quick)
       : discs_(with_loop_of_damper(free)),
         period_(free.loop().sampling_period),
         fast_period_(damper_timing(free.loop()).sampling_period),
         steps_(static_cast<int>(std::lround(rate_ratio(period_, fast_period_)))),
         whole_(whole) {
-    if (!discs_.is_undamped()) pieces_ = DiscPieces(discs_, with_loop_of_damper(free));
+    if (is_quick && !discs_.is_undamped()) pieces_ = DiscPieces(discs_, with_loop_of_damper(free));
   }
   TwoRateDiscs(const TwoRateDiscs&) = delete;
   TwoRateDiscs& operator=(const TwoRateDiscs&) = delete;
@@ -56,7 +57,7 @@ class TwoRateDiscs {
       return closed(alias_of(frequency, alias, [&](double at) { return discs_.scaled_at({0.0, at}); }), damper);
     });
   }
-  // The same by interpolated sums over aliases beyond the damper's rate.
+  // The same by interpolated sums over aliases beyond the damper's rate, which `is_quick` prepares.
   [[nodiscard]] double quick_limit_at(double frequency, VirtualDamper damper) const {
     return limit_of([&](int alias) { return closed(quick_alias_of(frequency, alias), damper); });
   }
@@ -224,7 +225,7 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
   AbsoluteStabilityLimit limit;
   limit.trust = nobody.trust;
   const Device free = device_without_user(device);
-  const TwoRateDiscs discs(free, std::round(apart));
+  const TwoRateDiscs discs(free, std::round(apart), true);
   if (discs.is_undamped() || nobody.stiffness == 0.0) return limit;
   const VirtualDamper damper{free.parameters().wall.damping, free.parameters().wall.velocity_filter_hz};
   const std::vector<double> frequencies = frequencies_to_look_at(discs, free, nobody);
@@ -259,11 +260,20 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
   return limit;
 }
 
+double two_rate_limit_at(const Device& device, double angle) {
+  const auto [period, delay] = damper_timing(device.loop());
+  const TwoRateDiscs discs(device_without_user(device), std::round((device.loop().delay - delay) / period), false);
+  if (discs.is_undamped()) return 0.0;
+  const Wall& wall = device.parameters().wall;
+  return discs.limit_at(std::min(angle / device.loop().sampling_period, discs.nyquist()),
+                        {wall.damping, wall.velocity_filter_hz});
+}
+
 struct TwoRateUsers::Looks {
   TwoRateDiscs discs;
   std::vector<TwoRateDiscs::Aliases> aliases;  // by frequency
 
-  Looks(const Device& free, double apart) : discs(free, apart) {
+  Looks(const Device& free, double apart) : discs(free, apart, true) {
     if (discs.is_undamped()) return;
     for (const double each : frequencies_to_look_at(discs, free, {})) aliases.push_back(discs.aliases_at(each));
   }
