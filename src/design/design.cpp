@@ -33,11 +33,13 @@ Design design(const Device& device, const DesignOptions& options) {
   stages.next(0.15);
   design.sensitivities = stiffness_sensitivities(device, design.analysis.critical);
   stages.next(0.2);
-  if (design.analysis.any_user && has_damper_loop(device.loop())) {
-    design.remarks.push_back(
-        note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user_slopes"}}}));
-  } else if (design.analysis.any_user) {
-    design.absolute_stability_sensitivities = absolute_stability_sensitivities(device, *design.analysis.any_user);
+  if (const auto& any_user = design.analysis.any_user) {
+    design.absolute_stability_sensitivities = absolute_stability_sensitivities(device, *any_user);
+    const bool has_limit = any_user->stiffness > 0.0 && std::isfinite(any_user->stiffness);
+    if (has_limit && design.absolute_stability_sensitivities.empty() && has_damper_loop(device.loop())) {
+      design.remarks.push_back(
+          note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user_slopes"}}}));
+    }
   }
   stages.next(1.0);
   if (!options.branch_switches) return design;

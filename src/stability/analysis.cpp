@@ -8,7 +8,6 @@
 #include "counted.hpp"
 #include "model/implausible_numbers.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
-#include "stability/loop/damper_loop_remarks.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "stability/wall_judgement.hpp"

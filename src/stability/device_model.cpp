@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "stability/limit/two_rate_stiffness.hpp"
-#include "stability/loop/damper_loop_remarks.hpp"
 #include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {

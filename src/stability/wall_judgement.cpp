@@ -5,11 +5,9 @@
 
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
-#include "stability/loop/damper_loop_remarks.hpp"
 #include "stability/margins/confirmed_margins.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
-#include "zwidth/quantity.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::internal {
@@ -84,6 +82,10 @@ void judge_two_rate_wall(const Device& device, Analysis& analysis) {
   if (wall.stable && !(wall.delay_margin && wall.spring_delay_margin && wall.damper_delay_margin)) {
     analysis.remarks.push_back(left_out_beside_damper_loop("long_delays"));
   }
+}
+
+Remark left_out_beside_damper_loop(const char* what) {
+  return note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", what}}});
 }
 
 }  // namespace zwidth::internal

@@ -22,4 +22,7 @@ void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCoun
 /// The same of a damper in a loop of its own.
 void judge_two_rate_wall(const Device& device, Analysis& analysis);
 
+/// What is known of one loop alone.
+[[nodiscard]] Remark left_out_beside_damper_loop(const char* what);
+
 }  // namespace zwidth::internal

@@ -60,6 +60,18 @@ TEST_F(ServedErrors, AnErrorNamesTheFieldThatCausedIt) {
                "body = [{name = \"a b\", mass = -1}]\nloop.sampling_period = 1e-3");
 }
 
+TEST_F(ServedErrors, ADamperOnTheDriveIsNamedWhereItStandsInTheWayOfARecord) {
+  const json request{{"device_toml", contents("devices/lhifam_drive_damper.toml")},
+                     {"recording", json::parse(upload(contents("recordings/locked_chirp.csv")).body).at("id")},
+                     {"options", {{"force", "force"}, {"position", "position"}}}};
+  const HttpAnswer answer = post("identify", request.dump());
+  EXPECT_EQ(answer.status, 400);
+  const json error = json::parse(answer.body).at("error");
+  EXPECT_EQ(error.at("where"), "device.loop.damper");
+  EXPECT_EQ(error.at("code"), "damper_closed_while_recorded");
+  EXPECT_FALSE(error.at("allowed").get<std::string>().empty());
+}
+
 // A std::regex takes stack for every character: one such number ended the program.
 TEST_F(ServedErrors, ANumberOfAHundredThousandDigitsIsRefusedAndTheServerLives) {
   const json request{{"device_toml", contents("devices/lhifam.toml")},

@@ -14,7 +14,7 @@
 #include "design/synthesis/absolute_stability_check.hpp"
 #include "design/synthesis/users_at_frequency.hpp"
 #include "design/synthesis/wall_limits.hpp"
-#include "stability/loop/damper_loop_remarks.hpp"
+#include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"

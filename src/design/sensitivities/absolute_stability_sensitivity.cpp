@@ -8,7 +8,9 @@
 #include "design/sensitivities/controller_sensitivity.hpp"
 #include "design/sensitivities/design_parameter.hpp"
 #include "design/sensitivities/disc_sensitivity.hpp"
+#include "design/sensitivities/two_rate_sensitivity.hpp"
 #include "stability/users/disc_stiffness.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
@@ -229,22 +231,24 @@ double checked_first_slope(const Device& free, const DesignParameter& parameter,
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device) {
   require_no_coordinates(device);
-  require_one_rate(device);
-  const Wall& wall = device.parameters().wall;
-  return absolute_stability_sensitivities(device,
-                                          absolute_stability_limit(device, {wall.damping, wall.velocity_filter_hz}));
+  return absolute_stability_sensitivities(device, known_any_user_limit(device));
 }
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device, const AbsoluteStabilityLimit& limit) {
   require_no_coordinates(device);
-  require_one_rate(device);
   if (!(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) return {};
+  const bool has_two_loops = has_damper_loop(device.loop());
+  if (has_two_loops && device.parameters().wall.damping == 0.0) {
+    return absolute_stability_sensitivities(with_one_rate(device), limit);
+  }
+  if (has_two_loops && !knows_all_users(device.loop())) require_one_rate(device);
   const Device free = device_without_user(device);
   if (limit.needs_no_user) {
     std::vector<Sensitivity> own = stiffness_sensitivities(free);
     std::erase_if(own, [](const Sensitivity& each) { return each.key.starts_with("operator."); });
     return own;
   }
+  if (has_two_loops) return two_rate_users_sensitivities(device, limit);
   const TerminationDiscs discs(free);
   const std::vector<DesignParameter> parameters = parameters_of(free);
   std::vector<double> sensitivities(parameters.size(), std::numeric_limits<double>::quiet_NaN());

@@ -10,8 +10,10 @@
 
 #include "design/region/two_rate_curve.hpp"
 #include "design/sensitivities/design_parameter.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -187,6 +189,34 @@ std::vector<Sensitivity> two_rate_sensitivities(const Device& device, const Cros
     const double value = number.value;
     result.push_back({number.key, value, by_number,
                       value != 0.0 ? std::optional(value / limit.stiffness * by_number) : std::nullopt});
+  }
+  return result;
+}
+
+std::vector<Sensitivity> two_rate_users_sensitivities(const Device& device, const AbsoluteStabilityLimit& limit) {
+  const Device free = device_without_user(device);
+  const DeviceParameters& parameters = free.parameters();
+  const double angle = std::min(limit.frequency * parameters.loop.sampling_period, std::numbers::pi);
+  if (angle == 0.0) return {};
+  const LimitOfTwoRates loop(free, {angle, {limit.stiffness, parameters.wall.damping}});
+  std::vector<Sensitivity> result;
+  for (const DesignParameter& number : numbers_of_two_rates(free)) {
+    if (number.key.starts_with("operator.")) continue;
+    const auto moved_by = [&](double step) {
+      DeviceParameters moved = parameters;
+      moved.uncertainty.reset();
+      set_with_ratio(moved, number.key, number.value + step);
+      return moved;
+    };
+    const double unit = loop.unit_of(number);
+    if (!knows_all_users(moved_by(widest_difference * unit).loop)) continue;
+    const auto slope =
+        derivative([&](double step) { return std::complex<double>(two_rate_limit_at(Device(moved_by(step)), angle)); },
+                   unit, loop.only_grows(number));
+    if (!slope || !std::isfinite(slope->real())) continue;
+    const double value = number.value;
+    result.push_back({number.key, value, slope->real(),
+                      value != 0.0 ? std::optional(value / limit.stiffness * slope->real()) : std::nullopt});
   }
   return result;
 }

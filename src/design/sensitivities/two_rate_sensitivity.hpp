@@ -6,6 +6,7 @@
 #include "design/sensitivities/design_parameter.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
@@ -24,5 +25,11 @@ void set_with_ratio(DeviceParameters& parameters, std::string_view key, double v
 /// F_K, F_theta and F_p by differences at the crossover, extrapolated over steps until two agree; nothing is solved again, and
 /// a number whose differences do not agree is left out.
 [[nodiscard]] std::vector<Sensitivity> two_rate_sensitivities(const Device& device, const Crossover& limit);
+
+/// absolute_stability_sensitivities() of such a device, whose loop knows_all_users(), with a damper. At the frequency of the least
+/// K its slope is that of K alone (envelope theorem), by the same differences at the same angle. A delay or period that leaves the limit
+/// unknown has no slope; none has where the limit is approached towards zero frequency.
+[[nodiscard]] std::vector<Sensitivity> two_rate_users_sensitivities(const Device& device,
+                                                                    const AbsoluteStabilityLimit& limit);
 
 }  // namespace zwidth::internal

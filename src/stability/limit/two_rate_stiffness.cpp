@@ -16,6 +16,7 @@
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/state_space.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -158,6 +159,14 @@ CriticalStiffness two_rate_stiffness(const Device& device) {
   }
   if (critical.trust.refused()) withdraw(critical);
   return critical;
+}
+
+Remark damper_closed_at_own_rate(const Device& device) {
+  const double period = damper_timing(device.loop()).sampling_period;
+  return note({.code = FindingCode::damper_closed_at_own_rate,
+               .evidence = {{"damping", device.parameters().wall.damping, units_of(device.parameters().motion).damping},
+                            {"rate_hz", 1.0 / period, "Hz"}},
+               .key = "loop.damper.sampling_period"});
 }
 
 }  // namespace zwidth::internal

@@ -5,6 +5,7 @@
 #include "stability/second_route/scheduled_loop.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
+#include "zwidth/remark.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -53,5 +54,8 @@ class TwoRateDevice {
 
 // critical_stiffness() of any device without the second count and the trust, for many devices.
 [[nodiscard]] CriticalStiffness unguarded_stiffness(const Device& device);
+
+// Of a device whose response or models are those that the spring sees.
+[[nodiscard]] Remark damper_closed_at_own_rate(const Device& device);
 
 }  // namespace zwidth::internal

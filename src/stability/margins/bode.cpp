@@ -12,7 +12,6 @@
 
 #include "counted.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
-#include "stability/loop/damper_loop_remarks.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"

@@ -46,13 +46,13 @@ std::optional<double> whole_periods_later(const Loop& loop) {
 class TwoRateDiscs {
  public:
   // `free`: of a loop that knows_all_users().
-  explicit TwoRateDiscs(const Device& free)
+  explicit TwoRateDiscs(const Device& free, bool is_quick = true)
       : discs_(with_loop_of_damper(free)),
         period_(free.loop().sampling_period),
         fast_period_(damper_timing(free.loop()).sampling_period),
         steps_(static_cast<int>(periods_within(period_, fast_period_))),
         periods_later_(whole_periods_later(free.loop()).value()) {
-    if (!discs_.is_undamped()) pieces_ = DiscPieces(discs_, with_loop_of_damper(free));
+    if (is_quick && !discs_.is_undamped()) pieces_ = DiscPieces(discs_, with_loop_of_damper(free));
   }
   TwoRateDiscs(const TwoRateDiscs&) = delete;
   TwoRateDiscs& operator=(const TwoRateDiscs&) = delete;
@@ -67,7 +67,7 @@ class TwoRateDiscs {
       return closed(alias_of(frequency, alias, [&](double at) { return discs_.scaled_at({0.0, at}); }), damper);
     });
   }
-  // The same by interpolated sums over the aliases beyond the damper's rate.
+  // The same by interpolated sums over aliases beyond the damper's rate, which `is_quick` prepares.
   [[nodiscard]] double quick_limit_at(double frequency, VirtualDamper damper) const {
     return limit_of([&](int alias) { return closed(quick_alias_of(frequency, alias), damper); });
   }
@@ -261,6 +261,14 @@ std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& 
   if (limit.needs_no_user && nobody.limit) limit.frequency = nobody.limit->frequency;
   if (limit.stiffness == 0.0 || std::isinf(limit.stiffness)) limit.frequency = 0.0;
   return limit;
+}
+
+double two_rate_limit_at(const Device& device, double angle) {
+  const TwoRateDiscs discs(device_without_user(device), false);
+  if (discs.is_undamped()) return 0.0;
+  const Wall& wall = device.parameters().wall;
+  return discs.limit_at(std::min(angle / device.loop().sampling_period, discs.nyquist()),
+                        {wall.damping, wall.velocity_filter_hz});
 }
 
 struct TwoRateUsers::Grid {

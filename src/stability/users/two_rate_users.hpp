@@ -32,6 +32,10 @@ namespace zwidth::internal {
 // The same; throws Error (invalid_argument) as require_one_rate() where it is not known.
 [[nodiscard]] AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress = {});
 
+// The least K that some user does not allow at one frequency, `angle` in rad per period of the spring, 0 < angle <= pi; infinite
+// where there is none. `device`: of a loop that knows_all_users().
+[[nodiscard]] double two_rate_limit_at(const Device& device, double angle);
+
 // The limit over all passive users of one device with many dampers, for searches.
 class TwoRateUsers {
  public:
