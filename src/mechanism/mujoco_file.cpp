@@ -205,15 +205,15 @@ class Posed {
           model_->dof_frictionloss[joint]);
     }
     const Rows lengths = Eigen::Map<const Rows>(data_->ten_J, model_->ntendon, n);
+    std::vector<int> cables;  // the stiffest last
     for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
       const double stiffness = model_->tendon_stiffness[tendon];
       add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
           model_->tendon_frictionloss[tendon]);
-      if (stiffness == 0.0) continue;
-      at.cables.conservativeResize(at.cables.rows() + 1, n);
-      at.cables.bottomRows(1) = lengths.row(tendon);
+      if (stiffness != 0.0) cables.push_back(tendon);
     }
-    if (at.cables.rows() == 0) at.cables.resize(0, n);
+    std::ranges::stable_sort(cables, {}, [this](int tendon) { return model_->tendon_stiffness[tendon]; });
+    at.cables = lengths(cables, Eigen::all);
   }
 
   struct Way {
@@ -299,12 +299,12 @@ MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<Mechan
   }
   if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
   const Eigen::MatrixXd of_joints = posed.free_motions();
-  if (of_joints.cols() == of_joints.rows()) return at;  // no loops
+  if (of_joints.cols() == of_joints.rows()) return without_springs(std::move(at));  // no loops
   const Eigen::Index motors = at.mass.rows() - of_joints.rows();
   Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
   free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
   free.bottomRightCorner(motors, motors).setIdentity();
-  return with_loops(at, free);
+  return without_springs(with_loops(at, free));
 }
 
 }  // namespace
