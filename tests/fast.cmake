@@ -20,6 +20,7 @@ set(slow
   "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
   # the library
+  "^SimulatedWall\\."
   "^AlikeBranches\\.(Nearly|Six)"
   "^Analysis\\.MarginsThatPolesCrowdAround"
   "^PolesAtOne\\.Trees"

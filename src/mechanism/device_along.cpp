@@ -4,26 +4,20 @@
 #include <vector>
 
 #include "mechanism/refusal.hpp"
+#include "mechanism/transmissions.hpp"
 #include "zwidth/mechanism.hpp"
 
 namespace zwidth {
+using internal::dependent_below;
+using internal::rank_of;
 namespace {
 
-// Relative: rows that depend on others to this are sums of them. At a singular pose of a loop they do to the root of rounding.
-constexpr double dependent_below = 1e-6;
 // Relative to the largest: what rounding leaves of a weight that is 0.
 constexpr double no_weight_below = 1e-14;
 
 [[noreturn]] void refuse_normal(ProblemCode code, const Eigen::Vector3d& normal) {
   internal::refuse_mechanism("mechanism.normal",
                              {.code = code, .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
-}
-
-Eigen::Index rank_of(const Eigen::MatrixXd& rows) {
-  if (rows.rows() == 0) return 0;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.rowwise().normalized().transpose());
-  qr.setThreshold(dependent_below);
-  return qr.rank();
 }
 
 // g' A of the motion along q that is g' A where T q = 0: along = t' T + g' A.

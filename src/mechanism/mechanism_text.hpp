@@ -12,6 +12,8 @@ namespace zwidth::internal {
 struct MechanismText {
   std::string name;  // "mechanism.xml", "included_1.xml"
   std::string text;
+  // Name and text.
+  bool operator==(const MechanismText&) const = default;
 };
 
 inline constexpr std::size_t most_mechanism_bytes = std::size_t{1} << 20;

@@ -16,6 +16,7 @@
 
 #include "mechanism/refusal.hpp"
 #include "mechanism/transmissions.hpp"
+#include "mechanism/trial_process.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
@@ -204,15 +205,15 @@ class Posed {
           model_->dof_frictionloss[joint]);
     }
     const Rows lengths = Eigen::Map<const Rows>(data_->ten_J, model_->ntendon, n);
+    std::vector<int> cables;  // the stiffest last
     for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
       const double stiffness = model_->tendon_stiffness[tendon];
       add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
           model_->tendon_frictionloss[tendon]);
-      if (stiffness == 0.0) continue;
-      at.cables.conservativeResize(at.cables.rows() + 1, n);
-      at.cables.bottomRows(1) = lengths.row(tendon);
+      if (stiffness != 0.0) cables.push_back(tendon);
     }
-    if (at.cables.rows() == 0) at.cables.resize(0, n);
+    std::ranges::stable_sort(cables, {}, [this](int tendon) { return model_->tendon_stiffness[tendon]; });
+    at.cables = lengths(cables, Eigen::all);
   }
 
   struct Way {
@@ -288,10 +289,7 @@ class Posed {
   std::vector<bool> is_given_;  // of the joints
 };
 
-}  // namespace
-
-MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
-  const Handlers handlers;
+MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
   const Posed posed(file, texts);
   MechanismAtPose at = posed.whole(file);
   for (std::size_t i = 0; i < file.transmissions.size(); ++i) {
@@ -301,12 +299,25 @@ MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<Mech
   }
   if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
   const Eigen::MatrixXd of_joints = posed.free_motions();
-  if (of_joints.cols() == of_joints.rows()) return at;  // no loops
+  if (of_joints.cols() == of_joints.rows()) return without_springs(std::move(at));  // no loops
   const Eigen::Index motors = at.mass.rows() - of_joints.rows();
   Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
   free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
   free.bottomRightCorner(motors, motors).setIdentity();
-  return with_loops(at, free);
+  return without_springs(with_loops(at, free));
+}
+
+}  // namespace
+
+// What MuJoCo does not expect may crash it: a text is read in another process first.
+MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+  const Handlers handlers;
+  static std::vector<MechanismText> read_before;  // its own only while the handlers are ours
+  if (texts != read_before) {
+    if (!ends_in_trial([&] { static_cast<void>(read_at_pose(file, texts)); })) refuse_part("reader");
+    read_before = texts;
+  }
+  return read_at_pose(file, texts);
 }
 
 }  // namespace zwidth::internal

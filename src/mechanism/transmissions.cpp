@@ -1,5 +1,7 @@
 #include "mechanism/transmissions.hpp"
 
+#include <Eigen/QR>
+#include <utility>
 #include <vector>
 
 namespace zwidth::internal {
@@ -28,6 +30,13 @@ void add_coordinate(MechanismAtPose& mechanism, double inertia) {
 }
 
 }  // namespace
+
+Eigen::Index rank_of(const Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0) return 0;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.rowwise().normalized().transpose());
+  qr.setThreshold(dependent_below);
+  return qr.rank();
+}
 
 void add_transmission(MechanismAtPose& mechanism, Eigen::Index joint, const Transmission& motor, bool is_read) {
   if (motor.stiffness == 0.0) {
@@ -68,6 +77,20 @@ MechanismAtPose with_loops(const MechanismAtPose& mechanism, const Eigen::Matrix
   result.encoders = mechanism.encoders * free_motions;
   result.tip = mechanism.tip * free_motions;
   return result;
+}
+
+MechanismAtPose without_springs(MechanismAtPose mechanism) {
+  Eigen::MatrixXd fixed = mechanism.motors;
+  std::vector<Eigen::Index> cables;
+  for (Eigen::Index i = mechanism.cables.rows(); i-- > 0;) {
+    Eigen::MatrixXd with = fixed;
+    add_row(with, mechanism.cables.row(i).transpose());
+    if (rank_of(with) == rank_of(fixed)) continue;
+    fixed = std::move(with);
+    cables.insert(cables.begin(), i);
+  }
+  mechanism.cables = Eigen::MatrixXd(mechanism.cables(cables, Eigen::all));
+  return mechanism;
 }
 
 }  // namespace zwidth::internal

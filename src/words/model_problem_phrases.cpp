@@ -70,7 +70,8 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "one of the motors or encoders turns as the others and the cables say",
                     "leave it out, or give another pose"},
       ProblemPhrase{mechanism_file_refused, "mechanism_file_refused",
-                    "{?why|{why}}{?name|\"{name}\" cannot be read}{?part=joint|has no joint}{?part=loops|has too many "
+                    "{?why|{why}}{?name|\"{name}\" cannot be read}{?part=reader|MuJoCo cannot read it}{?part=joint|has "
+                    "no joint}{?part=loops|has too many "
                     "loops}{?part=files|includes too many files}",
                     "must be a file in MJCF or URDF"},
       ProblemPhrase{no_such_part, "no_such_part",

@@ -164,7 +164,7 @@ TEST(MechanismDeviceFile, NamesNoFileWhereItCameAsText) {
   const InputError found = refusal(arm_text, {}, FilesBeside::refused);
   EXPECT_EQ(found.problem->code, file_beside_text);
   EXPECT_EQ(found.place.key, "mechanism.file");
-  const InputError overridden = refusal(arm_text, {"mechanism.file=/etc/passwd"}, FilesBeside::refused);
+  const InputError overridden = refusal(arm_text, {"mechanism.file=\"/etc/passwd\""}, FilesBeside::refused);
   EXPECT_EQ(overridden.problem->code, file_beside_text);
 }
 

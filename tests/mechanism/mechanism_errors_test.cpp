@@ -141,6 +141,20 @@ TEST(MechanismErrors, UrdfHasItsInertiasAndItsLinks) {
   EXPECT_EQ(code_of(file), std::nullopt);
 }
 
+// MuJoCo 2.2.2 ends its process with such a type of joint.
+TEST(MechanismErrors, WhatCrashesTheReaderIsRefused) {
+  const std::string urdf =
+      "<robot name='r'><link name='base'/><link name='tip'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' "
+      "ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='a' type='{}'><parent link='base'/><child link='tip'/>"
+      "</joint></robot>";
+  const auto of_type = [&](const std::string& type) {
+    std::string text = urdf;
+    return code_of(mechanism(text.replace(text.find("{}"), 2, type)));
+  };
+  EXPECT_EQ(of_type("unheard"), mechanism_file_refused);
+  EXPECT_EQ(of_type("continuous"), no_motor);
+}
+
 // Bytes of a good file changed at random: an error or a device, and the next file is read as ever.
 TEST(MechanismErrors, DamagedFilesEndInErrors) {
   std::ifstream file(ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.xml");

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -126,6 +127,25 @@ TEST(MechanismParts, a_stiff_cable_is_none) {
     each.damping = 1e3;
   }
   EXPECT_NEAR(limit_of(with_cables) / limit_of(rigid), 1.0, 1e-5);  // by the cables' compliance
+}
+
+// The motors set its length: no cable, but a spring that balances the arm.
+TEST(MechanismParts, a_tendon_that_cannot_keep_its_length_is_a_spring) {
+  const std::string tendon = R"(<tendon><fixed stiffness="3"><joint joint="elbow" coef="1"/></fixed></tendon>)";
+  const MechanismFile balanced = mechanism_in(arm_in_mjcf("", "", tendon + two_motors));
+  EXPECT_EQ(at_pose(balanced).cables.rows(), 0);
+  const double found = limit_of(balanced);
+  EXPECT_NEAR(found / limit_of(mechanism_in(arm_in_mjcf("", R"(stiffness="3")", two_motors))), 1.0, same_limit);
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.xml");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::string between =
+      R"(<fixed stiffness="2"><joint joint="shoulder" coef="0.5"/><joint joint="elbow" coef="1"/></fixed>)";
+  text.insert(text.find("<fixed"), between);
+  MechanismFile with_cables = mechanism_in(text);
+  with_cables.tip = "tip";
+  const MechanismAtPose at = at_pose(with_cables);
+  EXPECT_EQ(at.cables.rows(), 2);
+  EXPECT_EQ(at.elements.size(), 7U);
 }
 
 // A motor and an encoder at one joint by the file, at the other by a transmission.
