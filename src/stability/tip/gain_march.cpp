@@ -13,7 +13,7 @@ namespace {
 
 constexpr double first_gain = 1e-9;     // of the loop's unit: below, poles leave z = 1 in proportion to the gain
 constexpr double greatest_gain = 1e12;  // of the unit
-constexpr int most_gain_steps = 20000;
+constexpr int most_gain_steps = 200000;
 constexpr int most_newton_steps = 40;
 constexpr double of_certain_step = 0.999;
 constexpr double followed_until = 1e-7;  // relative, below the crossing

@@ -89,11 +89,14 @@ TipCoordinates tip_coordinates(const TipMotion& motion, const Eigen::MatrixXd& d
   return of;
 }
 
-// Positions and velocities times T, so that both are of one size; then the forces behind the actuator's lag.
+// Positions and velocities times T, both times |sensed|; then the forces behind the actuator's lag times the motion that they
+// make in T: states are of one size, and eigenvalues keep their digits.
 SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   const double period = loop.loop.sampling_period;
   const double lag = loop.actuator.time_constant;
   const SamplingInstants instants = sampling_instants({period, loop.loop.delay});
+  const double seen = of.sensed.norm() > 0.0 ? of.sensed.norm() : 1.0;
+  const double moved = of.pushed.norm() > 0.0 ? period * period * of.pushed.norm() : 1.0;
   const Eigen::Index n = of.stiffness.rows();
   const Eigen::Index m = of.sensed.rows();
   const Eigen::Index positions = n - of.unseen;
@@ -105,17 +108,17 @@ SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   a.block(positions, 0, n, positions) = -period * of.stiffness.rightCols(positions);
   a.block(positions, positions, n, n) = -of.damping;
   if (lags > 0) {
-    a.block(positions, positions + n, n, lags) = period * of.pushed.transpose();
+    a.block(positions, positions + n, n, lags) = period / moved * of.pushed.transpose();
     a.bottomRightCorner(lags, lags).diagonal().setConstant(-1.0 / lag);
-    b.bottomRows(lags).diagonal().setConstant(1.0 / lag);
+    b.bottomRows(lags).diagonal().setConstant(seen * moved / lag);
   } else {
-    b.middleRows(positions, n) = period * of.pushed.transpose();
+    b.middleRows(positions, n) = seen * period * of.pushed.transpose();
   }
   SampledTip plant;
   plant.period = period;
   plant.delay_samples = static_cast<Eigen::Index>(instants.whole_samples);
   plant.C = Eigen::MatrixXd::Zero(m, states);
-  plant.C.leftCols(positions) = of.sensed.rightCols(positions);
+  plant.C.leftCols(positions) = of.sensed.rightCols(positions) / seen;
   plant.Phi = step(a, b, period).Phi;
   const Step with_new = step(a, b, instants.with_new);
   plant.Gamma1 = with_new.Gamma;
@@ -138,7 +141,7 @@ GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall) {
   const Eigen::Index states = n + kept * m + last + filtered;
   GainLoop loop;
   loop.period = plant.period;
-  const double size = (plant.C * plant.Gamma1).norm() + (plant.has_fraction() ? (plant.C * plant.Gamma2).norm() : 0.0);
+  const double size = plant.C.norm() * (plant.Gamma1.norm() + (plant.has_fraction() ? plant.Gamma2.norm() : 0.0));
   loop.unit = size > 0.0 ? 1.0 / size : 1.0;
   loop.state = Eigen::MatrixXd::Zero(states, states);
   loop.input = Eigen::MatrixXd::Zero(states, m);
