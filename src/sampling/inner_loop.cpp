@@ -11,7 +11,6 @@
 #include "sampling/extended_sampling.hpp"
 #include "sampling/plant_of_terms.hpp"
 #include "sampling/sampling_instants.hpp"
-#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -82,7 +81,9 @@ ClosedInner closed_inner(const ModalForm& form, const Sampling& outer, const Inn
   PolynomialX filter{Extended(1.0)};  // delta + c with a damper
   PolynomialX force{Extended(inner.stiffness)};
   if (inner.damping > 0.0) {
-    const Extended c(velocity_filter_gain(inner.velocity_filter_hz, period));
+    const Extended c = inner.velocity_filter_hz > 0.0
+                           ? Extended(-std::expm1(-2.0 * std::numbers::pi * inner.velocity_filter_hz * period))
+                           : Extended(1.0);
     filter = {c, Extended(1.0)};
     force = product(force, filter);
     force[1] += Extended(inner.damping) * c / Extended(period);
