@@ -377,6 +377,7 @@ enum class ProblemCode : std::uint16_t {
   line_beyond_nyquist,              ///< a line is not below half the sampling rate
   line_twice,                       ///< a line is asked for twice
   lines_too_close_for_record,       ///< a record is too short for its lines
+  band_leaves_no_line,              ///< a band holds no line of a response
   period_without_line,              ///< a force excites no line of a period
   no_line_excited,                  ///< a force excites no line of a record
   sample_not_a_number,              ///< a sample of a signal is not finite

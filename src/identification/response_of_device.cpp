@@ -16,7 +16,7 @@ FrequencyResponse band_of(const FrequencyResponse& response, const ParameterFitO
            (options.highest && point.frequency > *options.highest);
   });
   if (band.points.empty() && !response.points.empty())
-    refuse_member(options.lowest ? "fit.lowest" : "fit.highest", {.code = ProblemCode::no_line_in_band});
+    refuse_member(options.lowest ? "fit.lowest" : "fit.highest", {.code = ProblemCode::band_leaves_no_line});
   return band;
 }
 

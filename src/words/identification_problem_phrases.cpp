@@ -31,6 +31,7 @@ std::span<const ProblemPhrase> identification_problem_phrases() {
       ProblemPhrase{lines_too_close_for_record, "lines_too_close_for_record",
                     "the record of {duration:.4g} s is too short to tell the lines apart",
                     "at least {least:.4g} s, or fewer lines"},
+      ProblemPhrase{band_leaves_no_line, "band_leaves_no_line", "no line is left in the band asked for", "widen it"},
       ProblemPhrase{period_without_line, "period_without_line",
                     "the force excites no line of a period of {value:n} samples",
                     "leave the period out, or give the force's own{?repeats|: it repeats every {repeats:n} "

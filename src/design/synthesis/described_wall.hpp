@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include "design/synthesis/wall_check.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
@@ -37,9 +40,23 @@ template <typename Limits>
 }
 
 // Puts a described wall among the alternatives; a refused one leaves a doubt that names it.
-void add_alternative(RecommendedWall wall, const Trust& trust, WallRecommendation& result);
+inline void add_alternative(RecommendedWall wall, const Trust& trust, WallRecommendation& result) {
+  if (trust.refused()) {
+    result.trust.doubt({.code = FindingCode::alternative_left_out,
+                        .subjects = {{"what", std::string(words_of(wall.kind))}, {"reason", trust.reasons.front()}}});
+    return;
+  }
+  result.trust.inherit(trust);
+  result.alternatives.push_back(std::move(wall));
+}
 
 // Says that a device without a resolution has no known force per count: a warning where one was asked for.
-void remark_on_resolution(const Device& device, const RecommendationOptions& options, WallRecommendation& result);
+inline void remark_on_resolution(const Device& device, const RecommendationOptions& options,
+                                 WallRecommendation& result) {
+  if (device.parameters().sensor.resolution > 0.0) return;
+  Finding finding{
+      .code = FindingCode::force_per_count_unknown, .subjects = {{"what", "wall"}}, .key = "sensor.resolution"};
+  result.remarks.push_back(options.quantisation_force ? warning(std::move(finding)) : note(std::move(finding)));
+}
 
 }  // namespace zwidth::internal

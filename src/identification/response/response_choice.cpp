@@ -59,7 +59,7 @@ MeasuredResponse response_with_enough_lines(std::span<const Recording> recording
 void refuse_nothing_left(const Recording& recording, const FrequencyResponseOptions& options) {
   const std::size_t samples = recording.channels[0].samples.size();
   if (options.lowest || options.highest) {
-    refuse_member(options.lowest ? "lowest" : "highest", {.code = ProblemCode::no_line_in_band});
+    refuse_member(options.lowest ? "lowest" : "highest", {.code = ProblemCode::band_leaves_no_line});
   }
   if (options.period) {
     Problem problem{.code = ProblemCode::period_without_line, .evidence = {counted("value", *options.period)}};

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "stability/limit/two_rate_stiffness.hpp"
-#include "stability/margins/stiffness_margin.hpp"
 #include "stability/second_route/pole_modulus.hpp"
 #include "stability/second_route/scheduled_loop.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -75,6 +74,16 @@ class DelaySearch {
   double stiffness_;
 };
 
+// The least factor above 1 on K alone.
+std::optional<double> factor_to_instability(const CriticalStiffness& critical, double stiffness) {
+  std::optional<double> least;
+  for (const Crossover& each : critical.crossovers) {
+    const double factor = each.stiffness / stiffness;
+    if (factor > 1.0) least = std::min(least.value_or(factor), factor);
+  }
+  return least;
+}
+
 }  // namespace
 
 WallMargins two_rate_margins(const Device& device) {
@@ -99,7 +108,7 @@ WallMargins two_rate_margins(const Device& device) {
   margins.gain_margin.reset();
   margins.lower_gain_margin.reset();
   if (!margins.stable) return margins;
-  margins.stiffness_margin = stiffness_margin(unguarded_stiffness(device).crossovers, &Crossover::stiffness, stiffness);
+  margins.stiffness_margin = factor_to_instability(unguarded_stiffness(device), stiffness);
   const DelaySearch delays(device, loop, stiffness);
   margins.delay_margin = delays.least(true, true);
   margins.spring_delay_margin = delays.least(true, false);

@@ -8,7 +8,6 @@
 
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/margins/delay_margin.hpp"
-#include "stability/margins/stiffness_margin.hpp"
 #include "stability/margins/two_rate_margins.hpp"
 #include "stability/margins/unit_gain.hpp"
 #include "stability/second_route/spectral_radius.hpp"
@@ -83,11 +82,13 @@ LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall) {
     const bool on_crossing = std::any_of(by_stiffness.crossings.begin(), by_stiffness.crossings.end(),
                                          [&](const GainCrossing& crossing) { return crossing.gain == stiffness; });
     margins.stable = !on_crossing && unstable_poles(by_stiffness, stiffness) == 0;
-    if (margins.stable)
-      margins.stiffness_margin = stiffness_margin(by_stiffness.crossings, &GainCrossing::gain, stiffness);
-    if (margins.stable && wall.damping == 0.0) {
+    if (margins.stable) {
       find_gain_margins(by_stiffness, stiffness, margins);
-    } else if (margins.stable) {
+      margins.stiffness_margin = margins.gain_margin;
+    }
+    if (margins.stable && wall.damping > 0.0) {
+      margins.gain_margin.reset();
+      margins.lower_gain_margin.reset();
       find_gain_margins(gain_crossings(plant, GainLocus(plant, GainLocus::Gain::wall, stiffness, damper)), 1.0,
                         margins);
     }
