@@ -170,6 +170,15 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
   return x;
 }
 
+/// z with forces of either sign as the linear device has them: short segments tell them badly, and over long ones a spring that
+/// softens drives a body out of all bounds.
+Eigen::VectorXd without_forces(Eigen::VectorXd z, const MotionModel& model, const Eigen::VectorXd& linear) {
+  for (Eigen::Index i = model.family().of_device(); i < linear.size(); ++i) {
+    if (model.numbers()[static_cast<std::size_t>(i)].scale == Number::Scale::any) z(i) = linear(i);
+  }
+  return z;
+}
+
 /// Whether a body rubs as the record tells: friction within its noise makes no stops and starts that a fit could miss.
 bool rubs(const MotionModel& model, const Minimum& found) {
   constexpr double least = 1e-3;  // of the force: less moves no limit
@@ -247,12 +256,16 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   double least = 0.0;
   for (const Beginning& each : begins) {
     if (best && !rubs(*whole.model, *best)) break;
-    whole.search->set_noise(each.noise);
     bool joined = false;
-    auto end = whole.search->from(each.z, most_rounds, between, [&](const Minimum& here) {
-      joined = best && !has_moved(*whole.model, *best, here);
-      return joined;
-    });
+    const auto followed = [&](const Eigen::VectorXd& z) {
+      whole.search->set_noise(each.noise);
+      return whole.search->from(z, most_rounds, between, [&](const Minimum& here) {
+        joined = best && !has_moved(*whole.model, *best, here);
+        return joined;
+      });
+    };
+    auto end = followed(each.z);
+    if (!end) end = followed(without_forces(each.z, *whole.model, linear));
     if (!end || joined || !whole.search->take_noise(end->z) || (best && whole.search->innovations() >= least)) continue;
     least = whole.search->innovations();
     noise = whole.search->evidence().noise();
