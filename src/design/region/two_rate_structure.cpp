@@ -31,7 +31,6 @@ constexpr double same_level_of_two_rates = 1e-10;
 constexpr double clear_of_edge = 1e-6;
 constexpr double beside_chord = 0.05;
 constexpr double far_apart = 0.02;
-constexpr double beside_nyquist = 1e-5;  // nearer, the curve is known by its end at z = -1
 constexpr double level_height = 1e-7;
 constexpr double level_length = 1e-2;
 constexpr std::uintmax_t most_root_steps = 100;

@@ -31,7 +31,6 @@ constexpr double closing = 0.1;            // of a step: the chain passes its ow
 constexpr std::size_t most_nodes = 20000;  // of a chain
 // Beside z = 1 and z = -1 the curve is known by its limits, of which these are a square away.
 constexpr double least_angle = 1e-6;
-constexpr double beside_nyquist = 1e-5;
 // Of the curve of z = -1.
 constexpr int most_halvings = 40;
 constexpr double straight = 1e-3;
