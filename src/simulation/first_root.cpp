@@ -17,9 +17,9 @@ constexpr double near = 1e-8;  // a step of Newton's, relative: the next is its 
 using Coefficients = std::array<double, max_coefficients>;
 
 /// Of b_i = sum_k C(i, k) / C(n, k) a_k by n + 1, the number of coefficients: for each i those of k <= i.
-using Weights = std::array<double, max_coefficients*(max_coefficients + 1) / 2>;
-constexpr std::array<Weights, max_coefficients + 1> make_bernstein_weights() noexcept {
-  std::array<Weights, max_coefficients + 1> weights{};
+using BernsteinWeights = std::array<double, max_coefficients*(max_coefficients + 1) / 2>;
+constexpr std::array<BernsteinWeights, max_coefficients + 1> make_bernstein_weights() noexcept {
+  std::array<BernsteinWeights, max_coefficients + 1> weights{};
   for (std::size_t count = 1; count <= max_coefficients; ++count) {
     const std::size_t n = count - 1;
     std::size_t at = 0;
@@ -33,7 +33,7 @@ constexpr std::array<Weights, max_coefficients + 1> make_bernstein_weights() noe
   }
   return weights;
 }
-constexpr std::array<Weights, max_coefficients + 1> bernstein_weights = make_bernstein_weights();
+constexpr std::array<BernsteinWeights, max_coefficients + 1> bernstein_weights = make_bernstein_weights();
 
 /// The one root in [lower, upper], where the polynomial falls from `first` >= 0 to `last` < 0: Newton, kept in its
 /// bracket, from where the chord crosses zero.

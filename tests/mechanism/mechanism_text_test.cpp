@@ -42,7 +42,7 @@ std::optional<Refusal> refusal_of(const Read& read) {
   return std::nullopt;
 }
 
-std::optional<Refusal> refusal(const std::string& text) {
+std::optional<Refusal> refusal_of_text(const std::string& text) {
   return refusal_of([&] { return texts_of(text); });
 }
 
@@ -66,39 +66,40 @@ TEST(MechanismText, WhatIsNoXmlIsRefusedWithItsLine) {
   for (const std::string text :
        {"<a>\n<b></a>", "<a>\n<b x=1/></a>", "<a>\n<b x='1' x='2'/></a>", "<a>\n<![CDATA[x]]></a>", "<a/>\n<b/>",
         "<a>\n<b x='<'/></a>", "<a>\n</b>", "<a>\n<b x='1", "<a>\n<!-- "}) {
-    const auto refused = refusal(text);
+    const auto refused = refusal_of_text(text);
     ASSERT_TRUE(refused) << text;
     EXPECT_EQ(refused->code, no_xml) << text;
     EXPECT_EQ(refused->line, 2.0) << text;
   }
-  EXPECT_EQ(refusal("<!DOCTYPE a [<!ENTITY b \"c\">]>\n<a>&b;</a>")->code, no_xml);
-  EXPECT_EQ(refusal("just text")->code, no_xml);
-  EXPECT_EQ(refusal(std::string("<a>\0</a>", 8))->code, no_xml);
+  EXPECT_EQ(refusal_of_text("<!DOCTYPE a [<!ENTITY b \"c\">]>\n<a>&b;</a>")->code, no_xml);
+  EXPECT_EQ(refusal_of_text("just text")->code, no_xml);
+  EXPECT_EQ(refusal_of_text(std::string("<a>\0</a>", 8))->code, no_xml);
 }
 
 TEST(MechanismText, WhatIsTooLargeIsRefused) {
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
-  EXPECT_EQ(refusal(deep)->code, no_xml);
+  EXPECT_EQ(refusal_of_text(deep)->code, no_xml);
   std::string many = "<a>";
   for (int i = 0; i < 20'000; ++i) many += "<b/>";
-  EXPECT_EQ(refusal(many + "</a>")->code, no_xml);
+  EXPECT_EQ(refusal_of_text(many + "</a>")->code, no_xml);
   std::string joints = "<a>";
   for (int i = 0; i < 400; ++i) joints += "<joint/>";
-  EXPECT_EQ(refusal(joints + "</a>")->code, mechanism_too_large);
-  EXPECT_EQ(refusal("<a>" + std::string(2U << 20U, ' ') + "</a>")->code, mechanism_too_large);
+  EXPECT_EQ(refusal_of_text(joints + "</a>")->code, mechanism_too_large);
+  EXPECT_EQ(refusal_of_text("<a>" + std::string(2U << 20U, ' ') + "</a>")->code, mechanism_too_large);
 }
 
 TEST(MechanismText, NamesNoFile) {
-  EXPECT_EQ(refusal("<mujoco>\n<include file='/etc/passwd'/></mujoco>")->code, path_in_text);
-  EXPECT_EQ(refusal("<mujoco>\n<asset>\n<mesh file='arm.stl'/></asset></mujoco>")->line, 3.0);
-  EXPECT_EQ(refusal("<mujoco><compiler meshdir='/'/></mujoco>")->code, path_in_text);
-  EXPECT_EQ(refusal("<robot><link><visual><mesh filename='package://a.dae'/></visual></link></robot>")->code,
+  EXPECT_EQ(refusal_of_text("<mujoco>\n<include file='/etc/passwd'/></mujoco>")->code, path_in_text);
+  EXPECT_EQ(refusal_of_text("<mujoco>\n<asset>\n<mesh file='arm.stl'/></asset></mujoco>")->line, 3.0);
+  EXPECT_EQ(refusal_of_text("<mujoco><compiler meshdir='/'/></mujoco>")->code, path_in_text);
+  EXPECT_EQ(refusal_of_text("<robot><link><visual><mesh filename='package://a.dae'/></visual></link></robot>")->code,
             path_in_text);
-  EXPECT_EQ(refusal("<mujoco><extension><plugin plugin='x'/></extension></mujoco>")->code, element_not_read);
-  EXPECT_EQ(refusal("<mujoco><sensor><plugin/></sensor></mujoco>")->code, element_not_read);
-  EXPECT_EQ(refusal("<mujoco><worldbody><composite count='100000 1 1'/></worldbody></mujoco>")->code, element_not_read);
-  EXPECT_EQ(refusal("<robot><joint name='a'><mimic joint='b'/></joint></robot>")->code, element_not_read);
+  EXPECT_EQ(refusal_of_text("<mujoco><extension><plugin plugin='x'/></extension></mujoco>")->code, element_not_read);
+  EXPECT_EQ(refusal_of_text("<mujoco><sensor><plugin/></sensor></mujoco>")->code, element_not_read);
+  EXPECT_EQ(refusal_of_text("<mujoco><worldbody><composite count='100000 1 1'/></worldbody></mujoco>")->code,
+            element_not_read);
+  EXPECT_EQ(refusal_of_text("<robot><joint name='a'><mimic joint='b'/></joint></robot>")->code, element_not_read);
 }
 
 TEST(MechanismText, WhatIsNotNeededIsBlankedAndLinesStay) {
@@ -119,13 +120,13 @@ TEST(MechanismText, MeshesAreLeftOutWhereInertiaIsStated) {
     return "<mujoco><worldbody>\n<body name='a'>\n" + inside + "</body></worldbody></mujoco>";
   };
   EXPECT_EQ(texts_of(body("<joint/>" + inertial + mesh)).at(0).text.find("mesh"), std::string::npos);
-  const auto refused = refusal(body("<joint/>" + mesh));
+  const auto refused = refusal_of_text(body("<joint/>" + mesh));
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->code, mass_of_mesh);
   EXPECT_EQ(refused->line, 3.0);
-  EXPECT_FALSE(refusal(body(mesh)));  // nothing moves it
-  EXPECT_FALSE(refusal(body("<joint/><geom size='1' mass='1'/><geom mesh='m' mass='0'/>")));
-  EXPECT_TRUE(refusal(body("<joint/><body>" + mesh + "</body>" + inertial)));
+  EXPECT_FALSE(refusal_of_text(body(mesh)));  // nothing moves it
+  EXPECT_FALSE(refusal_of_text(body("<joint/><geom size='1' mass='1'/><geom mesh='m' mass='0'/>")));
+  EXPECT_TRUE(refusal_of_text(body("<joint/><body>" + mesh + "</body>" + inertial)));
 }
 
 TEST(MechanismText, LinksOfUrdfStayApart) {
