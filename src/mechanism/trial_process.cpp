@@ -10,7 +10,8 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr unsigned longest = 10;  // s
+constexpr rlim_t most_work = 10;   // s of a processor
+constexpr unsigned longest = 120;  // s, where it waits for one
 
 }  // namespace
 
@@ -18,9 +19,11 @@ bool ends_in_trial(const std::function<void()>& work) {
   const pid_t child = fork();
   if (child < 0) return false;
   if (child == 0) {
-    for (const int each : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM}) std::signal(each, SIG_DFL);
+    for (const int each : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM, SIGXCPU}) std::signal(each, SIG_DFL);
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
+    const rlimit work_limit{most_work, most_work};
+    setrlimit(RLIMIT_CPU, &work_limit);
     alarm(longest);
     try {
       work();
