@@ -49,8 +49,8 @@ struct Sensitivity {
 /// Good to 1e-5 of K/p; to 1e-4 where the limit is reached below 3e-3 rad per sample: there each slope is held against
 /// differences of the limit, and a parameter whose slope they do not confirm is left out. Without operator.*, which the
 /// limit does not depend on. Where p is 0, and for the delay of whole samples, the slope is that of growing p: the
-/// limit has a corner there. Empty where the limit is 0 or infinite. With a faster damper in a loop of its own the slopes are those of
-/// differences at the frequency of the least value, its delay among them; a delay or period that leaves the limit unknown
+/// limit has a corner there. Empty where the limit is 0 or infinite. With a faster damper in a loop of its own the slopes are
+/// those of differences at the frequency of the least value, its delay among them; a delay or period that leaves the limit unknown
 /// has none, and all are left out where the limit is approached towards zero frequency. Throws Error (needs_bodies) for
 /// a transfer function, (invalid_argument) where that limit is not known.
 [[nodiscard]] std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device);

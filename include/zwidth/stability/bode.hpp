@@ -30,8 +30,8 @@ struct BodeOptions {
 struct Bode {
   FrequencyRange range;               ///< that was covered
   std::vector<BodePoint> continuous;  ///< G, the virtual damper and the delay left out
-  /// F P / (1 + B v F P), P = Z[H G e^{-t_d s}], behind the wall's filters F; to Nyquist. With a faster damper in a loop of its own
-  /// the plant that the spring sees, that damper closed at its own rate: a remark of the analysis says so.
+  /// F P / (1 + B v F P), P = Z[H G e^{-t_d s}], behind the wall's filters F; to Nyquist. With a faster damper in
+  /// a loop of its own the plant that the spring sees, that damper closed at its own rate: a remark of the analysis says so.
   std::vector<BodePoint> sampled;
   /// analysis.critical holds every crossover, inside the range or not; where it is refused, none.
   Analysis analysis;
@@ -48,7 +48,8 @@ struct Bode {
 ///
 /// Where an analysis is at hand (of this device,
 /// with any options) it is taken; else the critical stiffness, the modes and the wall's margins are computed.
-/// Throws Error (invalid_argument) where find_problem(options, device) finds one and for a damper that runs slower than the spring, (did_not_converge) as analyze() does.
+/// Throws Error (invalid_argument) where find_problem(options, device) finds one and for a damper that runs slower than the
+/// spring, (did_not_converge) as analyze() does.
 [[nodiscard]] Bode bode(const Device& device, const BodeOptions& options = {});
 /// The same, of an analysis that is at hand.
 [[nodiscard]] Bode bode(const Device& device, Analysis analysis, const BodeOptions& options = {});

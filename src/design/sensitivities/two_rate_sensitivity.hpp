@@ -26,9 +26,9 @@ void set_with_ratio(DeviceParameters& parameters, std::string_view key, double v
 /// a number whose differences do not agree is left out.
 [[nodiscard]] std::vector<Sensitivity> two_rate_sensitivities(const Device& device, const Crossover& limit);
 
-/// absolute_stability_sensitivities() of such a device, whose loop knows_all_users(), with a damper. At the frequency of the least
-/// K its slope is that of K alone (envelope theorem), by the same differences at the same angle. A delay or period that leaves the limit
-/// unknown has no slope; none has where the limit is approached towards zero frequency.
+/// absolute_stability_sensitivities() of such a device, whose loop knows_all_users(), with a damper. At the frequency of the
+/// least K its slope is that of K alone (envelope theorem), by the same differences at the same angle. A delay or period that
+/// leaves the limit unknown has no slope; none has where the limit is approached towards zero frequency.
 [[nodiscard]] std::vector<Sensitivity> two_rate_users_sensitivities(const Device& device,
                                                                     const AbsoluteStabilityLimit& limit);
 
