@@ -48,7 +48,7 @@ bool has(const std::vector<Remark>& remarks, FindingCode code) {
 TEST(TwoRateTarget, EveryNeededValueIsConfirmedByTheLoopAsItRuns) {
   for (const Device& device : {with_own_loop(1e-3, 1e-4, 200.0), with_own_loop(2e-4, 6e-4, 100.0)}) {
     const double target = 1.3 * critical_stiffness(device).stiffness;
-    const DesignTargets found = design_targets(device, {.stiffness = target, .factor = 30.0});
+    const DesignTargets found = design_targets(device, {.stiffness = target, .factor = 10.0});
     EXPECT_TRUE(has(found.remarks, FindingCode::damper_period_follows));
     int confirmed = 0;
     bool has_delay_of_damper = false;
