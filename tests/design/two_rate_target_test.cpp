@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "lhifam.hpp"
 #include "zwidth/design/design_target.hpp"
@@ -47,7 +48,7 @@ bool has(const std::vector<Remark>& remarks, FindingCode code) {
 TEST(TwoRateTarget, EveryNeededValueIsConfirmedByTheLoopAsItRuns) {
   for (const Device& device : {with_own_loop(1e-3, 1e-4, 200.0), with_own_loop(2e-4, 6e-4, 100.0)}) {
     const double target = 1.3 * critical_stiffness(device).stiffness;
-    const DesignTargets found = design_targets(device, {.stiffness = target, .factor = 30.0});
+    const DesignTargets found = design_targets(device, {.stiffness = target, .factor = 10.0});
     EXPECT_TRUE(has(found.remarks, FindingCode::damper_period_follows));
     int confirmed = 0;
     bool has_delay_of_damper = false;
@@ -74,9 +75,11 @@ TEST(TwoRateTarget, OfAnyPassiveUser) {
       design_targets(device, {.stiffness = target, .goal = StiffnessGoal::absolute_stability_limit, .factor = 10.0});
   EXPECT_NEAR(*found.limit_now, now, 1e-9 * now);
   int confirmed = 0;
+  int left_out = 0;
   for (const DesignTarget& each : found.targets) {
     SCOPED_TRACE(each.key);
     if (each.key == "loop.delay" || each.key == "loop.damper.delay") {
+      ++left_out;
       EXPECT_FALSE(each.value_needed.has_value());
       EXPECT_EQ(each.why.code, FindingCode::left_out_beside_damper_loop);
     }
@@ -84,7 +87,20 @@ TEST(TwoRateTarget, OfAnyPassiveUser) {
     EXPECT_NEAR(analyze(moved(device, each, 1.0)).any_user->stiffness / target, 1.0, 1e-6);
     ++confirmed;
   }
+  EXPECT_EQ(left_out, 2);
   EXPECT_GE(confirmed, 2);
+}
+
+// With delays that differ by a period of the damper, another period leaves the limit unknown: nothing is claimed of it.
+TEST(TwoRateTarget, ClaimsNothingWhereTheLimitIsNotKnown) {
+  DeviceParameters parameters = with_own_loop(1e-3, 1e-4, 200.0).parameters();
+  parameters.loop.delay = 0.0;
+  const DesignTargets found = design_targets(
+      Device(parameters), {.stiffness = 6e5, .goal = StiffnessGoal::absolute_stability_limit, .factor = 10.0});
+  const auto period = std::ranges::find(found.targets, std::string("loop.sampling_period"), &DesignTarget::key);
+  ASSERT_NE(period, found.targets.end());
+  EXPECT_FALSE(period->value_needed.has_value());
+  EXPECT_EQ(period->why.code, FindingCode::left_out_beside_damper_loop);
 }
 
 TEST(TwoRateTarget, OfAnyPassiveUserIsRefusedWhereTheirLimitIsNotKnown) {

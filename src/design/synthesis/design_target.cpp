@@ -19,7 +19,6 @@
 #include "design/synthesis/followed_numbers.hpp"
 #include "design/synthesis/limit_along_parameter.hpp"
 #include "infinity.hpp"
-#include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
@@ -74,11 +73,11 @@ class Search {
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
     DesignTarget target{parameter.key, parameter.value, std::nullopt, {}, {}, {}};
-    if (!knows_users_along(parameter)) {
+    LimitAlongParameter moved(device_, parameter, options_.goal, options_.limit_of);
+    if (!moved.is_known()) {
       target.why = {.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user"}}};
       return target;
     }
-    LimitAlongParameter moved(device_, parameter, options_.goal, options_.limit_of);
     const Point now{parameter.value, limit_now_};
     std::vector<Walk> walks;
     if (parameter.value > 0.0) {
@@ -92,7 +91,9 @@ class Search {
     target.value_needed = first_crossing(parameter, moved, std::move(walks), extremes);
     if (!target.value_needed) {
       find_most(moved, extremes);
-      target.why = reason_of_none(parameter, extremes);
+      target.why = moved.refused_at() ? Finding{.code = FindingCode::limit_refused_at_value,
+                                                .subjects = {{"reason", *moved.refused_at()}}}
+                                      : reason_of_none(parameter, extremes);
       return target;
     }
     const Device changed = with(parameter, *target.value_needed);
@@ -228,16 +229,6 @@ class Search {
       return std::abs(at_left) <= std::abs(at_right) ? left : right;
     }
     return at_left >= 0.0 ? left : right;  // a jump
-  }
-
-  // The delay of one of two loops alone takes the limit with any user to where it is not known.
-  [[nodiscard]] bool knows_users_along(const DesignParameter& parameter) const {
-    const bool asks = options_.goal == StiffnessGoal::absolute_stability_limit;
-    if (!asks || options_.limit_of == WallNumber::damping || !has_damper_loop(device_.loop())) return true;
-    if (parameter.kind != DesignParameter::Kind::delay) return true;
-    constexpr double part_of_period = 0.3;
-    const double delay = parameter.value + part_of_period * damper_timing(device_.loop()).sampling_period;
-    return knows_all_users(with(parameter, delay).loop());
   }
 
   [[nodiscard]] Device with(const DesignParameter& parameter, double value) const {

@@ -43,9 +43,23 @@ std::optional<LimitAlongParameter::Limit> LimitAlongParameter::at(double value, 
     if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, of_any_user(device, interest.enough, limit));
     return limit;
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::did_not_converge) return std::nullopt;
-    throw;
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    if (has_damper_loop(device.loop())) refused_at_ = error.what();
+    return std::nullopt;
   }
+}
+
+bool LimitAlongParameter::is_known() const {
+  using Kind = DesignParameter::Kind;
+  if (goal_ != StiffnessGoal::absolute_stability_limit || number_ == WallNumber::damping) return true;
+  if (!has_damper_loop(device_.loop())) return true;
+  if (parameter_.kind != Kind::delay && parameter_.kind != Kind::sampling_period) return true;
+  constexpr double beside_whole = 0.137;  // of the damper's period, or of the period that moves
+  const bool is_delay = parameter_.kind == Kind::delay;
+  const double unit = is_delay ? damper_timing(device_.loop()).sampling_period : parameter_.value;
+  DeviceParameters moved = device_.parameters();
+  set_with_ratio(moved, parameter_.key, parameter_.value + beside_whole * unit);
+  return knows_all_users(moved.loop);
 }
 
 LimitAlongParameter::Limit LimitAlongParameter::of_damper(const Device& device, const Interest& interest) const {
@@ -59,14 +73,18 @@ LimitAlongParameter::Limit LimitAlongParameter::of_damper(const Device& device, 
 }
 
 std::optional<LimitAlongParameter::Limit> LimitAlongParameter::of_two_loops(const Device& device,
-                                                                            const Interest& interest) const {
+                                                                            const Interest& interest) {
   const CriticalStiffness nobody = unguarded_stiffness(device);
-  if (nobody.trust.refused()) return std::nullopt;
+  if (nobody.trust.refused()) {
+    refused_at_ = nobody.trust.reasons.front();
+    return std::nullopt;
+  }
   Limit limit{std::min(nobody.stiffness, interest.most), false};
   if (goal_ == StiffnessGoal::critical_stiffness) return limit;
   limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
   if (limit.is_bound) return limit;
   const auto any_user = any_user_limit(device);
+  if (any_user && any_user->trust.refused()) refused_at_ = any_user->trust.reasons.front();
   if (!any_user || any_user->trust.refused()) return std::nullopt;
   limit.stiffness = std::min(limit.stiffness, any_user->stiffness);
   return limit;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "design/sensitivities/design_parameter.hpp"
@@ -31,18 +32,26 @@ class LimitAlongParameter {
               // a frequency where users have set the limit at other values
     double most = std::numeric_limits<double>::infinity();  // stands for any limit that is higher
   };
+  // Whether the limit is known beside the device's own value: that with any user of two loops depends on how their delays
+  // differ.
+  [[nodiscard]] bool is_known() const;
+
+  // Why the limit of two loops was last refused at a value that makes a device; nothing where it never was.
+  [[nodiscard]] const std::optional<std::string>& refused_at() const { return refused_at_; }
+
   // The limit. Absent where the value makes no device, or its limit is not found.
   [[nodiscard]] std::optional<Limit> at(double value, const Interest& interest);
 
  private:
   [[nodiscard]] Limit of_damper(const Device& device, const Interest& interest) const;
-  [[nodiscard]] std::optional<Limit> of_two_loops(const Device& device, const Interest& interest) const;
+  [[nodiscard]] std::optional<Limit> of_two_loops(const Device& device, const Interest& interest);
   [[nodiscard]] double of_any_user(const Device& device, double enough, Limit& limit);
 
   const Device& device_;
   const DesignParameter& parameter_;
   StiffnessGoal goal_;
   WallNumber number_;
+  std::optional<std::string> refused_at_;
   std::vector<double> angles_;  // where users have set the limit, rad per sample, the latest last
   std::unique_ptr<AbsoluteStabilitySearch>
       users_;  // of a number of the wall's damper, which the termination discs do not depend on
