@@ -54,5 +54,20 @@ TEST_F(LoadedOnDemand, PolesThatCrowdAreFoundAsTheLibraryFindsThem) {
   EXPECT_THAT(refused.errors, ::testing::HasSubstr("digits-"));
 }
 
+#ifdef ZWIDTH_MUJOCO
+TEST_F(LoadedOnDemand, AMechanismIsAnsweredAsTheLibraryAnswersIt) {
+  const std::string file = "devices/mechanisms/planar_arm.toml";
+  const auto device = read_device_file((directory() / file).string());
+  ASSERT_TRUE(device) << device.error().str();
+  const Outcome answered = run("zwidth analyze " + file + " --json");
+  ASSERT_EQ(answered.status, 0) << answered.errors;
+  const auto document = nlohmann::json::parse(answered.output);
+  EXPECT_EQ(document.at("critical_stiffness"), analyze(*device).limits.nobody.critical_stiffness);
+  const Outcome refused = run_alone("zwidth analyze " + file + " --json");
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("mechanisms-"));
+}
+#endif
+
 }  // namespace
 }  // namespace zwidth::cli
