@@ -7,6 +7,7 @@
 #include "batch/kernel/stiffness_kernel.hpp"
 #include "identification/initial_fit/least_squares.hpp"
 #include "io/mat73_file.hpp"
+#include "mechanism/mujoco_file.hpp"
 #include "model/exact_modal_form.hpp"
 #include "sampling/exact_sampling.hpp"
 #include "server/api/digest.hpp"
@@ -58,6 +59,13 @@ struct Crypto {
   decltype(server::equal_in_constant_time)* equal_in_constant_time;
 };
 
+/// With MuJoCo, where the build has it.
+struct Mechanisms {
+  static constexpr const char* file = "mechanisms-" ZWIDTH_VERSION ".so";
+  static constexpr const char* name = "zwidth_mechanisms";
+  decltype(internal::mujoco_at_pose)* mujoco_at_pose;
+};
+
 }  // namespace zwidth::on_demand
 
 extern "C" {
@@ -65,4 +73,5 @@ extern "C" {
 [[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_digits();
 [[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_kernel();
 [[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_crypto();
+[[gnu::visibility("default")]] zwidth::on_demand::Module zwidth_mechanisms();
 }

@@ -179,7 +179,14 @@ TextTable parameters(const AnalysedDevice& analysed) {
                           fmt::format("{:.9g}", fmt::join(device.transfer_function->numerator, ", "))});
     table.rows.push_back(
         {"denominator", fmt::format("{:.9g}", fmt::join(device.transfer_function->denominator, ", "))});
-  } else {
+  } else if (device.mechanism) {
+    const auto& [mechanism, normal] = *device.mechanism;
+    table.rows.push_back({"tip of the mechanism", mechanism.tip});
+    for (const auto& [joint, position] : mechanism.pose) {
+      table.rows.push_back({joint + ": position", fmt::format("{:.9g}", position)});
+    }
+    table.rows.push_back({"normal of the wall", fmt::format("{:.9g}", fmt::join(normal, ", "))});
+  } else if (!device.bodies.empty()) {
     table.rows.push_back({"actuated, sensed, held",
                           fmt::format("{}, {}, {}", device.bodies[device.loop.actuated].name,
                                       device.bodies[device.loop.sensed].name, device.bodies[device.loop.held].name)});

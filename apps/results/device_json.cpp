@@ -42,7 +42,8 @@ Json device_json(const DeviceParameters& parameters) {
       if (value == "[") {  // on lines of its own up to "]"
         for (std::string next; next != "]" && std::getline(lines, next);) value += "\n" + next;
       }
-      (*table)[line.substr(0, equals)] = value_of(std::move(value));
+      const std::string key = line.substr(0, equals);
+      (*table)[key.starts_with('"') ? Json::parse(key).get<std::string>() : key] = value_of(std::move(value));
     }
   }
   return device;

@@ -34,7 +34,8 @@ std::string allowed_values(const DeviceKey& key) {
 Json key_json(const DeviceKey& key) {
   Json unit = nullptr;
   if (key.measure) {
-    unit = {{"linear", unit_of(*key.measure, Motion::linear)}, {"rotary", unit_of(*key.measure, Motion::rotary)}};
+    const Motion linear = key.table == DeviceTable::transmission ? Motion::rotary : Motion::linear;  // behind a joint
+    unit = {{"linear", unit_of(*key.measure, linear)}, {"rotary", unit_of(*key.measure, Motion::rotary)}};
   }
   return {{"key", key.name},
           {"type", key.type},

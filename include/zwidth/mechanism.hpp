@@ -1,33 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/mechanism_file.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth {
-
-/// A motor behind a joint, for files that have none.
-struct Transmission {
-  std::string joint;           ///< that it drives
-  double ratio = 1.0;          ///< motor turns per turn of the joint; not 0
-  double inertia = 0.0;        ///< of the motor, kg m^2; > 0
-  double motor_damping = 0.0;  ///< of the motor to ground, N m s/rad; >= 0
-  double stiffness = 0.0;      ///< of the cable, at the joint, N m/rad; 0: the motor turns with the joint
-  double damping = 0.0;        ///< of the cable, at the joint, N m s/rad
-};
-
-/// A file of MuJoCo's format (MJCF) or URDF, and where it is looked at.
-struct MechanismFile {
-  std::string path;                   ///< of the file
-  std::string tip;                    ///< site or body, where the wall is touched and the user holds
-  std::vector<std::string> encoders;  ///< joints that are read; empty: those that actuators drive, and the motors
-  std::map<std::string, double>
-      pose;  ///< of joints, m or rad; others follow loops and cables, or stay where the file has them
-  std::vector<Transmission> transmissions;  ///< in addition to the file's actuators
-};
 
 /// A mechanism at a pose, linearised at rest with gravity compensated, in n coordinates q.
 ///
@@ -56,5 +36,16 @@ struct MechanismAtPose {
 /// motors do not determine its motion, or one of them depends on others. Source: theory, section 9.
 [[nodiscard]] Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal,
                                   DeviceParameters parameters);
+
+/// The tip in all directions at once, for point walls and for grasps in 3-D; each axis of the world as device_along() has it.
+///
+///     S_s = J N_e A_e,   S_a = J N_m A_m,   [T; A] N = [0; 1]
+///
+/// A row of an axis along which the tip cannot move is 0. Throws Error (invalid_argument) as device_along() for the others.
+/// Source: theory, section 9.
+[[nodiscard]] TipMotion tip_motion(const MechanismAtPose& mechanism);
+
+/// The device of `parameters.mechanism`: at_pose(), then device_along(), which throw.
+[[nodiscard]] Device device_of_mechanism(DeviceParameters parameters);
 
 }  // namespace zwidth

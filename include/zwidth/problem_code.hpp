@@ -362,6 +362,20 @@ enum class ProblemCode : std::uint16_t {
   tip_stands_still,                ///< a tip cannot move at all
   no_wall_stiffness,               ///< margins of a wall that is not given
   one_direction_alone,             ///< what a wall in several directions does not know
+  no_mechanism_at_pose,            ///< a mechanism without the coordinates that it has at its pose
+  beside_mechanism,                ///< bodies, links, a transfer function or bodies of the loop beside a mechanism
+  mechanism_of_rotary_motion,      ///< a mechanism's wall is linear
+  without_mechanism,               ///< a transmission without a mechanism
+  normal_not_three_numbers,        ///< a normal is not of three numbers
+  point_wall_not_known,            ///< a wall in every direction is not computed
+  unit_of_other_joint,             ///< a joint's position has the unit of the other kind of joint
+  file_beside_text,                ///< a mechanism's file where a device came as text
+  mechanism_too_large,             ///< a mechanism's text is too long, too deep or of too many elements
+  no_xml,                          ///< a mechanism's text is no XML
+  element_not_read,                ///< a mechanism has an element that is not read
+  path_in_text,                    ///< a mechanism that is no file names one
+  mass_of_mesh,                    ///< a body has its mass of a mesh
+  include_not_read,                ///< a file that a mechanism includes is not there, or stands twice
   coordinates_not_known,           ///< a computation that knows bodies alone
   no_body_at_all,                  ///< a device without bodies and transfer function
   no_such_body,                    ///< no body of the device is called that

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -17,7 +18,9 @@
 #include "io/prose.hpp"
 #include "io/toml_text.hpp"
 #include "io/wall_filter_reading.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
+#include "zwidth/mechanism.hpp"
 #include "zwidth/model/damper_timing.hpp"
 
 namespace zwidth {
@@ -31,7 +34,8 @@ Problem beside_transfer_function(const char* part) {
 /// Reads the tables of one document, in the order in which later ones need earlier ones.
 class DeviceReader {
  public:
-  DeviceReader(DeviceReading& reading, const toml::table& document) : reading_(reading), root_(reading, document, "") {}
+  DeviceReader(DeviceReading& reading, const toml::table& document, FilesBeside files)
+      : reading_(reading), root_(reading, document, ""), files_(files) {}
 
   [[nodiscard]] DeviceParameters read(std::string_view source) && {
     root_.refuse_keys_not_of(DeviceTable::root);
@@ -39,6 +43,8 @@ class DeviceReader {
     read_motion();
     read_bodies();
     read_links();
+    read_mechanism(std::filesystem::path(source).parent_path());
+    read_transmissions();
     read_transfer_function();
     read_loop();
     read_loop_parts();
@@ -95,6 +101,72 @@ class DeviceReader {
     }
   }
 
+  void read_mechanism(const std::filesystem::path& folder) {
+    const toml::table* table = root_.table(DeviceTable::mechanism);
+    if (!table) return;
+    TableReader reader = table_reader(DeviceTable::mechanism, *table);
+    auto& [mechanism, normal] = device_.mechanism.emplace();
+    read_members(reader, DeviceTable::mechanism, mechanism);
+    mechanism.text = reader.lines("text").value_or("");
+    if (!reader.has("file") && !reader.has("text")) reader.refuse_missing("file", {"text"});
+    if (!reader.has("tip")) reader.refuse_missing("tip", {"text"});
+    if (!mechanism.path.empty() && files_ == FilesBeside::refused) {
+      reader.refuse("file", {.code = ProblemCode::file_beside_text});
+    } else if (!mechanism.path.empty()) {
+      mechanism.path = std::filesystem::absolute(folder / mechanism.path).lexically_normal().string();
+    }
+    if (reader.has("encoders")) mechanism.encoders = reader.required_texts("encoders", {"texts"});
+    read_normal(reader, normal);
+    read_pose(reader, mechanism);
+    for (const std::string_view key : {"body", "link"}) {
+      if (root_.has(key)) root_.refuse(key, {.code = ProblemCode::beside_mechanism});
+    }
+  }
+
+  static void read_normal(TableReader& mechanism, std::array<double, 3>& normal) {
+    if (mechanism.is_text("normal") && mechanism.text("normal") == "all") {
+      mechanism.refuse("normal", {.code = ProblemCode::point_wall_not_known});
+      return;
+    }
+    const std::vector<double> numbers = mechanism.required_numbers("normal");
+    if (numbers.size() == normal.size()) {
+      std::ranges::copy(numbers, normal.begin());
+    } else {
+      mechanism.refuse("normal",
+                       {.code = ProblemCode::normal_not_three_numbers, .evidence = {counted("count", numbers.size())}});
+    }
+  }
+
+  void read_pose(TableReader& mechanism, MechanismFile& file) {
+    const toml::table* table = mechanism.table(DeviceTable::mechanism_pose);
+    if (!table) return;
+    TableReader reader(reading_, *table, path_of(DeviceTable::mechanism_pose));
+    for (const std::string& joint : reader.keys()) {
+      std::optional<Motion> unit;
+      file.pose[joint] = reader.joint_position(joint, unit).value_or(0.0);
+      if (unit) file.units_of_pose[joint] = *unit;
+    }
+  }
+
+  /// Their numbers are of rotary motion.
+  void read_transmissions() {
+    reading_.set_motion(Motion::rotary);
+    for (const toml::table* table : root_.tables(DeviceTable::transmission)) {
+      if (!device_.mechanism) {
+        root_.refuse("transmission", {.code = ProblemCode::without_mechanism});
+        break;
+      }
+      std::vector<Transmission>& transmissions = device_.mechanism->mechanism.transmissions;
+      TableReader reader(reading_, *table, fmt::format("transmission.{}", transmissions.size()));
+      reader.refuse_keys_not_of(DeviceTable::transmission);
+      if (!reader.has("joint")) reader.refuse_missing("joint", {"text"});
+      Transmission& transmission = transmissions.emplace_back();
+      transmission.joint = reader.text("joint").value_or("");
+      read_members(reader, DeviceTable::transmission, transmission);
+    }
+    reading_.set_motion(device_.motion);
+  }
+
   void read_transfer_function() {
     const toml::table* table = root_.table(DeviceTable::transfer_function);
     if (!table) return;
@@ -113,7 +185,7 @@ class DeviceReader {
   void read_loop() {
     const toml::table* table = root_.table(DeviceTable::loop);
     if (!table) {
-      if (!device_.bodies.empty() || device_.transfer_function) {
+      if (!device_.bodies.empty() || device_.transfer_function || device_.mechanism) {
         root_.refuse_missing("loop", {"loop"});
       }
       return;
@@ -217,8 +289,10 @@ class DeviceReader {
   std::size_t loop_body(TableReader& reader, std::string_view key, std::size_t otherwise) {
     const auto name = reader.text(key);
     if (!name) return otherwise;
-    if (device_.transfer_function) {
-      reader.refuse(key, beside_transfer_function("loop"));
+    if (device_.transfer_function || device_.mechanism) {
+      reader.refuse(key, device_.mechanism
+                             ? Problem{.code = ProblemCode::beside_mechanism, .subjects = {{"part", "loop"}}}
+                             : beside_transfer_function("loop"));
       return otherwise;
     }
     return body_index(reader, key, *name);
@@ -245,14 +319,27 @@ class DeviceReader {
 
   DeviceReading& reading_;
   TableReader root_;
+  FilesBeside files_;
   DeviceParameters device_;
   std::vector<std::string> names_;
 };
 
+/// Puts the coordinates of the mechanism at its pose into the device; what its file says wrong is refused.
+void go_to_pose(DeviceParameters& parameters, DeviceReading& reading) {
+  try {
+    parameters = device_of_mechanism(parameters).parameters();
+  } catch (const Error& error) {
+    for (const InputProblem& each : error.problems()) reading.refuse_at(each);
+    if (!reading.passed()) return;
+    reading.refuse({}, "mechanism.file",
+                   {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", error.what()}}});
+  }
+}
+
 }  // namespace
 
 tl::expected<Device, InputError> parse_device(std::string_view text, std::string_view source,
-                                              std::span<const std::string> overrides) {
+                                              std::span<const std::string> overrides, FilesBeside files) {
   auto document = parse_toml(text, source);
   if (!document) return tl::unexpected(std::move(document.error()));
   std::optional<InputError> overriding;
@@ -264,8 +351,9 @@ tl::expected<Device, InputError> parse_device(std::string_view text, std::string
   }
   if (overriding) return tl::unexpected(*std::move(overriding));
   DeviceReading reading(source);
-  DeviceParameters parameters = DeviceReader(reading, *document).read(source);
+  DeviceParameters parameters = DeviceReader(reading, *document, files).read(source);
   for (const DeviceProblem& problem : find_value_problems(parameters)) reading.refuse(problem);
+  if (reading.passed() && parameters.mechanism) go_to_pose(parameters, reading);
   if (reading.passed()) {
     if (const auto problem = find_problem(parameters)) reading.refuse(*problem);
   }

@@ -105,7 +105,7 @@ tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceT
 /// Resolves loop.delay and the like, making the table where the file left it out.
 tl::expected<Target, InputError> target_in_table(toml::table& document, DeviceTable kind, std::string_view key,
                                                  std::string_view whole_key) {
-  if (!is_key_of(kind, key)) {
+  if (kind != DeviceTable::mechanism_pose && !is_key_of(kind, key)) {
     const std::string_view head = key.substr(0, key.find('.'));  // of wall.fliter.0.depth, what is misspelt
     const std::string_view unknown = is_key_of(kind, head) ? key : head;
     return tl::unexpected(refusal(whole_key, unknown_key_of(kind, unknown)));

@@ -65,18 +65,26 @@ void DeviceReading::refuse(const DeviceProblem& problem) {
     const std::string alias = named.substr(0, named.size() - mass.size()) + "inertia";
     if (places_.contains(alias)) named = alias;
   }
-  std::string key = named;
-  auto found = places_.find(key);
-  while (found == places_.end() && !key.empty()) {
-    key = parent(key);
-    found = places_.find(key);
-  }
   InputProblem told{{}, problem.what, problem.allowed, {}};
   told.problem = problem.problem;
   if (problem.problem && problem.problem->code == ProblemCode::no_whole_ratio) {
     told.suggestion = fmt::format("{}", problem.problem->evidence.back().value);
   }
-  refuse(found == places_.end() ? toml::source_region{} : found->second, named, std::move(told));
+  refuse(place_of(named), named, std::move(told));
+}
+
+void DeviceReading::refuse_at(InputProblem problem) {
+  const std::string key = problem.place.key;
+  refuse(place_of(key), key, std::move(problem));
+}
+
+toml::source_region DeviceReading::place_of(std::string key) const {
+  auto found = places_.find(key);
+  while (found == places_.end() && !key.empty()) {
+    key = parent(key);
+    found = places_.find(key);
+  }
+  return found == places_.end() ? toml::source_region{} : found->second;
 }
 
 TableReader::TableReader(DeviceReading& reading, const toml::table& table, std::string key)
@@ -175,7 +183,7 @@ std::optional<int> TableReader::whole_number(std::string_view key) {
 
 std::string_view TableReader::spelling_of(const DeviceKey& key) {
   constexpr std::string_view inertia = "inertia";
-  if (key.measure != Measure::mass || !has(inertia)) return key.name;
+  if (key.measure != Measure::mass || key.name == inertia || !has(inertia)) return key.name;
   if (reading_.motion() == Motion::linear) {
     refuse(inertia, {.code = ProblemCode::inertia_of_linear_motion});
   } else if (has(key.name)) {
@@ -193,6 +201,37 @@ std::optional<std::string> TableReader::text(std::string_view key) {
   }
   refuse_type(*node, key, {"text"});
   return std::nullopt;
+}
+
+std::optional<std::string> TableReader::lines(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (const auto* text = node->as_string()) return text->get();
+  refuse_type(*node, key, {"text"});
+  return std::nullopt;
+}
+
+std::optional<double> TableReader::joint_position(std::string_view joint, std::optional<Motion>& unit) {
+  const toml::node* node = find(joint);
+  if (node == nullptr || !node->is_string()) return number(joint);
+  const std::string& text = node->as_string()->get();
+  for (const Motion motion : {Motion::rotary, Motion::linear}) {
+    if (const auto value = number_with_unit(text, Measure::position, motion)) {
+      unit = motion;
+      return *value;
+    }
+  }
+  auto problem = number_with_unit(text, Measure::position, Motion::rotary).error();
+  InputProblem told{{}, std::move(problem.what), std::move(problem.allowed), std::move(problem.suggestion)};
+  told.problem = std::move(problem.problem);
+  refuse(joint, std::move(told));
+  return std::nullopt;
+}
+
+std::vector<std::string> TableReader::keys() const {
+  std::vector<std::string> result;
+  for (const auto& [name, node] : table_) result.emplace_back(name.str());
+  return result;
 }
 
 const toml::array* TableReader::required_array(std::string_view key, const NeededValue& needed) {

@@ -42,6 +42,8 @@ class DeviceReading {
 
   /// Refuses what find_problem() found, at the place of its key or of the table that lacks it.
   void refuse(const DeviceProblem& problem);
+  /// The same of a problem whose place has a key.
+  void refuse_at(InputProblem problem);
 
   [[nodiscard]] bool passed() const noexcept { return problems_.empty(); }
   [[nodiscard]] std::size_t count() const noexcept { return problems_.size(); }
@@ -49,6 +51,8 @@ class DeviceReading {
   [[nodiscard]] InputError error() const;
 
  private:
+  [[nodiscard]] toml::source_region place_of(std::string key) const;  // or of the table that lacks it
+
   std::string source_;
   Motion motion_ = Motion::linear;
   std::map<std::string, toml::source_region> places_;
@@ -71,6 +75,7 @@ class TableReader {
   void rename(std::string key);
 
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+  [[nodiscard]] bool is_text(std::string_view key) const { return has(key) && table_.get(key)->is_string(); }
   /// In SI units; a text with its unit too, where something is measured.
   [[nodiscard]] std::optional<double> number(std::string_view key, std::optional<Measure> measure = std::nullopt);
   /// Refused when missing; that it is positive is for find_problem() to check.
@@ -80,6 +85,12 @@ class TableReader {
   /// How the key of a row is spelt in this table: "inertia" for "mass" where that is given, refused where it may not be.
   [[nodiscard]] std::string_view spelling_of(const DeviceKey& key);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
+  /// The same over several lines.
+  [[nodiscard]] std::optional<std::string> lines(std::string_view key);
+  /// In radians or metres, and which of the two its unit says, where it has one. Of a joint.
+  [[nodiscard]] std::optional<double> joint_position(std::string_view joint, std::optional<Motion>& unit);
+  /// Every key that the table has.
+  [[nodiscard]] std::vector<std::string> keys() const;
   /// All elements, each required to be what the name says; empty (and refused) when the key is missing.
   [[nodiscard]] std::vector<double> required_numbers(std::string_view key,
                                                      std::optional<Measure> measure = std::nullopt);

@@ -14,10 +14,15 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-/// A TOML basic string; find_problem() has ruled out control characters.
+/// A TOML basic string on one line.
 std::string text_value(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      result += fmt::format("\\u{:04x}", byte);
+      continue;
+    }
     if (c == '"' || c == '\\') result += '\\';
     result += c;
   }
@@ -103,6 +108,23 @@ void write_bodies(const DeviceParameters& device, Writer& out) {
   }
 }
 
+void write_mechanism(const DeviceParameters& device, Writer& out) {
+  if (!device.mechanism) return;
+  const auto& [mechanism, normal] = *device.mechanism;
+  out.header(DeviceTable::mechanism);
+  out.value(mechanism.path.empty() ? "text" : "file", text_value(mechanism.path + mechanism.text));
+  out.value("tip", text_value(mechanism.tip));
+  if (!mechanism.encoders.empty()) out.value("encoders", text_array_value(mechanism.encoders));
+  out.value("normal", array_value({normal.begin(), normal.end()}));
+  if (!mechanism.pose.empty()) out.header(DeviceTable::mechanism_pose);
+  for (const auto& [joint, position] : mechanism.pose) out.value(text_value(joint), number_value(position));
+  for (const Transmission& each : mechanism.transmissions) {
+    out.header(DeviceTable::transmission);
+    out.value("joint", text_value(each.joint));
+    out.members(DeviceTable::transmission, each);
+  }
+}
+
 void write_filters(const DeviceParameters& device, Writer& out) {
   using enum WallFilter::Kind;
   for (const WallFilter& filter : device.wall.filters) {
@@ -120,12 +142,13 @@ void write_filters(const DeviceParameters& device, Writer& out) {
 
 std::string write_device(const DeviceParameters& parameters) {
   const Device checked(parameters);
-  require_no_coordinates(checked);
   const DeviceParameters& device = checked.parameters();
+  if (!device.mechanism) require_no_coordinates(checked);
   Writer out(device.motion);
   out.value("name", text_value(device.name));
   out.value("motion", device.motion == Motion::rotary ? "\"rotary\"" : "\"linear\"");
   write_bodies(device, out);
+  write_mechanism(device, out);
   if (device.transfer_function) {
     out.header(DeviceTable::transfer_function);
     out.value("numerator", array_value(device.transfer_function->numerator));
@@ -143,7 +166,7 @@ std::string write_device(const DeviceParameters& parameters) {
   out.table(DeviceTable::sensor, device.sensor);
   out.table(DeviceTable::wall, device.wall);
   write_filters(device, out);
-  if (checked.has_bodies()) out.table(DeviceTable::user, device.user);
+  if (checked.is_mechanical()) out.table(DeviceTable::user, device.user);
   if (device.driver) out.table(DeviceTable::driver, *device.driver);
   if (device.uncertainty) {
     out.header(DeviceTable::uncertainty);

@@ -60,6 +60,14 @@ std::size_t point(std::vector<Coordinates::Point>& points, const char* name, con
 
 }  // namespace
 
+Device device_of_mechanism(DeviceParameters parameters) {
+  if (!parameters.mechanism) internal::refuse_mechanism("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
+  const MechanismDirection& along = *parameters.mechanism;
+  const Eigen::Vector3d normal(along.normal.data());
+  const MechanismAtPose at = at_pose(along.mechanism);
+  return device_along(at, normal, std::move(parameters));
+}
+
 Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal, DeviceParameters parameters) {
   if (!(normal.norm() > 0.0) || !normal.allFinite()) refuse_normal(ProblemCode::no_direction, normal);
   const Eigen::VectorXd along = mechanism.tip.transpose() * normal.normalized();

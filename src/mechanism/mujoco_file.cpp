@@ -1,7 +1,12 @@
 // Mechanism files by MuJoCo, which no other file knows.
 
+#include "mechanism/mujoco_file.hpp"
+
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -10,13 +15,12 @@
 
 #include "mechanism/refusal.hpp"
 #include "mechanism/transmissions.hpp"
-#include "zwidth/mechanism.hpp"
+#include "mechanism/trial_process.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
 
-namespace zwidth {
-using internal::refuse_mechanism;
+namespace zwidth::internal {
 namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -26,8 +30,21 @@ constexpr double settled = 1e-13;               // m or rad, of a step
 constexpr double closed = 1e-9;                 // m or rad, of a loop
 constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
 
+// On one line, whatever names the file gives.
+std::string plain(const char* said) {
+  std::string text(said);
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.pop_back();
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
 [[noreturn]] void refuse_file(const char* why) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", why}}});
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
+}
+
+[[noreturn]] void refuse_part(const char* part) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
 }
 
 // MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
@@ -54,13 +71,39 @@ class Handlers {
   void (*warning_)(const char*);
 };
 
+// MuJoCo looks for files among these first, and they name no others.
+class Texts {
+ public:
+  explicit Texts(const std::vector<MechanismText>& texts) {
+    mj_defaultVFS(files_.get());
+    for (const MechanismText& each : texts) {
+      mj_makeEmptyFileVFS(files_.get(), each.name.c_str(), static_cast<int>(each.text.size()));
+      const int at = mj_findFileVFS(files_.get(), each.name.c_str());
+      if (at < 0) refuse_part("files");
+      std::memcpy(files_->filedata[at], each.text.data(), each.text.size());
+    }
+  }
+  [[nodiscard]] const mjVFS* get() const { return files_.get(); }
+
+ private:
+  struct Delete {
+    void operator()(mjVFS* files) const {
+      mj_deleteVFS(files);
+      delete files;
+    }
+  };
+  std::unique_ptr<mjVFS, Delete> files_{new mjVFS};
+};
+
 // A model and its state, at a pose.
 class Posed {
  public:
-  explicit Posed(const MechanismFile& file) {
+  Posed(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+    const Texts given(texts);
     char why[1000] = "";
-    model_.reset(mj_loadXML(file.path.c_str(), nullptr, why, sizeof why));
+    model_.reset(mj_loadXML(texts.front().name.c_str(), given.get(), why, sizeof why));
     if (!model_) refuse_file(why);
+    if (model_->njnt == 0) refuse_part("joint");
     for (int joint = 0; joint < model_->njnt; ++joint) {
       if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
       refuse_mechanism("mechanism.file",
@@ -72,19 +115,31 @@ class Posed {
     mj_resetData(model_.get(), data_.get());
     is_given_.assign(static_cast<std::size_t>(model_->njnt), false);
     for (const auto& [joint, position] : file.pose) {
-      const int of = index(mjOBJ_JOINT, "joint", joint);
+      const std::string key = fmt::format("mechanism.pose.{}", joint);
+      const int of = index(key, mjOBJ_JOINT, joint);
+      const bool slides = model_->jnt_type[of] == mjJNT_SLIDE;
+      const auto unit = file.units_of_pose.find(joint);
+      if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
+        std::vector<Subject> subjects{{"name", joint}};
+        if (slides) subjects.push_back({"slides", "slides"});
+        refuse_mechanism(key.c_str(), {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
+      }
       data_->qpos[of] = position;  // of hinges and slides, each has one
       is_given_[static_cast<std::size_t>(of)] = true;
     }
     settle();
   }
 
-  [[nodiscard]] int index(mjtObj kind, const char* called, const std::string& wanted) const {
+  [[nodiscard]] int index(const std::string& key, mjtObj kind, const std::string& wanted) const {
     const int found = mj_name2id(model_.get(), kind, wanted.c_str());
-    if (found < 0)
-      refuse_mechanism("mechanism",
-                       {.code = ProblemCode::no_such_part, .subjects = {{"kind", called}, {"name", wanted}}});
-    return found;
+    if (found >= 0) return found;
+    std::string names;
+    for (int i = 0; i < (kind == mjOBJ_JOINT ? model_->njnt : kind == mjOBJ_SITE ? model_->nsite : 0); ++i) {
+      names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", plain(name(kind, i).c_str()));
+    }
+    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
+    if (!names.empty()) subjects.push_back({"names", names});
+    refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
   }
 
   // Motions that the loops leave free: q' = Z z'.
@@ -107,7 +162,7 @@ class Posed {
     add_elements(at);
     at.motors = Eigen::Map<const Rows>(data_->actuator_moment, model_->nu, n);
     std::vector<int> read;
-    for (const std::string& each : file.encoders) read.push_back(index(mjOBJ_JOINT, "joint", each));
+    for (const std::string& each : file.encoders) read.push_back(index("mechanism.encoders", mjOBJ_JOINT, each));
     for (int i = 0; file.encoders.empty() && i < model_->nu; ++i) {
       const int joint = model_->actuator_trnid[2 * i];
       const bool is_new = std::ranges::find(read, joint) == read.end();
@@ -126,11 +181,11 @@ class Posed {
 
   [[nodiscard]] Eigen::MatrixXd tip(const std::string& wanted) const {
     Rows jacobian(3, model_->nv);
-    const int site = mj_name2id(model_.get(), mjOBJ_SITE, wanted.c_str());
-    if (site >= 0) {
-      mj_jacSite(model_.get(), data_.get(), jacobian.data(), nullptr, site);
+    const int body = mj_name2id(model_.get(), mjOBJ_BODY, wanted.c_str());
+    if (mj_name2id(model_.get(), mjOBJ_SITE, wanted.c_str()) < 0 && body >= 0) {
+      mj_jacBody(model_.get(), data_.get(), jacobian.data(), nullptr, body);
     } else {
-      mj_jacBody(model_.get(), data_.get(), jacobian.data(), nullptr, index(mjOBJ_BODY, "tip", wanted));
+      mj_jacSite(model_.get(), data_.get(), jacobian.data(), nullptr, index("mechanism.tip", mjOBJ_SITE, wanted));
     }
     return jacobian;
   }
@@ -138,7 +193,7 @@ class Posed {
   void add_elements(MechanismAtPose& at) const {
     const int n = model_->nv;
     const auto add = [&](const Eigen::VectorXd& along, double stiffness, double damping) {
-      if (stiffness > 0.0 || damping > 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
+      if (stiffness != 0.0 || damping != 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
     };
     for (int joint = 0; joint < n; ++joint) {
       add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint]);
@@ -147,7 +202,7 @@ class Posed {
     for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
       const double stiffness = model_->tendon_stiffness[tendon];
       add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon]);
-      if (!(stiffness > 0.0)) continue;
+      if (stiffness == 0.0) continue;
       at.cables.conservativeResize(at.cables.rows() + 1, n);
       at.cables.bottomRows(1) = lengths.row(tendon);
     }
@@ -190,6 +245,7 @@ class Posed {
       Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
     }
     mj_fwdPosition(model_.get(), data_.get());
+    if (data_->warning[mjWARN_CNSTRFULL].number > 0) refuse_part("loops");
     if (!(open <= closed))
       refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
   }
@@ -205,14 +261,13 @@ class Posed {
   std::vector<bool> is_given_;  // of the joints
 };
 
-}  // namespace
-
-MechanismAtPose at_pose(const MechanismFile& file) {
-  const Handlers handlers;
-  const Posed posed(file);
+MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+  const Posed posed(file, texts);
   MechanismAtPose at = posed.whole(file);
-  for (const Transmission& each : file.transmissions) {
-    internal::add_transmission(at, posed.index(mjOBJ_JOINT, "joint", each.joint), each, file.encoders.empty());
+  for (std::size_t i = 0; i < file.transmissions.size(); ++i) {
+    const Transmission& each = file.transmissions[i];
+    const int joint = posed.index(fmt::format("transmission.{}.joint", i), mjOBJ_JOINT, each.joint);
+    add_transmission(at, joint, each, file.encoders.empty());
   }
   if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
   const Eigen::MatrixXd of_joints = posed.free_motions();
@@ -221,16 +276,29 @@ MechanismAtPose at_pose(const MechanismFile& file) {
   Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
   free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
   free.bottomRightCorner(motors, motors).setIdentity();
-  return internal::with_loops(at, free);
+  return with_loops(at, free);
 }
 
-}  // namespace zwidth
+}  // namespace
+
+// What MuJoCo does not expect may crash it: a text is read in another process first.
+MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+  const Handlers handlers;
+  static std::vector<MechanismText> read_before;  // its own only while the handlers are ours
+  if (texts != read_before) {
+    if (!ends_in_trial([&] { static_cast<void>(read_at_pose(file, texts)); })) refuse_part("reader");
+    read_before = texts;
+  }
+  return read_at_pose(file, texts);
+}
+
+}  // namespace zwidth::internal
 #else
-namespace zwidth {
+namespace zwidth::internal {
 
-MechanismAtPose at_pose(const MechanismFile&) {
-  internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+MechanismAtPose mujoco_at_pose(const MechanismFile&, const std::vector<MechanismText>&) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal
 #endif

@@ -227,7 +227,8 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
     const std::size_t count = parameters.coordinates ? parameters.coordinates->points.size() : parameters.bodies.size();
     if (body >= count) checks.refuse(fmt::format("loop.{}", member), no_body_number(body, count));
   };
-  if (!parameters.transfer_function) {
+  const bool has_no_points = parameters.mechanism && !parameters.coordinates;  // it makes them
+  if (!parameters.transfer_function && !has_no_points) {
     is_body("actuated", loop.actuated);
     is_body("sensed", loop.sensed);
     is_body("held", loop.held);
@@ -293,6 +294,39 @@ void check_driver(const DeviceParameters& parameters, Checks& checks) {
   if (!is_letter) checks.refuse("driver.command", {.code = ProblemCode::no_letter});
 }
 
+void check_mechanism(const DeviceParameters& parameters, Checks& checks) {
+  const auto& [file, normal] = *parameters.mechanism;
+  if (parameters.transfer_function || !parameters.bodies.empty() || !parameters.links.empty()) {
+    checks.refuse("mechanism", {.code = ProblemCode::beside_mechanism});
+  }
+  if (parameters.motion == Motion::rotary) {
+    checks.refuse("motion", {.code = ProblemCode::mechanism_of_rotary_motion});
+  }
+  if (file.path.empty() == file.text.empty()) {
+    checks.refuse("mechanism.file", {.code = ProblemCode::given_beside, .subjects = {{"other", "mechanism.text"}}});
+  }
+  checks.name("mechanism.tip", file.tip);
+  const bool is_finite = std::ranges::all_of(normal, [](double value) { return std::isfinite(value); });
+  if (!is_finite || std::ranges::all_of(normal, [](double value) { return value == 0.0; })) {
+    checks.refuse("mechanism.normal", {.code = ProblemCode::no_direction,
+                                       .evidence = {{"x", normal[0]}, {"y", normal[1]}, {"z", normal[2]}}});
+  }
+  for (const auto& [joint, position] : file.pose) {
+    const std::string key = fmt::format("mechanism.pose.{}", joint);
+    checks.name(key, joint);
+    if (!not_negative_numbers.contains(std::abs(position))) {
+      checks.refuse(key, {.code = ProblemCode::value_not_finite});
+    }
+  }
+  if (file.transmissions.size() > max_bodies) {
+    checks.refuse("transmission", stands_too_often(file.transmissions.size(), max_bodies, "transmissions"));
+  }
+  for (std::size_t i = 0; i < file.transmissions.size(); ++i) {
+    checks.name(fmt::format("transmission.{}.joint", i), file.transmissions[i].joint);
+    checks.numbers(DeviceTable::transmission, fmt::format("transmission.{}", i), file.transmissions[i]);
+  }
+}
+
 void check_loop_parts(const DeviceParameters& parameters, Checks& checks) {
   checks.numbers(DeviceTable::actuator, "actuator", parameters.actuator);
   checks.numbers(DeviceTable::sensor, "sensor", parameters.sensor);
@@ -307,7 +341,10 @@ void check_loop_parts(const DeviceParameters& parameters, Checks& checks) {
 std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameters) {
   Checks checks;
   checks.name("name", parameters.name);
-  if (parameters.coordinates) {
+  if (parameters.mechanism) check_mechanism(parameters, checks);
+  if (parameters.mechanism && !parameters.coordinates) {
+    // what they are is found by the mechanism
+  } else if (parameters.coordinates) {
     if (auto problem = find_coordinates_problem(parameters)) return {*std::move(problem)};
   } else if (parameters.transfer_function) {
     check_transfer_function(parameters, checks);
@@ -327,6 +364,9 @@ std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameter
 std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
   std::vector<DeviceProblem> problems = find_value_problems(parameters);
   if (!problems.empty()) return std::move(problems.front());
+  if (parameters.mechanism && !parameters.coordinates) {
+    return device_problem("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
+  }
   if (!parameters.bodies.empty()) {
     if (auto problem = find_loose_body(parameters)) return problem;
   }

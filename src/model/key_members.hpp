@@ -15,10 +15,10 @@ namespace zwidth::internal {
 /// Where a value stands in its table's struct; monostate: what is read and written in a way of its own.
 using KeyMember =
     std::variant<std::monostate, double Body::*, double Link::*, double Loop::*, double Actuator::*, double Sensor::*,
-                 double Wall::*, double WallFilter::*, double User::*, double MotorDrive::*,
+                 double Wall::*, double WallFilter::*, double User::*, double MotorDrive::*, double Transmission::*,
                  std::optional<double> LoopDamper::*, std::optional<double> Actuator::*, std::optional<double> Wall::*,
                  std::optional<double> MotorDrive::*, int WallFilter::*, std::optional<int> MotorDrive::*,
-                 std::string MotorDrive::*>;
+                 std::string MotorDrive::*, std::string MechanismFile::*>;
 
 template <typename Member, typename... Members>
 constexpr bool is_member_of(std::type_identity<std::variant<Members...>>) {

@@ -39,7 +39,6 @@ OutsideForce outside_force(const UserForce& force) {
 }
 
 void check(const Device& device, const HybridLoopOptions& options) {
-  require_no_coordinates(device);
   check_bodies(device, options);
   require_valid(find_problem(options, device));
 }

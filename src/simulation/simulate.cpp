@@ -211,7 +211,6 @@ std::vector<double> run(Simulation& result, HybridLoop& loop, const Device& devi
 }  // namespace
 
 Simulation simulate(const Device& device, const SimulationOptions& options, const Progress& progress) {
-  require_no_coordinates(device);
   check(device, options);
   const SimulationSetup setup = simulation_setup(device, options);
   const LinearAnswer linear = linear_answer(device, options);

@@ -238,7 +238,11 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
 /// The users: what is asked for and can be answered.
 void answer_about_users(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                         Analysis& analysis) {
-  if (options.any_user && device.is_mechanical()) answer_absolute_stability(device, options, stages, analysis);
+  const bool is_mechanism = device.parameters().mechanism.has_value();
+  if (options.any_user && is_mechanism) analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+  if (options.any_user && device.is_mechanical() && !is_mechanism) {
+    answer_absolute_stability(device, options, stages, analysis);
+  }
   judge_absolute_stability(analysis);
   if (!options.family) return;
   stages.next(1.0);

@@ -68,8 +68,14 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "must be a motor for every motion"},
       ProblemPhrase{motor_or_encoder_depends, "motor_or_encoder_depends",
                     "one of the motors or encoders turns as the others and the cables say", "leave it out"},
-      ProblemPhrase{mechanism_file_refused, "mechanism_file_refused", "{why}", "must be a file in MJCF or URDF"},
-      ProblemPhrase{no_such_part, "no_such_part", "the mechanism has no {kind} \"{name}\"", ""},
+      ProblemPhrase{mechanism_file_refused, "mechanism_file_refused",
+                    "{?why|{why}}{?name|\"{name}\" cannot be read}{?part=reader|MuJoCo cannot read it}{?part=joint|has "
+                    "no joint}{?part=loops|has too many "
+                    "loops}{?part=files|includes too many files}",
+                    "must be a file in MJCF or URDF"},
+      ProblemPhrase{no_such_part, "no_such_part",
+                    "the mechanism has no {?kind=joint|joint}{?kind=tip|site or body} \"{name}\"",
+                    "{?names|must be one of {names}}"},
       ProblemPhrase{joint_of_many_motions, "joint_of_many_motions", "joint \"{name}\" is neither hinge nor slide",
                     "must be joints of one motion"},
       ProblemPhrase{loop_does_not_close, "loop_does_not_close",
@@ -83,6 +89,50 @@ std::span<const ProblemPhrase> model_problem_phrases() {
       ProblemPhrase{one_direction_alone, "one_direction_alone",
                     "the wall's filters and a damper in a loop of its own are known along one normal alone",
                     "must be a wall without them"},
+      ProblemPhrase{no_mechanism_at_pose, "no_mechanism_at_pose", "has no coordinates",
+                    "must be made by device_of_mechanism()"},
+      ProblemPhrase{beside_mechanism, "beside_mechanism", "stands beside [mechanism]",
+                    "{?part=loop|motors, encoders and tip are the mechanism's: leave it out}"
+                    "{!part=loop|must be one of the two}"},
+      ProblemPhrase{mechanism_of_rotary_motion, "mechanism_of_rotary_motion",
+                    "is rotary: the wall that a mechanism touches is linear", "leave it out"},
+      ProblemPhrase{without_mechanism, "without_mechanism", "stands without [mechanism]",
+                    "must be motors of a mechanism"},
+      ProblemPhrase{normal_not_three_numbers, "normal_not_three_numbers", "has {count:n} numbers",
+                    "must be three: x, y and z in the world's frame"},
+      ProblemPhrase{point_wall_not_known, "point_wall_not_known", "is a wall in every direction",
+                    "must be one direction, such as [1, 0, 0]"},
+      ProblemPhrase{
+          unit_of_other_joint, "unit_of_other_joint",
+          "has a unit of {?slides|angle}{!slides|length}, and joint \"{name}\" {?slides|slides}{!slides|turns}",
+          "must be {?slides|a length}{!slides|an angle}"},
+      ProblemPhrase{file_beside_text, "file_beside_text", "names a file, and the device came as text",
+                    "write what the file says as mechanism.text"},
+      ProblemPhrase{mechanism_too_large, "mechanism_too_large", "{?line|line {line:n}: }more than {most:n} {what}",
+                    "must be smaller"},
+      ProblemPhrase{
+          no_xml, "no_xml",
+          "{?file|{file}: }line {line:n}: {?why=comment|a comment or declaration does not end}{?why=closing|a closing "
+          "tag stands where none of its name is open}{?why=roots|a second root element}{?why=many|more elements than "
+          "are read}{?why=deep|elements stand in one another too deep}{?why=nameless|a tag without a "
+          "name}{?why=apart|an attribute does not stand apart}{?why=quotes|an attribute without its value in "
+          "quotes}{?why=open|an attribute does not end}{?why=twice|an attribute stands twice}{?why=value|an attribute "
+          "has a <}{?why=zero|a byte of 0}{?why=unclosed|an element does not end}{?why=none|no element}{?why=text|text "
+          "outside of its element}{?why=declared|declarations and CDATA are not read}",
+          ""},
+      ProblemPhrase{element_not_read, "element_not_read", "{?file|{file}: }line {line:n}: <{name}> is not read",
+                    "{?name=mimic|write the motion that follows another as an equality of MJCF}"
+                    "{!name=mimic|write the bodies themselves}"},
+      ProblemPhrase{path_in_text, "path_in_text", "line {line:n}: <{name}> names a file",
+                    "a mechanism that came as text names none; meshes may be left out: inertia alone counts"},
+      ProblemPhrase{mass_of_mesh, "mass_of_mesh",
+                    "{?file|{file}: }line {line:n}: {?name|\"{name}\"}{!name|a body} has its mass of a mesh, and "
+                    "meshes are not read",
+                    "must have <inertial>"},
+      ProblemPhrase{include_not_read, "include_not_read",
+                    "{?file|{file}: }line {line:n}: {?name|\"{name}\"}{!name|an include} {?twice|is included "
+                    "twice}{!twice|cannot be read}",
+                    "must be a file beside it, once"},
       ProblemPhrase{coordinates_not_known, "coordinates_not_known", "the device has coordinates in place of bodies",
                     "this is computed for bodies and links alone"},
       ProblemPhrase{no_body_at_all, "no_body_at_all",

@@ -41,6 +41,7 @@ int stated_defaults(DeviceTable kind) {
 TEST(DeviceKey, DefaultsAreThoseOfTheModel) {
   EXPECT_EQ(stated_defaults<Body>(DeviceTable::body), 3);
   EXPECT_EQ(stated_defaults<Link>(DeviceTable::link), 2);
+  EXPECT_EQ(stated_defaults<Transmission>(DeviceTable::transmission), 4);
   EXPECT_EQ(stated_defaults<Loop>(DeviceTable::loop), 1);
   EXPECT_EQ(stated_defaults<LoopDamper>(DeviceTable::loop_damper), 0);
   EXPECT_EQ(stated_defaults<Actuator>(DeviceTable::actuator), 1);
@@ -68,6 +69,8 @@ TEST(DeviceKey, TablesAreInTheirOrderAndEveryKeyStandsOnce) {
   EXPECT_EQ(header_of(DeviceTable::filter), "[[wall.filter]]");
   EXPECT_EQ(header_of(DeviceTable::user), "[operator]");
   EXPECT_EQ(header_of(DeviceTable::loop_damper), "[loop.damper]");
+  EXPECT_EQ(header_of(DeviceTable::mechanism_pose), "[mechanism.pose]");
+  EXPECT_EQ(header_of(DeviceTable::transmission), "[[transmission]]");
 }
 
 TEST(DeviceKey, RangesHoldTheirEnds) {

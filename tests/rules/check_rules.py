@@ -19,7 +19,7 @@ LIBRARY = {
     "mechanism": ["words", "model"],
     "batch/kernel": ["model", "sampling"],
     "stability": ["model", "sampling", "batch/kernel"],
-    "io": ["model", "signal", "study"],
+    "io": ["model", "mechanism", "signal", "study"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
     "identification": ["words", "model", "signal", "sampling", "stability", "simulation"],
     "batch": ["model", "sampling", "stability", "batch/kernel"],

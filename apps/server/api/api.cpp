@@ -27,7 +27,7 @@ std::string devices_document(const std::vector<OfferedDevice>& offered) {
   Json document = results::document("zwidth.devices/1");
   document["devices"] = Json::array();
   for (const OfferedDevice& each : offered) {
-    const auto device = parse_device(each.toml, each.file);
+    const auto device = parse_device(each.toml, each.file, {}, FilesBeside::refused);
     if (!device) continue;
     document["devices"].push_back({{"file", each.file},
                                    {"name", device->name()},

@@ -12,6 +12,9 @@
 
 namespace zwidth {
 
+/// Whether a device's text may name files beside it, as a mechanism's.
+enum class FilesBeside { read, refused };
+
 /// Reads a device from TOML text.
 ///
 /// `overrides` are "KEY=VALUE", applied in order after the text: loop.delay=0.25e-3,
@@ -20,9 +23,10 @@ namespace zwidth {
 ///
 /// A device without a name takes that of the file; motion is linear unless given.
 ///
-/// Never throws on any bytes. `source` names the text in errors.
+/// Never throws on any bytes. `source` names the text in errors; files that it names are beside that.
 [[nodiscard]] tl::expected<Device, InputError> parse_device(std::string_view text, std::string_view source,
-                                                            std::span<const std::string> overrides = {});
+                                                            std::span<const std::string> overrides = {},
+                                                            FilesBeside files = FilesBeside::read);
 
 /// Reads a device file ("-": standard input). Refuses what is not a regular file or pipe, is unreadable, is larger than
 /// device_file_size_limit, or is not UTF-8 text.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zwidth/model/coordinates.hpp"
+#include "zwidth/model/mechanism_file.hpp"
 #include "zwidth/model/motor_drive.hpp"
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"
@@ -101,6 +102,7 @@ struct DeviceParameters {
   std::optional<Uncertainty> uncertainty;             ///< of some of the numbers above
   std::optional<MotorDrive> driver = {};              ///< what a rig reaches the motor through
   std::optional<Coordinates> coordinates = {};        ///< instead of bodies and links
+  std::optional<MechanismDirection> mechanism = {};   ///< what the coordinates are of; device_of_mechanism() makes them
 };
 
 /// The first thing that makes DeviceParameters impossible.

@@ -12,6 +12,9 @@ enum class DeviceTable {
   root,               ///< the top level
   body,               ///< [[body]]
   link,               ///< [[link]]
+  mechanism,          ///< [mechanism]
+  mechanism_pose,     ///< [mechanism.pose], whose keys are joints
+  transmission,       ///< [[transmission]]
   loop,               ///< [loop]
   loop_damper,        ///< [loop.damper]
   actuator,           ///< [actuator]

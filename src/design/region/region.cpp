@@ -120,7 +120,6 @@ std::optional<OptionProblem> find_problem(const RegionOptions& options) {
 }
 
 WallRegion region(const Device& device, const RegionOptions& options) {
-  require_no_coordinates(device);
   require_valid(find_problem(options));
   WallRegion result;
   StagedProgress stages(options.progress);
@@ -151,6 +150,9 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   if (const double resolution = device.parameters().sensor.resolution; resolution > 0.0) {
     const double period = damper_timing(device.loop()).sampling_period;
     result.force_per_count = force_per_count_rates(device.parameters().wall, period, resolution);
+  }
+  if (options.any_user && device.parameters().coordinates) {
+    result.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
   }
   if (options.any_user && device.has_bodies() && result.region.most_damped &&
       result.region.most_damped->damping > 0.0) {

@@ -1,0 +1,8 @@
+#include "on_demand/on_demand.hpp"
+
+using namespace zwidth;
+
+on_demand::Module zwidth_mechanisms() {
+  static constexpr on_demand::Mechanisms functions{internal::mujoco_at_pose};
+  return {on_demand::build, &functions};
+}

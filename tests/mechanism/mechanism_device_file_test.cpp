@@ -1,0 +1,172 @@
+// [mechanism] and [[transmission]] of a device file.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/mechanism.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth {
+namespace {
+
+using enum ProblemCode;
+
+const std::string source = ZWIDTH_SOURCE_DIR "/tests/reference/arm.toml";  // no such file; what it names is beside
+
+const std::string arm_text = R"([mechanism]
+file = "planar_arm.xml"
+tip = "tip"
+pose = { shoulder = 0.3, elbow = 1.2 }
+normal = [1, 0, 0]
+[loop]
+sampling_period = "1 ms"
+)";
+
+Device arm(const std::vector<std::string>& overrides = {}) {
+  const auto device = parse_device(arm_text, source, overrides);
+  if (!device) throw std::runtime_error(device.error().str());
+  return *device;
+}
+
+InputError refusal(const std::string& text, const std::vector<std::string>& overrides = {},
+                   FilesBeside files = FilesBeside::read) {
+  const auto device = parse_device(text, source, overrides, files);
+  if (device) throw std::runtime_error("not refused");
+  return device.error();
+}
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string replaced(std::string text, const std::string& one, const std::string& other) {
+  return text.replace(text.find(one), one.size(), other);
+}
+
+TEST(MechanismDeviceFile, IsTheDeviceAlongTheNormal) {
+  const Device device = arm();
+  EXPECT_NEAR(analyze(device).limits.nobody.critical_stiffness, 318.881897, 1e-6);  // theory, section 9
+  EXPECT_EQ(device.parameters().motion, Motion::linear);
+  EXPECT_NEAR(analyze(arm({"mechanism.normal=[0,1,0]"})).limits.nobody.critical_stiffness, 1088.166236, 1e-6);
+  const Device other = arm({"mechanism.pose.elbow=0.4"});
+  EXPECT_NEAR(analyze(other).limits.nobody.critical_stiffness, 716.245862, 1e-6);
+  const double degrees = 0.4 * 180.0 / std::numbers::pi;
+  const Device in_degrees = arm({fmt::format("mechanism.pose.elbow={} deg", degrees)});
+  EXPECT_NEAR(in_degrees.parameters().mechanism->mechanism.pose.at("elbow"), 0.4, 1e-15);
+}
+
+TEST(MechanismDeviceFile, AnyPassiveUserIsLeftOutByCode) {
+  const Analysis found = analyze(arm());
+  EXPECT_FALSE(found.any_user);
+  EXPECT_FALSE(found.limits.any_user);
+  EXPECT_EQ(std::ranges::count_if(found.remarks,
+                                  [](const Remark& each) {
+                                    return each.finding && each.finding->code == FindingCode::any_grasp_not_known;
+                                  }),
+            1);
+}
+
+TEST(MechanismDeviceFile, ComesAsTextToo) {
+  const std::string xml = contents(ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.xml");
+  const std::string text = replaced(arm_text, "file = \"planar_arm.xml\"", "text = '''\n" + xml + "'''");
+  const auto device = parse_device(text, "device", {}, FilesBeside::refused);
+  ASSERT_TRUE(device) << device.error().str();
+  EXPECT_EQ(device->parameters().coordinates->mass, arm().parameters().coordinates->mass);
+  const auto again = parse_device(write_device(device->parameters()), "device", {}, FilesBeside::refused);
+  ASSERT_TRUE(again) << again.error().str();
+  EXPECT_EQ(again->parameters().mechanism->mechanism.text, device->parameters().mechanism->mechanism.text);
+  EXPECT_EQ(write_device(again->parameters()), write_device(device->parameters()));
+}
+
+TEST(MechanismDeviceFile, IsWrittenAsItIsRead) {
+  const std::vector<std::string> overrides{"mechanism.encoders=[\"motor 1\", \"motor 2\"]", "operator.mass=0.1",
+                                           "mechanism.pose.motor 1=0.1"};
+  const Device device = arm(overrides);
+  EXPECT_EQ(device.parameters().mechanism->mechanism.pose.at("motor 1"), 0.1);
+  const auto again = parse_device(write_device(device.parameters()), "elsewhere/written.toml");
+  ASSERT_TRUE(again) << again.error().str();
+  EXPECT_EQ(write_device(again->parameters()), write_device(device.parameters()));
+  EXPECT_EQ(again->parameters().coordinates->mass, device.parameters().coordinates->mass);
+  EXPECT_EQ(again->parameters().user.mass, 0.1);
+}
+
+TEST(MechanismDeviceFile, HasMotorsBehindTransmissions) {
+  const std::string xml = contents(ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.xml");
+  const std::string links = xml.substr(0, xml.find("    <body name=\"rotor 1\"")) + "</worldbody></mujoco>";
+  std::string text = replaced(arm_text, "file = \"planar_arm.xml\"", "text = '''\n" + links + "'''");
+  for (const auto& [joint, stiffness] : {std::pair{"shoulder", 400}, std::pair{"elbow", 300}}) {
+    text += fmt::format(
+        "[[transmission]]\njoint = \"{}\"\nratio = 10\ninertia = \"800 g cm^2\"\n"
+        "motor_damping = 2e-4\nstiffness = \"{} N m/rad\"\ndamping = 0.05\n",
+        joint, stiffness);
+  }
+  const auto device = parse_device(text, source);
+  ASSERT_TRUE(device) << device.error().str();
+  EXPECT_EQ(device->parameters().mechanism->mechanism.transmissions.at(0).inertia, 8e-5);
+  EXPECT_NEAR(analyze(*device).limits.nobody.critical_stiffness, 318.881897, 1e-6);
+  const auto again = parse_device(write_device(device->parameters()), source);
+  ASSERT_TRUE(again) << again.error().str();
+  EXPECT_EQ(write_device(again->parameters()), write_device(device->parameters()));
+  const InputError refused = refusal(text, {"transmission.0.inertia=-1"});
+  EXPECT_EQ(refused.place.key, "transmission.0.inertia");
+  EXPECT_EQ(refusal(text, {"transmission.1.joint=wrist"}).place.key, "transmission.1.joint");
+}
+
+TEST(MechanismDeviceFile, RefusesWithPlaceAndCode) {
+  struct Case {
+    std::string one, other;
+    ProblemCode code;
+    std::string key;
+    std::size_t line;
+  };
+  const std::vector<Case> cases{
+      {"planar_arm.xml", "nowhere.xml", mechanism_file_refused, "mechanism.file", 2},
+      {"tip = \"tip\"", "tip = \"finger\"", no_such_part, "mechanism.tip", 3},
+      {"elbow = 1.2", "wrist = 1.2", no_such_part, "mechanism.pose.wrist", 4},
+      {"elbow = 1.2", "elbow = \"1 mm\"", unit_of_other_joint, "mechanism.pose.elbow", 4},
+      {"elbow = 1.2", "elbow = \"1 kg\"", unit_of_other_measure, "mechanism.pose.elbow", 4},
+      {"elbow = 1.2", "elbow = nan", value_not_finite, "mechanism.pose.elbow", 4},
+      {"[1, 0, 0]", "[1, 0]", normal_not_three_numbers, "mechanism.normal", 5},
+      {"[1, 0, 0]", "[0, 0, 0]", no_direction, "mechanism.normal", 5},
+      {"[1, 0, 0]", "[0, 0, 1]", tip_does_not_move, "mechanism.normal", 5},
+      {"[1, 0, 0]", "\"all\"", point_wall_not_known, "mechanism.normal", 5},
+      {"[loop]", "[loop]\nheld = \"tip\"", beside_mechanism, "loop.held", 7},
+      {"[mechanism]", "motion = \"rotary\"\n[mechanism]", mechanism_of_rotary_motion, "motion", 1},
+      {"tip = \"tip\"", "tips = \"tip\"", unknown_key, "mechanism.tips", 3},
+      {"[loop]", "[[body]]\nname = \"a\"\nmass = 1\n[loop]", beside_mechanism, "body", 6},
+  };
+  for (const Case& each : cases) {
+    SCOPED_TRACE(each.other);
+    const InputError found = refusal(replaced(arm_text, each.one, each.other));
+    EXPECT_EQ(found.problem->code, each.code) << found.str();
+    EXPECT_EQ(found.place.key, each.key);
+    EXPECT_EQ(found.place.line, each.line);
+    EXPECT_EQ(found.place.file, source);
+  }
+  const InputError alone = refusal("[[body]]\nname = \"a\"\nmass = 1\n[loop]\nsampling_period = 1\n[[transmission]]\n");
+  EXPECT_EQ(alone.problem->code, without_mechanism);
+  EXPECT_EQ(alone.place.line, 6U);
+}
+
+TEST(MechanismDeviceFile, NamesNoFileWhereItCameAsText) {
+  const InputError found = refusal(arm_text, {}, FilesBeside::refused);
+  EXPECT_EQ(found.problem->code, file_beside_text);
+  EXPECT_EQ(found.place.key, "mechanism.file");
+  const InputError overridden = refusal(arm_text, {"mechanism.file=\"/etc/passwd\""}, FilesBeside::refused);
+  EXPECT_EQ(overridden.problem->code, file_beside_text);
+}
+
+}  // namespace
+}  // namespace zwidth

@@ -1,0 +1,169 @@
+// What reaches MuJoCo of a mechanism's text, and what is refused before.
+#include "mechanism/mechanism_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/xml_elements.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+using enum ProblemCode;
+namespace fs = std::filesystem;
+
+std::vector<internal::MechanismText> texts_of(const std::string& text) {
+  MechanismFile file;
+  file.text = text;
+  return internal::mechanism_texts(file);
+}
+
+struct Refusal {
+  ProblemCode code = of_the_device;
+  double line = 0.0;
+};
+
+template <typename Read>
+std::optional<Refusal> refusal_of(const Read& read) {
+  try {
+    (void)read();
+  } catch (const Error& error) {
+    const Problem problem = error.problems().at(0).problem.value();
+    const auto line = std::ranges::find(problem.evidence, "line", &Evidence::name);
+    return Refusal{problem.code, line == problem.evidence.end() ? 0.0 : line->value};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> refusal(const std::string& text) {
+  return refusal_of([&] { return texts_of(text); });
+}
+
+TEST(MechanismText, ElementsHaveTheirPlaces) {
+  const std::string text =
+      "<?xml version='1.0'?>\n<!-- <x> -->\n<mujoco model=\"a > b\">\n <body name='c'/>\n</mujoco >\n";
+  const auto elements = internal::xml_elements(text);
+  ASSERT_TRUE(elements);
+  ASSERT_EQ(elements->size(), 2U);
+  const internal::XmlElement& body = elements->at(1);
+  EXPECT_EQ(body.name, "body");
+  EXPECT_EQ(body.line, 4U);
+  EXPECT_EQ(body.parent, 0U);
+  EXPECT_EQ(body.value("name"), "c");
+  EXPECT_EQ(text.substr(body.range.begin, body.range.end - body.range.begin), "<body name='c'/>");
+  EXPECT_EQ(elements->at(0).value("model"), "a > b");
+  EXPECT_EQ(elements->at(0).range.end, text.size() - 1);
+}
+
+TEST(MechanismText, WhatIsNoXmlIsRefusedWithItsLine) {
+  for (const std::string text :
+       {"<a>\n<b></a>", "<a>\n<b x=1/></a>", "<a>\n<b x='1' x='2'/></a>", "<a>\n<![CDATA[x]]></a>", "<a/>\n<b/>",
+        "<a>\n<b x='<'/></a>", "<a>\n</b>", "<a>\n<b x='1", "<a>\n<!-- "}) {
+    const auto refused = refusal(text);
+    ASSERT_TRUE(refused) << text;
+    EXPECT_EQ(refused->code, no_xml) << text;
+    EXPECT_EQ(refused->line, 2.0) << text;
+  }
+  EXPECT_EQ(refusal("<!DOCTYPE a [<!ENTITY b \"c\">]>\n<a>&b;</a>")->code, no_xml);
+  EXPECT_EQ(refusal("just text")->code, no_xml);
+  EXPECT_EQ(refusal(std::string("<a>\0</a>", 8))->code, no_xml);
+}
+
+TEST(MechanismText, WhatIsTooLargeIsRefused) {
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += "<a>";
+  EXPECT_EQ(refusal(deep)->code, no_xml);
+  std::string many = "<a>";
+  for (int i = 0; i < 20'000; ++i) many += "<b/>";
+  EXPECT_EQ(refusal(many + "</a>")->code, no_xml);
+  std::string joints = "<a>";
+  for (int i = 0; i < 400; ++i) joints += "<joint/>";
+  EXPECT_EQ(refusal(joints + "</a>")->code, mechanism_too_large);
+  EXPECT_EQ(refusal("<a>" + std::string(2U << 20U, ' ') + "</a>")->code, mechanism_too_large);
+}
+
+TEST(MechanismText, NamesNoFile) {
+  EXPECT_EQ(refusal("<mujoco>\n<include file='/etc/passwd'/></mujoco>")->code, path_in_text);
+  EXPECT_EQ(refusal("<mujoco>\n<asset>\n<mesh file='arm.stl'/></asset></mujoco>")->line, 3.0);
+  EXPECT_EQ(refusal("<mujoco><compiler meshdir='/'/></mujoco>")->code, path_in_text);
+  EXPECT_EQ(refusal("<robot><link><visual><mesh filename='package://a.dae'/></visual></link></robot>")->code,
+            path_in_text);
+  EXPECT_EQ(refusal("<mujoco><extension><plugin plugin='x'/></extension></mujoco>")->code, element_not_read);
+  EXPECT_EQ(refusal("<mujoco><sensor><plugin/></sensor></mujoco>")->code, element_not_read);
+  EXPECT_EQ(refusal("<mujoco><worldbody><composite count='100000 1 1'/></worldbody></mujoco>")->code, element_not_read);
+  EXPECT_EQ(refusal("<robot><joint name='a'><mimic joint='b'/></joint></robot>")->code, element_not_read);
+}
+
+TEST(MechanismText, WhatIsNotNeededIsBlankedAndLinesStay) {
+  const std::string text =
+      "<mujoco>\n<size nstack='9000000000'/>\n<worldbody>\n<light/>\n<site material='m' name='t'/>\n"
+      "</worldbody>\n</mujoco>";
+  const std::string read = texts_of(text).at(0).text;
+  EXPECT_EQ(read.size(), text.size());
+  EXPECT_EQ(std::ranges::count(read, '\n'), std::ranges::count(text, '\n'));
+  for (const char* gone : {"nstack", "light", "material"}) EXPECT_EQ(read.find(gone), std::string::npos) << gone;
+  EXPECT_EQ(read.find("name='t'"), text.find("name='t'"));
+}
+
+TEST(MechanismText, MeshesAreLeftOutWhereInertiaIsStated) {
+  const std::string mesh = "<geom type='mesh' mesh='m'/>";
+  const std::string inertial = "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>";
+  const auto body = [](const std::string& inside) {
+    return "<mujoco><worldbody>\n<body name='a'>\n" + inside + "</body></worldbody></mujoco>";
+  };
+  EXPECT_EQ(texts_of(body("<joint/>" + inertial + mesh)).at(0).text.find("mesh"), std::string::npos);
+  const auto refused = refusal(body("<joint/>" + mesh));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->code, mass_of_mesh);
+  EXPECT_EQ(refused->line, 3.0);
+  EXPECT_FALSE(refusal(body(mesh)));  // nothing moves it
+  EXPECT_FALSE(refusal(body("<joint/><geom size='1' mass='1'/><geom mesh='m' mass='0'/>")));
+  EXPECT_TRUE(refusal(body("<joint/><body>" + mesh + "</body>" + inertial)));
+}
+
+TEST(MechanismText, LinksOfUrdfStayApart) {
+  const std::string apart = "fusestatic=\"false\"";
+  EXPECT_NE(texts_of("<robot name='r'><link name='a'/></robot>").at(0).text.find(apart), std::string::npos);
+  const std::string read =
+      texts_of("<robot><mujoco><compiler balanceinertia='true' fusestatic='true'/></mujoco></robot>").at(0).text;
+  EXPECT_NE(read.find(apart), std::string::npos);
+  EXPECT_EQ(read.find("fusestatic='true'"), std::string::npos);
+  EXPECT_NE(read.find("balanceinertia"), std::string::npos);
+  EXPECT_NE(texts_of("<robot><mujoco><option/></mujoco></robot>").at(0).text.find(apart), std::string::npos);
+}
+
+TEST(MechanismText, FilesAreIncludedOnceAndFromBesideAlone) {
+  const fs::path folder = fs::path(testing::TempDir()) / "mechanism_text";
+  fs::create_directories(folder);
+  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  write("arm.xml", "<mujocoinclude>\n<asset><mesh file='x.stl'/></asset></mujocoinclude>");
+  write("whole.xml", "<mujoco>\n<include file='arm.xml'/></mujoco>");
+  write("twice.xml", "<mujoco>\n<include file='arm.xml'/>\n<include file='arm.xml'/></mujoco>");
+  write("missing.xml", "<mujoco>\n<include file='none.xml'/></mujoco>");
+  const auto of_file = [&](const char* name) {
+    MechanismFile file;
+    file.path = (folder / name).string();
+    return internal::mechanism_texts(file);
+  };
+  const auto read = of_file("whole.xml");
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_NE(read[0].text.find("file=\"" + read[1].name + "\""), std::string::npos);
+  EXPECT_EQ(read[1].text.find("mesh "), std::string::npos);
+  EXPECT_EQ(refusal_of([&] { return of_file("twice.xml"); })->code, include_not_read);
+  EXPECT_EQ(refusal_of([&] { return of_file("twice.xml"); })->line, 3.0);
+  EXPECT_EQ(refusal_of([&] { return of_file("missing.xml"); })->code, include_not_read);
+  EXPECT_EQ(refusal_of([&] { return of_file("nowhere.xml"); })->code, mechanism_file_refused);
+  MechanismFile pipe;
+  pipe.path = "/dev/zero";
+  EXPECT_EQ(refusal_of([&] { return internal::mechanism_texts(pipe); })->code, mechanism_file_refused);
+}
+
+}  // namespace
+}  // namespace zwidth
