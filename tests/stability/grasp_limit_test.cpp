@@ -41,8 +41,9 @@ TEST(GraspLimit, PlanarArm) {
     ++found;
     SCOPED_TRACE(each.dump());
     const TipMotion motion = planar_arm::tip_motion({each["pose"][0], each["pose"][1]});
+    const auto components = each["normal"].get<std::vector<double>>();
     const GraspLimit limit =
-        any_grasp_limit(motion, loop_of(each["delay"]), {each["normal"][0], each["normal"][1], each["normal"][2]});
+        any_grasp_limit(motion, loop_of(each["delay"].get<double>()), Eigen::Vector3d(components.data()));
     EXPECT_NEAR(limit.stiffness / each["any_user"]["critical_stiffness"].get<double>(), 1.0, reference_tolerance);
     EXPECT_NEAR(limit.frequency / each["any_user"]["frequency_rad_s"].get<double>(), 1.0, reference_tolerance);
   }
