@@ -20,6 +20,8 @@ set(slow
   "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
   # the library
+  "^PointWall\\.(PlanarArm|IsThat)"
+  "^(GraspLimit\\.NoRandom|LimitsAlong\\.AreThose)"
   "^AlikeBranches\\.(Nearly|Six)"
   "^Analysis\\.MarginsThatPolesCrowdAround"
   "^PolesAtOne\\.Trees"
