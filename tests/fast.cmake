@@ -21,6 +21,8 @@ set(slow
   "^Fourier\\.ALargePrime"
   # the library
   "^SimulatedWall\\."
+  "^PointWall\\.(PlanarArm|IsThat)"
+  "^(GraspLimit\\.NoRandom|LimitsAlong\\.AreThose)"
   "^AlikeBranches\\.(Nearly|Six)"
   "^Analysis\\.MarginsThatPolesCrowdAround"
   "^PolesAtOne\\.Trees"

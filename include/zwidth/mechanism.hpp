@@ -5,6 +5,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/mechanism_file.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth {
 
@@ -36,6 +37,14 @@ struct MechanismAtPose {
 /// motors do not determine its motion, or one of them depends on others. Source: theory, section 9.
 [[nodiscard]] Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal,
                                   DeviceParameters parameters);
+
+/// The tip in all directions at once, for point walls and for grasps in 3-D; each axis of the world as device_along() has it.
+///
+///     S_s = J N_e A_e,   S_a = J N_m A_m,   [T; A] N = [0; 1]
+///
+/// A row of an axis along which the tip cannot move is 0. Throws Error (invalid_argument) as device_along() for the others.
+/// Source: theory, section 9.
+[[nodiscard]] TipMotion tip_motion(const MechanismAtPose& mechanism);
 
 /// The device of `parameters.mechanism`: at_pose(), then device_along(), which throw.
 [[nodiscard]] Device device_of_mechanism(DeviceParameters parameters);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -40,8 +41,9 @@ TEST(GraspLimit, PlanarArm) {
     ++found;
     SCOPED_TRACE(each.dump());
     const TipMotion motion = planar_arm::tip_motion({each["pose"][0], each["pose"][1]});
+    const auto components = each["normal"].get<std::vector<double>>();
     const GraspLimit limit =
-        any_grasp_limit(motion, loop_of(each["delay"]), {each["normal"][0], each["normal"][1], each["normal"][2]});
+        any_grasp_limit(motion, loop_of(each["delay"].get<double>()), Eigen::Vector3d(components.data()));
     EXPECT_NEAR(limit.stiffness / each["any_user"]["critical_stiffness"].get<double>(), 1.0, reference_tolerance);
     EXPECT_NEAR(limit.frequency / each["any_user"]["frequency_rad_s"].get<double>(), 1.0, reference_tolerance);
   }
@@ -57,7 +59,7 @@ TEST(GraspLimit, ASpringAtTheTipOfThePlanarArmReachesIt) {
     const Eigen::VectorXd along = motion.tip.topRows(2).transpose() * axes.eigenvectors().col(i);
     test::add_element(motion, along, axes.eigenvalues()(i), 0.0);
   }
-  EXPECT_NEAR(normal_wall_limit(motion, loop_of(0.0), {1.0, 0.0, 0.0}).stiffness, 278.845937, 1e-5);
+  EXPECT_NEAR(normal_wall_limit(motion, loop_of(0.0), Eigen::Vector3d::UnitX()).stiffness, 278.845937, 1e-5);
 }
 
 // Property: a tip that moves along one direction alone is one axis, whose limit is shown to be the least.
@@ -81,7 +83,7 @@ TEST(GraspLimit, OfOneDirectionIsThatOfOneAxis) {
         DeviceParameters loop = loop_of(delay);
         loop.wall.damping = damping;
         const double of_axis = absolute_stability_limit(Device(parameters), {.damping = damping}).stiffness;
-        EXPECT_NEAR(any_grasp_limit(motion, loop, {1.0, 0.0, 0.0}).stiffness / of_axis, 1.0, 1e-8);
+        EXPECT_NEAR(any_grasp_limit(motion, loop, Eigen::Vector3d::UnitX()).stiffness / of_axis, 1.0, 1e-8);
         const PointGraspLimit point = any_grasp_limit_of_point(motion, loop);
         EXPECT_NEAR(point.at_least / of_axis, 1.0, 1e-6);
         EXPECT_GE(point.at_most, point.at_least * (1.0 - 1e-9));
@@ -119,7 +121,7 @@ TEST(GraspLimit, NothingDampedIsNoWallForAnyone) {
   TipMotion motion = planar_arm::tip_motion({0.3, 1.2});
   for (Coordinates::Element& each : motion.elements) each.damping = 0.0;
   std::erase_if(motion.elements, [](const Coordinates::Element& each) { return each.stiffness == 0.0; });
-  EXPECT_EQ(any_grasp_limit(motion, loop_of(0.0), {1.0, 0.0, 0.0}).stiffness, 0.0);
+  EXPECT_EQ(any_grasp_limit(motion, loop_of(0.0), Eigen::Vector3d::UnitX()).stiffness, 0.0);
   EXPECT_EQ(any_grasp_limit_of_point(motion, loop_of(0.0)).at_most, 0.0);
 }
 
@@ -146,8 +148,8 @@ TEST(LimitsAlong, AreThoseOfEachNormal) {
 
 TEST(LimitsAlong, RefusesANormalAlongWhichTheTipCannotMove) {
   const TipMotion motion = planar_arm::tip_motion({0.3, 1.2});
-  EXPECT_THROW((void)limits_along(motion, loop_of(0.0), {{0.0, 0.0, 1.0}}), Error);
-  EXPECT_THROW((void)any_grasp_limit(motion, loop_of(0.0), {0.0, 0.0, 1.0}), Error);
+  EXPECT_THROW((void)limits_along(motion, loop_of(0.0), {Eigen::Vector3d::UnitZ()}), Error);
+  EXPECT_THROW((void)any_grasp_limit(motion, loop_of(0.0), Eigen::Vector3d::UnitZ()), Error);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ constexpr int most_newton_steps = 40;
 constexpr double of_certain_step = 0.999;
 constexpr double followed_until = 1e-7;  // relative, below the crossing
 constexpr double close_to_crossing = 0.05;
+constexpr double nearer = 0.1;
 constexpr double of_rounding = 1e-14;  // |z|
 constexpr double free_pole_below = 1e-11;
 
@@ -97,17 +98,19 @@ GainLimit first_crossing(const GainLoop& loop) {
   std::vector<LoopPole> poles = poles_at(loop, gain);
   if (!certain_step(poles)) return {.kind = GainLimit::Kind::none_stable};
   std::optional<GainLimit> ahead;
+  double near = close_to_crossing;
   for (int step = 0; step < most_gain_steps; ++step) {
     const std::optional<double> certain = certain_step(poles);
     if (!certain) break;
     if (gain > greatest_gain) return {.kind = GainLimit::Kind::unbounded};
     const LoopPole* next = first_to_leave(poles);
-    if (next != nullptr && -next->excess < close_to_crossing * gain * next->growth) {
-      // Found once, and again only where the march has come past it.
-      if (!ahead || ahead->gain <= gain)
-        ahead = polished_crossing(loop, gain - next->excess / next->growth, next->angle);
-      if (ahead && ahead->gain > gain && gain >= (1.0 - followed_until) * ahead->gain) return *ahead;
+    const double gap = next != nullptr ? -next->excess / next->growth : std::numeric_limits<double>::infinity();
+    if (gap < near * gain) {
+      // Again as the march comes closer, for another pole may have been meant.
+      near = nearer * gap / gain;
+      ahead = polished_crossing(loop, gain + gap, next->angle);
     }
+    if (ahead && ahead->gain > gain && gain >= (1.0 - followed_until) * ahead->gain) return *ahead;
     gain += of_certain_step * *certain;
     poles = poles_at(loop, gain);
   }
