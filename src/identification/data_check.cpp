@@ -40,4 +40,9 @@ bool is_drowned(const FrequencyResponse& response, const Device& structure, cons
          free_parameters(structure, options.fit.free, options.fit.locked).size();
 }
 
+bool follows_force(std::span<const FittedMotion> motions) {
+  constexpr double most = 0.1;
+  return std::ranges::all_of(motions, [](const FittedMotion& each) { return each.unexplained < most; });
+}
+
 }  // namespace zwidth::internal

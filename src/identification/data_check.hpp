@@ -24,4 +24,7 @@ namespace zwidth::internal {
 [[nodiscard]] bool is_drowned(const FrequencyResponse& response, const Device& structure,
                               const IdentifyOptions& options);
 
+/// Whether fitted motions are the recorded ones to a tenth: of one that no force makes, states and a constant force leave more.
+[[nodiscard]] bool follows_force(std::span<const FittedMotion> motions);
+
 }  // namespace zwidth::internal

@@ -68,15 +68,21 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
     if (progress) progress(done);
   };
   VerdictInput fit = before_fit(measured, structure, doubts);
-  if (!fit.contradictions.empty() || is_drowned(measured.response, structure, options))
+  const auto unfitted = [&] {
     return judged_identification(measured, structure, options, std::nullopt, std::move(fit),
                                  IdentifyOptions::Method::motion);
+  };
+  constexpr std::size_t least_lines = 2;  // of which a fit of the motion begins
+  const bool drowned = is_drowned(measured.response, structure, options);
+  if (!fit.contradictions.empty() || (drowned && measured.response.points.size() < least_lines)) return unfitted();
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
   const auto fitted = fit_motion(recordings, measured.response, structure,
                                  {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
                                   options.segment,
                                   options.limits,
                                   tell});
+  // A spring that stiffens scatters the lines of a motion that is all the force's.
+  if (drowned && !(fitted && follows_force(fitted->motions))) return unfitted();
   if (!fitted || !told_limit(fitted->found.best.interval))
     return identified_by_lines(measured, structure, options, std::move(doubts), true);
   fit.omnibus = fitted->omnibus;

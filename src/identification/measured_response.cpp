@@ -22,6 +22,7 @@
 #include "identification/verdict/calibration.hpp"
 #include "signal/clipping.hpp"
 #include "words/phrase.hpp"
+#include "words/stated_quantity.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/require_valid.hpp"
@@ -134,7 +135,7 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
     shown.evidence.push_back({"threshold", other_force});
     if (found.grows_with_force && found.friction) {
       shown.evidence.push_back({"friction", *found.friction});
-      shown.subjects.push_back({"force", force_in_words(*found.friction, measured)});
+      shown.subjects.push_back({"force", force_in_words(*found.friction, measured.force_unit)});
     }
   }
   measured.remarks.push_back(warning(shown));
@@ -234,9 +235,9 @@ void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recor
   const double size = shows ? friction.size : friction.most();
   Finding found{.code = shows ? FindingCode::motion_shows_friction : FindingCode::friction_would_pass_unseen,
                 .evidence = {{"friction", size}},
-                .subjects = {{"force", force_in_words(size, measured)}}};
+                .subjects = {{"force", force_in_words(size, measured.force_unit)}}};
   if (remaining > 0.0) {
-    found.subjects.push_back({"stiffness", stiffness_in_words(remaining, measured)});
+    found.subjects.push_back({"stiffness", stiffness_in_words(remaining, measured.force_unit, measured.length_unit)});
     found.effect.push_back({"critical_stiffness", remaining});
   }
   measured.trust.doubt(std::move(found));

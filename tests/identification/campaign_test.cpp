@@ -102,5 +102,17 @@ TEST(CampaignRecords, OfTwoBodiesAreAnsweredRightly) {
   expect_figures(lines);
 }
 
+TEST(CampaignRecords, OfASpringThatStiffensIsFittedThoughItsLinesScatter) {
+  const Line line = answer_to(drawn_case(*find_kind("stiffening_spring"), 2));
+  EXPECT_TRUE(line.sound() && line.holds()) << text_of(line);
+}
+
+TEST(CampaignRecords, WhoseShortSegmentsTellOfASofterSpringAreFitted) {
+  for (const char* kind : {"delay_unstated", "slow_disturbance"}) {
+    const Line line = answer_to(drawn_case(*find_kind(kind), 3));
+    EXPECT_TRUE(line.sound() && line.holds()) << text_of(line);
+  }
+}
+
 }  // namespace
 }  // namespace zwidth::test::campaign

@@ -1,7 +1,5 @@
 #include "identification/response/stated_units.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -9,7 +7,6 @@
 
 #include "counted.hpp"
 #include "zwidth/identification/identification.hpp"
-#include "zwidth/quantity.hpp"
 
 namespace zwidth {
 namespace {
@@ -40,17 +37,6 @@ void state_units(MeasuredResponse& measured, std::span<const Recording> recordin
     if (measured.force_unit.empty()) measured.force_unit = "N m";
     if (measured.length_unit.empty()) measured.length_unit = "rad";
   }
-}
-
-std::string force_in_words(double force, const MeasuredResponse& measured) {
-  const bool is_stated = measured.force_unit == "N" || measured.force_unit == "N m";
-  return fmt::format("{:.2g} {}", force, is_stated ? measured.force_unit : "N (N m where it turns)");
-}
-
-std::string stiffness_in_words(double stiffness, const MeasuredResponse& measured) {
-  if (measured.force_unit == "N" && measured.length_unit == "m") return quantity(stiffness, "N/m");
-  if (measured.force_unit == "N m" && measured.length_unit == "rad") return quantity(stiffness, "N m/rad");
-  return fmt::format("{} (where it turns {})", quantity(stiffness, "N/m"), quantity(stiffness, "N m/rad"));
 }
 
 }  // namespace internal
