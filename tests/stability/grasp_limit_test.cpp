@@ -138,7 +138,9 @@ TEST(LimitsAlong, AreThoseOfEachNormal) {
     for (std::size_t i = 0; i < normals.size(); ++i) {
       const PointWallLimit alone = normal_wall_limit(motion, loop, normals[i]);
       EXPECT_EQ(limits[i].status, alone.status);
-      if (alone.status == StiffnessStatus::finite) EXPECT_NEAR(limits[i].stiffness / alone.stiffness, 1.0, 1e-8);
+      if (alone.status == StiffnessStatus::finite) {
+        EXPECT_NEAR(limits[i].stiffness / alone.stiffness, 1.0, 1e-8);
+      }
       const double any = any_grasp_limit(motion, loop, normals[i]).stiffness;
       ASSERT_TRUE(limits[i].any_grasp);
       EXPECT_NEAR(limits[i].any_grasp->stiffness, any, 1e-4 * any);
