@@ -42,7 +42,7 @@ struct PointWallMargins {
   bool stable = false;           ///< every pole inside the unit circle, but those of positions that nothing holds
   double spectral_radius = 0.0;  ///< the largest |z|
   /// K_CR/K: the least factor on K in all directions, B held, that destabilises; absent where unstable or none does
-  std::optional<double> stiffness_margin;
+  std::optional<double> stiffness_margin = {};
 };
 
 /// Of the wall in `loop`. Factors and delays that differ from direction to direction are not known.
