@@ -16,7 +16,7 @@
 namespace zwidth {
 namespace {
 
-Device with_own_loop(double spring_period, double damper_period, double damping) {
+Device with_drive_loop(double spring_period, double damper_period, double damping) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.loop.sampling_period = spring_period;
   parameters.loop.damper = LoopDamper{damper_period, 1e-4};
@@ -46,7 +46,7 @@ bool has(const std::vector<Remark>& remarks, FindingCode code) {
 }
 
 TEST(TwoRateTarget, EveryNeededValueIsConfirmedByTheLoopAsItRuns) {
-  for (const Device& device : {with_own_loop(1e-3, 1e-4, 200.0), with_own_loop(2e-4, 6e-4, 100.0)}) {
+  for (const Device& device : {with_drive_loop(1e-3, 1e-4, 200.0), with_drive_loop(2e-4, 6e-4, 100.0)}) {
     const double target = 1.3 * critical_stiffness(device).stiffness;
     const DesignTargets found = design_targets(device, {.stiffness = target, .factor = 10.0});
     EXPECT_TRUE(has(found.remarks, FindingCode::damper_period_follows));
@@ -68,7 +68,7 @@ TEST(TwoRateTarget, EveryNeededValueIsConfirmedByTheLoopAsItRuns) {
 }
 
 TEST(TwoRateTarget, OfAnyPassiveUser) {
-  const Device device = with_own_loop(1e-3, 1e-4, 200.0);
+  const Device device = with_drive_loop(1e-3, 1e-4, 200.0);
   const double now = analyze(device).any_user->stiffness;
   const double target = 1.2 * now;
   const DesignTargets found =
@@ -93,7 +93,7 @@ TEST(TwoRateTarget, OfAnyPassiveUser) {
 
 // With delays that differ by a period of the damper, another period leaves the limit unknown: nothing is claimed of it.
 TEST(TwoRateTarget, ClaimsNothingWhereTheLimitIsNotKnown) {
-  DeviceParameters parameters = with_own_loop(1e-3, 1e-4, 200.0).parameters();
+  DeviceParameters parameters = with_drive_loop(1e-3, 1e-4, 200.0).parameters();
   parameters.loop.delay = 0.0;
   const DesignTargets found = design_targets(
       Device(parameters), {.stiffness = 6e5, .goal = StiffnessGoal::absolute_stability_limit, .factor = 10.0});
@@ -105,7 +105,7 @@ TEST(TwoRateTarget, ClaimsNothingWhereTheLimitIsNotKnown) {
 
 TEST(TwoRateTarget, OfAnyPassiveUserIsRefusedWhereTheirLimitIsNotKnown) {
   const DesignTargetOptions options{.stiffness = 1e5, .goal = StiffnessGoal::absolute_stability_limit};
-  EXPECT_THROW(design_targets(with_own_loop(1e-4, 1e-3, 100.0), options), Error);
+  EXPECT_THROW(design_targets(with_drive_loop(1e-4, 1e-3, 100.0), options), Error);
 }
 
 }  // namespace

@@ -175,10 +175,10 @@ TEST(WallRecommendation, NextToNothingIsNoWall) {
 
 TEST(WallRecommendation, NamesTheMemberOutsideItsRange) {
   const Device device = rigid(1.0, 1.0, 1e-3);
-  EXPECT_EQ(find_problem({.gain_margin = 0.9}, device)->member, "gain_margin");
-  EXPECT_EQ(find_problem({.gain_margin = 0.1}, device)->what, "is -20 dB, a factor of 0.1");
-  EXPECT_EQ(find_problem({.phase_margin = 2.0}, device)->member, "phase_margin");
-  EXPECT_EQ(find_problem({.quantisation_force = -1.0}, device)->member, "quantisation_force");
+  EXPECT_EQ(find_problem(RecommendationOptions{.gain_margin = 0.9}, device)->member, "gain_margin");
+  EXPECT_EQ(find_problem(RecommendationOptions{.gain_margin = 0.1}, device)->what, "is -20 dB, a factor of 0.1");
+  EXPECT_EQ(find_problem(RecommendationOptions{.phase_margin = 2.0}, device)->member, "phase_margin");
+  EXPECT_EQ(find_problem(RecommendationOptions{.quantisation_force = -1.0}, device)->member, "quantisation_force");
   EXPECT_EQ(find_problem(RecommendationOptions{.draws = 0}, device)->member, "draws");
   EXPECT_THROW(static_cast<void>(recommend_wall(device, {.gain_margin = std::nan("")})), Error);
 }

@@ -85,9 +85,10 @@ TEST(WallToRun, IsNotThereWhereNoWallIsStable) {
 TEST(WallToRun, FindsWhatCannotBeAsked) {
   EXPECT_EQ(find_problem(WallToRunOptions{}, lhifam(std::nullopt))->member, "wall.stiffness");
   EXPECT_FALSE(find_problem(WallToRunOptions{}, lhifam(3000.0)));
-  EXPECT_EQ(find_problem({.stiffness = -3.0}, lhifam(std::nullopt))->member, "stiffness");
-  EXPECT_EQ(find_problem({.safety_factor = 1.0}, lhifam(std::nullopt))->member, "safety_factor");
-  EXPECT_EQ(find_problem({.stiffness = 3.0, .safety_factor = 0.5}, lhifam(std::nullopt))->member, "safety_factor");
+  EXPECT_EQ(find_problem(WallToRunOptions{.stiffness = -3.0}, lhifam(std::nullopt))->member, "stiffness");
+  EXPECT_EQ(find_problem(WallToRunOptions{.safety_factor = 1.0}, lhifam(std::nullopt))->member, "safety_factor");
+  EXPECT_EQ(find_problem(WallToRunOptions{.stiffness = 3.0, .safety_factor = 0.5}, lhifam(std::nullopt))->member,
+            "safety_factor");
   EXPECT_THROW((void)wall_to_run(lhifam(std::nullopt)), Error);
 }
 
