@@ -31,8 +31,6 @@ constexpr double same_level_of_two_rates = 1e-10;
 constexpr double clear_of_edge = 1e-6;
 constexpr double beside_chord = 0.05;
 constexpr double far_apart = 0.02;
-constexpr double level_height = 1e-7;
-constexpr double level_length = 1e-2;
 constexpr std::uintmax_t most_root_steps = 100;
 
 // A branch by its chords.
@@ -54,17 +52,6 @@ struct Polyline {
   }
 };
 
-// The last of the nodes from that one on that are all at one B, over a stretch of K that counts; else that one.
-std::size_t end_of_level(const std::vector<Node>& nodes, std::size_t first, const WallPoint& most) {
-  const WallPoint& begin = nodes[first].wall;
-  std::size_t last = first;
-  while (last + 1 < nodes.size() &&
-         std::abs(nodes[last + 1].wall.damping - begin.damping) <= level_height * most.damping) {
-    ++last;
-  }
-  return std::abs(nodes[last].wall.stiffness - begin.stiffness) > level_length * most.stiffness ? last : first;
-}
-
 bool is_straight(const Node& node) { return node.angle == 0.0 || node.angle > std::numbers::pi; }
 
 Vector3d place_of(const Node& node) { return {node.angle, node.wall.stiffness, node.wall.damping}; }
@@ -72,8 +59,9 @@ Vector3d place_of(const Node& node) { return {node.angle, node.wall.stiffness, n
 }  // namespace
 
 TwoRateStructure::TwoRateStructure(const Device& device, const Progress& progress) : curve_(device) {
-  proven = !curve_.is_seen();
-  if (proven) {
+  proven = false;
+  if (!curve_.is_seen()) {
+    proven = true;
     slabs.push_back({0.0, infinity, {{RegionEdge{BoundaryKind::no_stiffness, 0}, std::nullopt}}});
     return;
   }
@@ -99,7 +87,7 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   most_ = curve_.wall(slices_.most_outside, slices_.most_inside);
   curve_.scales = {1.0, most_.stiffness, most_.damping};
   stages.next(share_of_chains);
-  for (TwoRateChain& chain : trace_chains(curve_, slices_, density, stages.stage())) add_branches(std::move(chain));
+  for (TwoRateChain& chain : trace_chains(curve_, slices_, stages.stage())) add_branches(std::move(chain));
   stages.next(1.0);
   const std::vector<double> found = levels();
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -122,19 +110,19 @@ void TwoRateStructure::build(int density, const Progress& progress) {
 Node TwoRateStructure::turn_between(const Node& first, const Node& last) const {
   const Vector3d chord = (place_of(last) - place_of(first)).cwiseQuotient(curve_.scales);
   const auto rise = [&](double part) {
-    const Vector3d along = curve_.tangent(on_curve(first, last, part));
+    const Vector3d along = curve_.tangent(between(first, last, part));
     return along.dot(chord) >= 0.0 ? along(2) : -along(2);
   };
   const double at_first = rise(0.0);
   const double at_last = rise(1.0);
-  if (!(at_first * at_last < 0.0)) return on_curve(first, last, 0.5);
+  if (!(at_first * at_last < 0.0)) return between(first, last, 0.5);
   std::uintmax_t steps = most_root_steps;
   const auto [low, high] = boost::math::tools::toms748_solve(rise, 0.0, 1.0, at_first, at_last,
                                                              boost::math::tools::eps_tolerance<double>(45), steps);
-  return on_curve(first, last, 0.5 * (low + high));
+  return between(first, last, 0.5 * (low + high));
 }
 
-// Divided at the extrema of B. A stretch along which B is the same to the drawing's digits is a branch at one level.
+// Divided at the extrema of B.
 void TwoRateStructure::add_branches(TwoRateChain chain) {
   std::vector<Node>& nodes = chain.nodes;
   if (nodes.size() < 2) return;
@@ -146,27 +134,11 @@ void TwoRateStructure::add_branches(TwoRateChain chain) {
     nodes.front() = turn;
     nodes.push_back(turn);
   }
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const std::size_t last = end_of_level(nodes, i, most_);
-    if (last == i) continue;
-    const double level = 0.5 * (nodes[i].wall.damping + nodes[last].wall.damping);
-    for (std::size_t k = i; k <= last; ++k) nodes[k].wall.damping = level;
-    const auto at = [&](std::size_t k) { return nodes.begin() + static_cast<std::ptrdiff_t>(k); };
-    add_monotonic({at(begin), at(i + 1)}, chain.kind);
-    add_branch({at(i), at(last + 1)}, chain.kind);
-    begin = i = last;
-  }
-  add_monotonic({nodes.begin() + static_cast<std::ptrdiff_t>(begin), nodes.end()}, chain.kind);
-}
-
-void TwoRateStructure::add_branch(std::vector<Node> nodes, BoundaryKind kind) {
-  if (nodes.size() < 2) return;
-  branches.emplace_back(std::move(nodes));
-  kinds_.push_back(kind);
-}
-
-void TwoRateStructure::add_monotonic(const std::vector<Node>& nodes, BoundaryKind kind) {
+  const auto add = [&](std::vector<Node> part) {
+    if (part.size() < 2) return;
+    branches.emplace_back(std::move(part));
+    kinds_.push_back(chain.kind);
+  };
   std::vector<Node> part{nodes.front()};
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const bool turns = i + 1 < nodes.size() && (nodes[i].wall.damping > nodes[i - 1].wall.damping) !=
@@ -185,32 +157,28 @@ void TwoRateStructure::add_monotonic(const std::vector<Node>& nodes, BoundaryKin
                            .dot((place_of(turn) - place_of(nodes[i])).cwiseQuotient(curve_.scales));
     if (!is_beyond && way > 0.0) part.push_back(nodes[i]);
     part.push_back(turn);
-    add_branch(std::move(part), kind);
+    add(std::move(part));
     part = {turn};
     if (!is_beyond && way <= 0.0) part.push_back(nodes[i]);
   }
-  add_branch(std::move(part), kind);
+  add(std::move(part));
 }
 
 Node TwoRateStructure::between(const Node& from, const Node& to, double part) const {
-  if (from.wall.damping != to.wall.damping) return on_curve(from, to, part);
-  const Vector3d at = place_of(from) + part * (place_of(to) - place_of(from));  // at one level
-  return {at(0), {at(1), at(2)}};
-}
-
-Node TwoRateStructure::on_curve(const Node& from, const Node& to, double part) const {
   const Vector3d first = place_of(from);
   const Vector3d way = place_of(to) - first;
   const Vector3d at = first + part * way;
-  const Node guess{at(0), {at(1), at(2)}};
+  Node guess{at(0), {at(1), at(2)}};
   if (way.isZero(0.0) || is_straight(from)) return guess;
-  const double q = curve_.inside(guess.wall);
-  if (std::min(from.angle, to.angle) == std::numbers::pi) return {guess.angle, curve_.wall(curve_.nyquist_gain(q), q)};
-  if (part == 0.0 || part == 1.0) return part == 0.0 ? from : to;
+  if (from.angle == std::numbers::pi && to.angle == std::numbers::pi) {
+    const double inside = curve_.inside(guess.wall);
+    return {guess.angle, curve_.wall(curve_.nyquist_gain(inside), inside)};
+  }
+  if (part == 0.0) return from;
+  if (part == 1.0) return to;
   const std::optional<Node> found = curve_.solve(guess, way.cwiseQuotient(curve_.scales).normalized());
-  if (found) return *found;
-  if (std::numbers::pi - guess.angle < beside_nyquist) return guess;
-  throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
+  if (!found) throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
+  return *found;
 }
 
 Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
@@ -295,6 +263,10 @@ std::vector<double> TwoRateStructure::levels() const {
   return found;
 }
 
+bool TwoRateStructure::is_stable(const WallPoint& wall) const {
+  return region_slice(curve_, curve_.inside(wall)).is_stable(curve_.outside(wall));
+}
+
 std::vector<RegionCell> TwoRateStructure::cells_at(double damping) const {
   struct Crossing {
     double stiffness;
@@ -315,8 +287,7 @@ std::vector<RegionCell> TwoRateStructure::cells_at(double damping) const {
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const double next = i + 1 < crossings.size() ? crossings[i + 1].stiffness : most_.stiffness;
     const WallPoint middle{0.5 * (crossings[i].stiffness + next), damping};
-    if (!curve_.is_damper_inside()) slice = region_slice(curve_, middle.stiffness);
-    const bool stable = slice->is_stable(curve_.outside(middle));
+    const bool stable = slice ? slice->is_stable(middle.stiffness) : is_stable(middle);
     if (stable && !was_stable) cells.push_back({crossings[i].edge, std::nullopt});
     if (!stable && was_stable) cells.back().right = crossings[i].edge;
     was_stable = stable;
