@@ -59,17 +59,20 @@ std::span<const Phrase> identification_phrases() {
              "than a factor of {more_than:.0f}}{!factor|{!more_than|down to 0, where not even the softest wall is "
              "stable}}",
              rival_leaves_open, record_against_rival},
-      Phrase{
-          residual_stands_out, "residual_stands_out", doubt,
-          "the fitted device leaves more than the noise of {source}{?to|, most from {from:.4g} to {to:.4g} s}: what "
-          "is left {?kind=follows_force|follows the force, as a missing body or mode "
-          "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}{?kind=given|would be less with another "
-          "{number} than the "
-          "given one, {shown:.4g} in place of {given:.4g}}",
-          "the critical stiffness may lie outside its interval",
-          "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
-          "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}{?kind=given|free {number}, or "
-          "measure it}"},
+      Phrase{residual_stands_out, "residual_stands_out", doubt,
+             "the fitted device leaves more than the noise of {source}{?to|, most from {from:.4g} to {to:.4g} s}: what "
+             "is left {?kind=follows_force|follows the force, as a missing body or mode "
+             "does}{?kind=nonlinear|follows the motion, as a nonlinear force does}{?kind=records_differ|would be less "
+             "with numbers "
+             "of its own in each record}{?kind=given|would be less with another "
+             "{number} than the "
+             "given one, {shown:.4g} in place of {given:.4g}}",
+             "the critical stiffness may lie outside its interval",
+             "{?kind=follows_force|name a structure with one more body, or excite no higher than it "
+             "holds}{?kind=nonlinear|excite at two amplitudes, and record smaller motion}{?kind=records_differ|record "
+             "one device "
+             "in one state, or identify each record alone}{?kind=given|free {number}, or "
+             "measure it}"},
       Phrase{fitted_late_beyond_drives, "fitted_late_beyond_drives", warning,
              "delay and lag come to {late:.4g} s, {periods:.3g} sampling periods", "few drives are as slow as that",
              "are force and motion of the same instant, and the time in seconds? Else, is it in {likely_unit}? It must "

@@ -12,7 +12,15 @@ namespace zwidth::internal {
 namespace {
 
 const char* name_of_kind(Omnibus::Kind kind) {
-  return kind == Omnibus::Kind::nonlinear ? "nonlinear" : "follows_force";
+  switch (kind) {
+    case Omnibus::Kind::nonlinear:
+      return "nonlinear";
+    case Omnibus::Kind::records_differ:
+      return "records_differ";
+    case Omnibus::Kind::follows_force:
+      break;
+  }
+  return "follows_force";
 }
 
 /// The share of the interval, by logarithms, that a rival leaves open.

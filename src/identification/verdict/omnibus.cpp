@@ -33,6 +33,27 @@ Columns stacked(const std::vector<SegmentResiduals>& segments, Columns SegmentRe
   return all;
 }
 
+/// What the numbers do to each record but the last alone: where records are of different devices, theirs differ.
+Columns by_record(const std::vector<SegmentResiduals>& segments) {
+  const Columns shared = stacked(segments, &SegmentResiduals::shared);
+  std::vector<std::size_t> records;
+  for (const SegmentResiduals& each : segments) {
+    if (std::ranges::find(records, each.record) == records.end()) records.push_back(each.record);
+  }
+  const Eigen::Index numbers = shared.cols();
+  Columns apart = Columns::Zero(shared.rows(), numbers * static_cast<Eigen::Index>(records.size() - 1));
+  Eigen::Index at = 0;
+  for (const SegmentResiduals& each : segments) {
+    const Eigen::Index rows = each.residuals.size();
+    const auto record = std::ranges::find(records, each.record) - records.begin();
+    if (record * numbers < apart.cols()) {
+      apart.block(at, record * numbers, rows, numbers) = shared.middleRows(at, rows);
+    }
+    at += rows;
+  }
+  return apart;
+}
+
 /// An orthonormal basis of what columns have beyond `least` of their size.
 Columns basis_of(Columns columns, const Eigen::VectorXd& sizes, double least) {
   for (Eigen::Index j = 0; j < columns.cols(); ++j) columns.col(j) /= std::max(sizes(j), 1e-300);
@@ -181,6 +202,7 @@ Omnibus omnibus(const std::vector<SegmentResiduals>& segments) {
   residuals = fitted.without(residuals);
   std::optional<Tested> clearest;
   const auto add = [&](Omnibus::Kind kind, const Columns& candidates) {
+    if (candidates.cols() == 0) return;
     const Columns basis = basis_of(fitted.without(candidates), candidates.colwise().norm(), Calibration::least_share);
     std::optional<Tested> test = tested(kind, residuals, basis, segments);
     if (!test) return;
@@ -192,6 +214,7 @@ Omnibus omnibus(const std::vector<SegmentResiduals>& segments) {
   };
   add(Omnibus::Kind::follows_force, stacked(segments, &SegmentResiduals::lagged));
   add(Omnibus::Kind::nonlinear, stacked(segments, &SegmentResiduals::forces));
+  add(Omnibus::Kind::records_differ, by_record(segments));
   if (!clearest) return found;
   found.clearest = clearest->part.kind;
   found.p = combined(found.parts);

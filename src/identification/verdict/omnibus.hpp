@@ -11,8 +11,9 @@ namespace zwidth::internal {
 /// One test of what the best fit leaves.
 struct Omnibus {
   enum class Kind : std::uint8_t {
-    follows_force,  ///< with the force at lags: linear motion that the structure lacks
-    nonlinear,      ///< with what nonlinear forces would add
+    follows_force,   ///< with the force at lags: linear motion that the structure lacks
+    nonlinear,       ///< with what nonlinear forces would add
+    records_differ,  ///< with other numbers of the device in each record
   };
   struct Part {
     Kind kind = Kind::follows_force;
