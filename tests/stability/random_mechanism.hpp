@@ -111,6 +111,26 @@ inline TipMotion randomly_held(const TipMotion& motion, double frequency, Draws&
   return held;
 }
 
+/// The same eigenvalues, rows as large as columns (Parlett & Reinsch 1969): positions, velocities and forces differ
+/// in size, and Eigen's solver does not scale.
+inline Eigen::MatrixXd balanced(Eigen::MatrixXd a) {
+  constexpr double worth_scaling = 0.95;
+  for (bool is_scaled = true; is_scaled;) {
+    is_scaled = false;
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      const double row = a.row(i).lpNorm<1>() - std::abs(a(i, i));
+      const double column = a.col(i).lpNorm<1>() - std::abs(a(i, i));
+      if (!(row > 0.0) || !(column > 0.0)) continue;
+      const double scale = std::exp2(std::round(0.5 * std::log2(row / column)));
+      if (!(column * scale + row / scale < worth_scaling * (column + row))) continue;
+      a.col(i) *= scale;
+      a.row(i) /= scale;
+      is_scaled = true;
+    }
+  }
+  return a;
+}
+
 /// Closed-loop poles in z of a wall along directions, one column each: nothing of the library is in it.
 class SecondRoute {
  public:
@@ -177,7 +197,7 @@ class SecondRoute {
   [[nodiscard]] double radius(double stiffness) const {
     constexpr double at_one = 1e-8;
     double largest = 0.0;
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(base_ - stiffness * slope_, false);
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced(base_ - stiffness * slope_), false);
     for (const std::complex<double>& z : solver.eigenvalues()) {
       if (std::abs(z - 1.0) > at_one) largest = std::max(largest, std::abs(z));
     }
