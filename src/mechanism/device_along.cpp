@@ -52,6 +52,11 @@ std::size_t point(std::vector<Coordinates::Point>& points, const char* name, con
   return points.size() - 1;
 }
 
+std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd columns = matrix.transpose();
+  return {columns.data(), columns.data() + columns.size()};
+}
+
 }  // namespace
 
 Device device_of_mechanism(DeviceParameters parameters) {
@@ -78,6 +83,13 @@ Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& nor
   parameters.loop.held = point(coordinates.points, "tip", along);
   parameters.loop.sensed = point(coordinates.points, "encoders", sensed);
   parameters.loop.actuated = point(coordinates.points, "motors", actuated);
+  // Along n where that is no direction in which the tip can move: of its part p that is, p c'/(p p') senses along n as c.
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> moves;
+  moves.setThreshold(dependent_below);
+  moves.compute(mechanism.tip.transpose());
+  const Eigen::Vector3d part = moves.solve(along);
+  coordinates.tip = {row_by_row(mechanism.tip), row_by_row(part * sensed.transpose() / part.squaredNorm()),
+                     row_by_row(part * actuated.transpose() / part.squaredNorm())};
   parameters.bodies.clear();
   parameters.links.clear();
   parameters.coordinates = std::move(coordinates);

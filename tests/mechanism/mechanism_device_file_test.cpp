@@ -67,15 +67,50 @@ TEST(MechanismDeviceFile, IsTheDeviceAlongTheNormal) {
   EXPECT_NEAR(in_degrees.parameters().mechanism->mechanism.pose.at("elbow"), 0.4, 1e-15);
 }
 
-TEST(MechanismDeviceFile, AnyPassiveUserIsLeftOutByCode) {
+std::ptrdiff_t remarks_of(const Analysis& analysis, FindingCode code) {
+  return std::ranges::count_if(analysis.remarks,
+                               [code](const Remark& each) { return each.finding && each.finding->code == code; });
+}
+
+// theory, section 9, to 1e-5: held along the normal alone the arm would allow more.
+TEST(MechanismDeviceFile, AnyPassiveUserHoldsTheTipInEveryDirection) {
   const Analysis found = analyze(arm());
+  ASSERT_TRUE(found.any_user);
+  EXPECT_NEAR(found.any_user->stiffness / 278.8459, 1.0, 1e-5);
+  EXPECT_NEAR(found.any_user->frequency / 84.3337, 1.0, 1e-3);
+  EXPECT_FALSE(found.any_user->needs_no_user);
+  EXPECT_EQ(found.limits.any_user.value().critical_stiffness, found.any_user->stiffness);
+  EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_scanned), 1);
+  EXPECT_EQ(absolute_stability_limit(arm()).stiffness, found.any_user->stiffness);
+  EXPECT_NEAR(analyze(arm({"mechanism.normal=[0,1,0]"})).any_user.value().stiffness / 999.6188, 1.0, 1e-5);
+  const Analysis between = analyze(arm({"wall.stiffness=300"}));
+  EXPECT_TRUE(between.wall_stable_for.value().nobody);
+  EXPECT_EQ(between.wall_stable_for->any_user, false);
+  EXPECT_EQ(remarks_of(between, FindingCode::stiffer_than_any_user_limit), 1);
+  EXPECT_EQ(analyze(arm({"wall.stiffness=270"})).wall_stable_for.value().any_user, true);
+}
+
+// Property: the limit for any passive user is one of the device, whoever the file says holds it.
+TEST(MechanismDeviceFile, AnyPassiveUserIsNotTheFiles) {
+  const Analysis found = analyze(arm({"operator.mass=0.3", "operator.damping=5"}));
+  EXPECT_NEAR(found.any_user.value().stiffness / 278.8459, 1.0, 1e-5);
+}
+
+// A normal with a part along which the tip cannot move: the wall knows and pushes that much less of the tip's motion.
+TEST(MechanismDeviceFile, ANormalOutOfThePlaneIsSoftenedByItsShare) {
+  const Analysis found = analyze(arm({"mechanism.normal=[3,0,4]"}));
+  EXPECT_NEAR(found.limits.nobody.critical_stiffness / (318.881897 / 0.36), 1.0, 1e-8);
+  EXPECT_NEAR(found.any_user.value().stiffness / (278.8459 / 0.36), 1.0, 1e-5);
+}
+
+TEST(MechanismDeviceFile, AnyPassiveUserIsLeftOutByCode) {
+  const std::string text = arm_text + "[[wall.filter]]\ntype = \"low_pass\"\nfrequency_hz = 100\n";
+  const auto device = parse_device(text, source);
+  ASSERT_TRUE(device) << device.error().str();
+  const Analysis found = analyze(*device);
   EXPECT_FALSE(found.any_user);
   EXPECT_FALSE(found.limits.any_user);
-  EXPECT_EQ(std::ranges::count_if(found.remarks,
-                                  [](const Remark& each) {
-                                    return each.finding && each.finding->code == FindingCode::any_grasp_not_known;
-                                  }),
-            1);
+  EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_not_known), 1);
 }
 
 TEST(MechanismDeviceFile, ComesAsTextToo) {

@@ -1,0 +1,56 @@
+// The program on a device of a mechanism, against closed-loop eigenvalues (tests/reference/README.md).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using nlohmann::json;
+
+class MechanismOfProgram : public Workspace {
+ protected:
+  [[nodiscard]] json analysed(const json& reference, const std::string& normal) const {
+    const Outcome outcome = run(
+        fmt::format("zwidth analyze devices/mechanisms/planar_arm.toml --json --set mechanism.pose.shoulder={} --set "
+                    "mechanism.pose.elbow={} --set loop.delay={} --set 'mechanism.normal={}'",
+                    reference["pose"][0].dump(), reference["pose"][1].dump(), reference["delay"].dump(), normal));
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return json::parse(outcome.output);
+  }
+};
+
+bool has_finding(const json& document, const std::string& code) {
+  return std::ranges::any_of(document["findings"], [&](const json& each) { return each["code"] == code; });
+}
+
+json references() {
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.json");
+  return json::parse(file);
+}
+
+TEST_F(MechanismOfProgram, LimitsAlongEveryNormalWithNobodyAndWithAnyPassiveUser) {
+  int normals = 0;
+  for (const json& each : references()) {
+    if (each["normal"].is_null()) continue;
+    ++normals;
+    SCOPED_TRACE(each.dump());
+    const json found = analysed(each, fmt::format("[{},{},0]", each["normal"][0].dump(), each["normal"][1].dump()));
+    EXPECT_NEAR(found["critical_stiffness"].get<double>() / each["critical_stiffness"].get<double>(), 1.0, 1e-8);
+    EXPECT_NEAR(
+        found["any_user"]["critical_stiffness"].get<double>() / each["any_user"]["critical_stiffness"].get<double>(),
+        1.0, 1e-5);
+    EXPECT_EQ(found["limits"]["any_user"]["critical_stiffness"], found["any_user"]["critical_stiffness"]);
+    EXPECT_TRUE(has_finding(found, "any_grasp_scanned"));
+  }
+  EXPECT_EQ(normals, 36);
+}
+
+}  // namespace
+}  // namespace zwidth::cli
