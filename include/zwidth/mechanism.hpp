@@ -5,6 +5,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/mechanism_file.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth {
 
@@ -37,7 +38,13 @@ struct MechanismAtPose {
 [[nodiscard]] Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal,
                                   DeviceParameters parameters);
 
-/// The device of `parameters.mechanism`: at_pose(), then device_along(), which throw.
+/// The same in all directions that the tip can move: what device_along() senses and pushes along a normal n is n' S_s, n' S_a.
+///
+/// Throws Error (invalid_argument) where encoders or motors do not determine the tip's motion, or one of them depends on
+/// others. Source: theory, section 9.
+[[nodiscard]] TipMotion tip_motion(const MechanismAtPose& mechanism);
+
+/// The device of `parameters.mechanism`: at_pose(), then device_along(), which throw; of a point wall tip_motion().
 [[nodiscard]] Device device_of_mechanism(DeviceParameters parameters);
 
 }  // namespace zwidth

@@ -1,4 +1,5 @@
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -57,6 +58,23 @@ std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
   return {columns.data(), columns.data() + columns.size()};
 }
 
+Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameters) {
+  Eigen::Index row = 0;
+  if (!(mechanism.tip.rowwise().norm().maxCoeff(&row) > 0.0)) {
+    internal::refuse_mechanism("mechanism.pose", {.code = ProblemCode::tip_stands_still});
+  }
+  const TipMotion motion = tip_motion(mechanism);
+  Coordinates coordinates;
+  coordinates.mass.assign(motion.mass.data(), motion.mass.data() + motion.mass.size());
+  coordinates.elements = mechanism.elements;
+  coordinates.frictions = mechanism.frictions;
+  coordinates.points = {{"tip", weights(mechanism.tip.row(row).transpose())}};
+  coordinates.tip = {row_by_row(motion.tip), row_by_row(motion.sensed), row_by_row(motion.pushed)};
+  parameters.loop.held = parameters.loop.sensed = parameters.loop.actuated = 0;
+  parameters.coordinates = std::move(coordinates);
+  return Device(std::move(parameters));
+}
+
 }  // namespace
 
 Device device_of_mechanism(DeviceParameters parameters) {
@@ -64,7 +82,30 @@ Device device_of_mechanism(DeviceParameters parameters) {
   const MechanismDirection& along = *parameters.mechanism;
   const Eigen::Vector3d normal(along.normal.data());
   const MechanismAtPose at = at_pose(along.mechanism);
+  if (along.is_point) return point_device(at, std::move(parameters));
   return device_along(at, normal, std::move(parameters));
+}
+
+TipMotion tip_motion(const MechanismAtPose& mechanism) {
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+  svd.setThreshold(dependent_below);
+  svd.compute(mechanism.tip, Eigen::ComputeThinU);
+  TipMotion motion{.mass = 0.5 * (mechanism.mass + mechanism.mass.transpose()),
+                   .elements = mechanism.elements,
+                   .sensed = Eigen::MatrixXd::Zero(3, mechanism.tip.cols()),
+                   .pushed = Eigen::MatrixXd::Zero(3, mechanism.tip.cols()),
+                   .tip = mechanism.tip};
+  for (Eigen::Index i = 0; i < svd.rank(); ++i) {
+    const Eigen::Vector3d normal = svd.matrixU().col(i);
+    const Eigen::VectorXd along = mechanism.tip.transpose() * normal;
+    motion.sensed += normal * through_cables(along, mechanism.cables, mechanism.encoders,
+                                             ProblemCode::tip_not_determined_by_encoders, normal)
+                                  .transpose();
+    motion.pushed +=
+        normal * through_cables(along, mechanism.cables, mechanism.motors, ProblemCode::tip_not_moved_by_motors, normal)
+                     .transpose();
+  }
+  return motion;
 }
 
 Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal, DeviceParameters parameters) {

@@ -8,6 +8,7 @@
 #include "counted.hpp"
 #include "model/implausible_numbers.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
+#include "stability/point_wall_analysis.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "stability/users/any_grasp.hpp"
 #include "stability/users/two_rate_users.hpp"
@@ -308,6 +309,7 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
 
 Analysis analyze(const Device& device, const AnalysisOptions& options) {
   require_valid(find_problem(options, device));
+  if (is_point_wall(device)) return point_wall_analysis(device, options);
   ModalForm form = modal_form(device);
   Analysis analysis;
   analysis.remarks = implausible_numbers(device);

@@ -87,6 +87,11 @@ std::span<const Phrase> stability_phrases() {
           "any passive user holds the tip in every direction; his limit is the least at the frequencies looked at, and "
           "not shown to be the least in between",
           ""},
+      Phrase{
+          any_grasp_bounded, "any_grasp_bounded", note,
+          "the limit for any passive user of a wall in every direction lies between two bounds, each the least at the "
+          "frequencies looked at",
+          ""},
       Phrase{too_many_bodies_for_any_user, "too_many_bodies_for_any_user", note,
              "the limit over all passive users is not computed for {bodies:n} bodies; at most {most:n}",
              "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"},

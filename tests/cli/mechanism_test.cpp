@@ -52,5 +52,36 @@ TEST_F(MechanismOfProgram, LimitsAlongEveryNormalWithNobodyAndWithAnyPassiveUser
   EXPECT_EQ(normals, 36);
 }
 
+TEST_F(MechanismOfProgram, APointWallOfEveryPose) {
+  int points = 0;
+  for (const json& each : references()) {
+    if (!each["normal"].is_null()) continue;
+    ++points;
+    SCOPED_TRACE(each.dump());
+    const json found = analysed(each, "\"all\"");
+    EXPECT_EQ(found["schema"], "zwidth.analysis/1");
+    EXPECT_NEAR(found["critical_stiffness"].get<double>() / each["critical_stiffness"].get<double>(), 1.0, 1e-8);
+    EXPECT_GT(found["critical_frequency_rad_s"].get<double>(), 0.0);
+    EXPECT_EQ(found["point_wall"]["direction"].size(), 3U);
+    EXPECT_LE(found["point_wall"]["any_user"]["at_least"], found["point_wall"]["any_user"]["at_most"]);
+    EXPECT_TRUE(found["any_user"].is_null());
+    EXPECT_TRUE(found["limits"]["any_user"].is_null());
+    EXPECT_TRUE(has_finding(found, "any_grasp_bounded"));
+  }
+  EXPECT_EQ(points, 6);
+}
+
+TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysis) {
+  const std::string file = "devices/mechanisms/planar_arm.toml --set mechanism.normal=all";
+  for (const char* command : {"region", "bode", "design", "simulate", "export --format json"}) {
+    SCOPED_TRACE(command);
+    expect_refusal(fmt::format("zwidth {} {}", command, file), "mechanism.normal");
+  }
+  const Outcome text = run("zwidth analyze " + file);
+  EXPECT_EQ(text.status, 0) << text.errors;
+  EXPECT_NE(text.output.find("at least"), std::string::npos);
+  expect_refusal(fmt::format("zwidth analyze {} --report page.html", file), "--report");
+}
+
 }  // namespace
 }  // namespace zwidth::cli

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "zwidth/design/region.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/mechanism.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -113,6 +115,36 @@ TEST(MechanismDeviceFile, AnyPassiveUserIsLeftOutByCode) {
   EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_not_known), 1);
 }
 
+// theory, section 9: closed-loop eigenvalues.
+TEST(MechanismDeviceFile, APointWallIsAnsweredByAnalyzeAlone) {
+  const Device device = arm({"mechanism.normal=\"all\"", "wall.stiffness=200"});
+  const Analysis found = analyze(device);
+  EXPECT_EQ(found.critical.status, StiffnessStatus::finite);
+  EXPECT_NEAR(found.critical.stiffness / 255.98844746532407, 1.0, 1e-8);
+  EXPECT_EQ(found.limits.nobody.critical_stiffness, found.critical.stiffness);
+  ASSERT_TRUE(found.point_wall);
+  EXPECT_NEAR(found.point_wall->direction.norm(), 1.0, 1e-12);
+  EXPECT_EQ(found.point_wall->direction.z(), 0.0);
+  ASSERT_TRUE(found.point_wall->any_user);
+  EXPECT_LE(found.point_wall->any_user->at_least, found.point_wall->any_user->at_most);
+  EXPECT_LE(found.point_wall->any_user->at_most, found.critical.stiffness);
+  EXPECT_GT(found.point_wall->any_user->at_least, 0.0);
+  EXPECT_FALSE(found.limits.any_user);
+  EXPECT_FALSE(found.any_user);
+  EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_bounded), 1);
+  ASSERT_TRUE(found.wall);
+  EXPECT_TRUE(found.wall->stable);
+  EXPECT_NEAR(found.wall->stiffness_margin.value() / (255.98844746532407 / 200.0), 1.0, 1e-8);
+  EXPECT_FALSE(analyze(arm({"mechanism.normal=\"all\"", "wall.stiffness=257"})).wall_stable_for.value().nobody);
+  const auto again = parse_device(write_device(device.parameters()), source);
+  ASSERT_TRUE(again) << again.error().str();
+  EXPECT_TRUE(is_point_wall(*again));
+  EXPECT_EQ(write_device(again->parameters()), write_device(device.parameters()));
+  EXPECT_THROW((void)critical_stiffness(device), Error);
+  EXPECT_THROW((void)absolute_stability_limit(device), Error);
+  EXPECT_THROW((void)region(device), Error);
+}
+
 TEST(MechanismDeviceFile, ComesAsTextToo) {
   const std::string xml = contents(ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.xml");
   const std::string text = replaced(arm_text, "file = \"planar_arm.xml\"", "text = '''\n" + xml + "'''");
@@ -176,7 +208,6 @@ TEST(MechanismDeviceFile, RefusesWithPlaceAndCode) {
       {"[1, 0, 0]", "[1, 0]", normal_not_three_numbers, "mechanism.normal", 5},
       {"[1, 0, 0]", "[0, 0, 0]", no_direction, "mechanism.normal", 5},
       {"[1, 0, 0]", "[0, 0, 1]", tip_does_not_move, "mechanism.normal", 5},
-      {"[1, 0, 0]", "\"all\"", point_wall_not_known, "mechanism.normal", 5},
       {"[loop]", "[loop]\nheld = \"tip\"", beside_mechanism, "loop.held", 7},
       {"[mechanism]", "motion = \"rotary\"\n[mechanism]", mechanism_of_rotary_motion, "motion", 1},
       {"tip = \"tip\"", "tips = \"tip\"", unknown_key, "mechanism.tips", 3},
