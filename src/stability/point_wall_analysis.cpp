@@ -53,8 +53,8 @@ void judge_point_wall(const TipMotion& motion, const DeviceParameters& loop, con
 void add_any_grasp(const TipMotion& motion, const DeviceParameters& alone, Analysis& analysis) {
   PointGraspLimit& bounds = analysis.point_wall->any_user.emplace(any_grasp_limit_of_point(motion, alone));
   const double nobody = analysis.limits.nobody.critical_stiffness;
-  bounds.at_least = std::min(bounds.at_least, nobody);
   bounds.at_most = std::min(bounds.at_most, nobody);
+  bounds.at_least = std::min(bounds.at_least, bounds.at_most);
   analysis.remarks.push_back(note({.code = FindingCode::any_grasp_bounded}));
   if (!analysis.wall) return;
   StableFor& holders = *analysis.wall_stable_for;

@@ -124,7 +124,7 @@ TEST(MechanismDeviceFile, APointWallIsAnsweredByAnalyzeAlone) {
   EXPECT_EQ(found.limits.nobody.critical_stiffness, found.critical.stiffness);
   ASSERT_TRUE(found.point_wall);
   EXPECT_NEAR(found.point_wall->direction.norm(), 1.0, 1e-12);
-  EXPECT_EQ(found.point_wall->direction.z(), 0.0);
+  EXPECT_NEAR(found.point_wall->direction.z(), 0.0, 1e-12);
   ASSERT_TRUE(found.point_wall->any_user);
   EXPECT_LE(found.point_wall->any_user->at_least, found.point_wall->any_user->at_most);
   EXPECT_LE(found.point_wall->any_user->at_most, found.critical.stiffness);
