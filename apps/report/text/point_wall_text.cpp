@@ -18,7 +18,7 @@ std::string limit_of_point(const HolderLimit& limit, std::string_view unit) {
                      quantity(hertz(*limit.frequency), "Hz"));
 }
 
-std::string bound_text(double stiffness, std::string_view unit) {
+std::string bound_of_point(double stiffness, std::string_view unit) {
   return stiffness > 1e300 ? "unbounded" : quantity(stiffness, unit);
 }
 
@@ -37,8 +37,8 @@ std::string point_wall_text(const AnalysedDevice& analysed) {
   add(Holder::nobody, limit_of_point(analysis.limits.nobody, unit));
   if (analysis.limits.user) add(Holder::user, limit_of_point(*analysis.limits.user, unit));
   if (point.any_user) {
-    add(Holder::any_user, fmt::format("at least {}, at most {}", bound_text(point.any_user->at_least, unit),
-                                      bound_text(point.any_user->at_most, unit)));
+    add(Holder::any_user, fmt::format("at least {}, at most {}", bound_of_point(point.any_user->at_least, unit),
+                                      bound_of_point(point.any_user->at_most, unit)));
   }
   if (analysis.critical.status == StiffnessStatus::finite) {
     const Eigen::Vector3d& along = point.direction;
