@@ -19,6 +19,7 @@ set(slow
   "^EncoderRounding\\.IsTaken"
   "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
+  "^MechanismOfProgram\\."
   # the library
   "^SimulatedWall\\."
   "^PointWall\\.(PlanarArm|IsThat)"

@@ -179,6 +179,10 @@ void run_analyze(const AnalyzeOptions& options) {
   outputs.keep(options.devices.files, "device file");
   const std::vector<report::AnalysedDevice> analysed = analysed_devices(options);
   if (options.require_stable) check_walls(options, analysed);
+  for (const report::AnalysedDevice& each : analysed) {
+    if (options.report.empty() || !each.analysis.point_wall) continue;
+    throw BadInput("--report", "a wall in every direction has no page", "leave it out, or give one normal");
+  }
   outputs.put("--report", [&] { return report::html_report(analysed); });
   outputs.commit();
   if (options.output.json) {

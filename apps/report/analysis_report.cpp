@@ -17,6 +17,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/limit_rows.hpp"
 #include "report/text/markup.hpp"
+#include "report/text/point_wall_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
@@ -180,12 +181,12 @@ TextTable parameters(const AnalysedDevice& analysed) {
     table.rows.push_back(
         {"denominator", fmt::format("{:.9g}", fmt::join(device.transfer_function->denominator, ", "))});
   } else if (device.mechanism) {
-    const auto& [mechanism, normal] = *device.mechanism;
+    const auto& [mechanism, normal, is_point] = *device.mechanism;
     table.rows.push_back({"tip of the mechanism", mechanism.tip});
     for (const auto& [joint, position] : mechanism.pose) {
       table.rows.push_back({joint + ": position", fmt::format("{:.9g}", position)});
     }
-    table.rows.push_back({"normal of the wall", fmt::format("{:.9g}", fmt::join(normal, ", "))});
+    table.rows.push_back({"normal of the wall", is_point ? "all" : fmt::format("{:.9g}", fmt::join(normal, ", "))});
   } else if (!device.bodies.empty()) {
     table.rows.push_back({"actuated, sensed, held",
                           fmt::format("{}, {}, {}", device.bodies[device.loop.actuated].name,
@@ -284,7 +285,16 @@ std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medi
 
 }  // namespace
 
-std::string analysis_text(std::span<const AnalysedDevice> devices) { return analysis_report(devices, Medium::text); }
+std::string analysis_text(std::span<const AnalysedDevice> devices) {
+  const auto is_point = [](const AnalysedDevice& each) { return each.analysis.point_wall.has_value(); };
+  if (std::ranges::none_of(devices, is_point)) return analysis_report(devices, Medium::text);
+  std::string text;
+  for (const AnalysedDevice& each : devices) {
+    if (!text.empty()) text += "\n";
+    text += is_point(each) ? point_wall_text(each) : analysis_report({&each, 1}, Medium::text);
+  }
+  return text;
+}
 
 std::string html_report(std::span<const AnalysedDevice> devices) {
   const std::string title = devices.size() == 1 ? display_name(devices.front().device)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "results/force_per_count_json.hpp"
 #include "results/stability_json.hpp"
@@ -104,6 +105,22 @@ Json walls_json(const std::optional<WallSummary>& walls) {
           {"why_no_margins", text_or_null(text(walls->why_no_margins))}};
 }
 
+/// What a wall in every direction has instead of crossovers and a mode.
+void add_point_wall(Json& json, const Analysis& analysis) {
+  const PointWallAnswer& point = *analysis.point_wall;
+  std::optional<double> frequency;
+  Json direction = nullptr;
+  if (analysis.critical.status == StiffnessStatus::finite) {
+    frequency = point.frequency;
+    direction = Json::array({point.direction.x(), point.direction.y(), point.direction.z()});
+  }
+  json["critical_frequency_rad_s"] = frequency;
+  json["critical_frequency_hz"] = hertz(frequency);
+  Json any_user = nullptr;
+  if (point.any_user) any_user = {{"at_least", point.any_user->at_least}, {"at_most", point.any_user->at_most}};
+  json["point_wall"] = {{"direction", std::move(direction)}, {"any_user", std::move(any_user)}};
+}
+
 std::optional<std::string> uncertainty_warning(const DeviceParameters& device) {
   if (!device.uncertainty || device.uncertainty->warning.empty()) return std::nullopt;
   return device.uncertainty->warning;
@@ -137,6 +154,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis, const std::
   json["other_mechanism_share"] = analysis.interval ? Json(analysis.interval->other_mechanism) : Json(nullptr);
   json["uncertainty_warning"] = uncertainty_warning(device);
   json["assumed"] = device.uncertainty ? device.uncertainty->assumed : std::vector<std::string>{};
+  if (analysis.point_wall) add_point_wall(json, analysis);
   add_findings(json, analysis);
   return json;
 }

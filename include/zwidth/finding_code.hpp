@@ -40,7 +40,9 @@ enum class FindingCode : std::uint16_t {
   unstable_with_nobody,          ///< the file's user alone keeps the wall stable
   stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
   damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
-  any_grasp_not_known,           ///< the limit over all passive users of a mechanism is not computed
+  any_grasp_not_known,           ///< the limit over all passive grasps of a mechanism's tip is not computed
+  any_grasp_scanned,             ///< the least over frequency, of a scan, with any passive grasp of a mechanism's tip
+  any_grasp_bounded,             ///< of a point wall that limit lies between two bounds, of a scan
   too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
   any_user_limit_scanned,        ///< the limit over all passive users is the least of a scan, not shown to be the least
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed

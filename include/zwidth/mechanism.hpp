@@ -38,15 +38,13 @@ struct MechanismAtPose {
 [[nodiscard]] Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal,
                                   DeviceParameters parameters);
 
-/// The tip in all directions at once, for point walls and for grasps in 3-D; each axis of the world as device_along() has it.
+/// The same in all directions that the tip can move: what device_along() senses and pushes along a normal n is n' S_s, n' S_a.
 ///
-///     S_s = J N_e A_e,   S_a = J N_m A_m,   [T; A] N = [0; 1]
-///
-/// A row of an axis along which the tip cannot move is 0. Throws Error (invalid_argument) as device_along() for the others.
-/// Source: theory, section 9.
+/// Throws Error (invalid_argument) where encoders or motors do not determine the tip's motion, or one of them depends on
+/// others. Source: theory, section 9.
 [[nodiscard]] TipMotion tip_motion(const MechanismAtPose& mechanism);
 
-/// The device of `parameters.mechanism`: at_pose(), then device_along(), which throw.
+/// The device of `parameters.mechanism`: at_pose(), then device_along(), which throw; of a point wall tip_motion().
 [[nodiscard]] Device device_of_mechanism(DeviceParameters parameters);
 
 }  // namespace zwidth

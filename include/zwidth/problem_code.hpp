@@ -339,7 +339,7 @@ enum class ProblemCode : std::uint16_t {
   mechanism_of_rotary_motion,      ///< a mechanism's wall is linear
   without_mechanism,               ///< a transmission without a mechanism
   normal_not_three_numbers,        ///< a normal is not of three numbers
-  point_wall_not_known,            ///< a wall in every direction is not computed
+  point_wall_not_known,            ///< a computation that knows a wall of one direction alone
   unit_of_other_joint,             ///< a joint's position has the unit of the other kind of joint
   file_beside_text,                ///< a mechanism's file where a device came as text
   mechanism_too_large,             ///< a mechanism's text is too long, too deep or of too many elements

@@ -105,7 +105,8 @@ class DeviceReader {
     const toml::table* table = root_.table(DeviceTable::mechanism);
     if (!table) return;
     TableReader reader = table_reader(DeviceTable::mechanism, *table);
-    auto& [mechanism, normal] = device_.mechanism.emplace();
+    MechanismDirection& direction = device_.mechanism.emplace();
+    MechanismFile& mechanism = direction.mechanism;
     read_members(reader, DeviceTable::mechanism, mechanism);
     mechanism.text = reader.lines("text").value_or("");
     if (!reader.has("file") && !reader.has("text")) reader.refuse_missing("file", {"text"});
@@ -116,7 +117,8 @@ class DeviceReader {
       mechanism.path = std::filesystem::absolute(folder / mechanism.path).lexically_normal().string();
     }
     if (reader.has("encoders")) mechanism.encoders = reader.required_texts("encoders", {"texts"});
-    read_normal(reader, normal);
+    direction.is_point = reader.is_text("normal") && reader.text("normal") == "all";
+    if (!direction.is_point) read_normal(reader, direction.normal);
     read_pose(reader, mechanism);
     for (const std::string_view key : {"body", "link"}) {
       if (root_.has(key)) root_.refuse(key, {.code = ProblemCode::beside_mechanism});
@@ -124,10 +126,6 @@ class DeviceReader {
   }
 
   static void read_normal(TableReader& mechanism, std::array<double, 3>& normal) {
-    if (mechanism.is_text("normal") && mechanism.text("normal") == "all") {
-      mechanism.refuse("normal", {.code = ProblemCode::point_wall_not_known});
-      return;
-    }
     const std::vector<double> numbers = mechanism.required_numbers("normal");
     if (numbers.size() == normal.size()) {
       std::ranges::copy(numbers, normal.begin());

@@ -110,12 +110,12 @@ void write_bodies(const DeviceParameters& device, Writer& out) {
 
 void write_mechanism(const DeviceParameters& device, Writer& out) {
   if (!device.mechanism) return;
-  const auto& [mechanism, normal] = *device.mechanism;
+  const auto& [mechanism, normal, is_point] = *device.mechanism;
   out.header(DeviceTable::mechanism);
   out.value(mechanism.path.empty() ? "text" : "file", text_value(mechanism.path + mechanism.text));
   out.value("tip", text_value(mechanism.tip));
   if (!mechanism.encoders.empty()) out.value("encoders", text_array_value(mechanism.encoders));
-  out.value("normal", array_value({normal.begin(), normal.end()}));
+  out.value("normal", is_point ? text_value("all") : array_value({normal.begin(), normal.end()}));
   if (!mechanism.pose.empty()) out.header(DeviceTable::mechanism_pose);
   for (const auto& [joint, position] : mechanism.pose) out.value(text_value(joint), number_value(position));
   for (const Transmission& each : mechanism.transmissions) {

@@ -1,4 +1,5 @@
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -52,6 +53,28 @@ std::size_t point(std::vector<Coordinates::Point>& points, const char* name, con
   return points.size() - 1;
 }
 
+std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd columns = matrix.transpose();
+  return {columns.data(), columns.data() + columns.size()};
+}
+
+Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameters) {
+  Eigen::Index row = 0;
+  if (!(mechanism.tip.rowwise().norm().maxCoeff(&row) > 0.0)) {
+    internal::refuse_mechanism("mechanism.pose", {.code = ProblemCode::tip_stands_still});
+  }
+  const TipMotion motion = tip_motion(mechanism);
+  Coordinates coordinates;
+  coordinates.mass.assign(motion.mass.data(), motion.mass.data() + motion.mass.size());
+  coordinates.elements = mechanism.elements;
+  coordinates.frictions = mechanism.frictions;
+  coordinates.points = {{"tip", weights(mechanism.tip.row(row).transpose())}};
+  coordinates.tip = {row_by_row(motion.tip), row_by_row(motion.sensed), row_by_row(motion.pushed)};
+  parameters.loop.held = parameters.loop.sensed = parameters.loop.actuated = 0;
+  parameters.coordinates = std::move(coordinates);
+  return Device(std::move(parameters));
+}
+
 }  // namespace
 
 Device device_of_mechanism(DeviceParameters parameters) {
@@ -59,7 +82,30 @@ Device device_of_mechanism(DeviceParameters parameters) {
   const MechanismDirection& along = *parameters.mechanism;
   const Eigen::Vector3d normal(along.normal.data());
   const MechanismAtPose at = at_pose(along.mechanism);
+  if (along.is_point) return point_device(at, std::move(parameters));
   return device_along(at, normal, std::move(parameters));
+}
+
+TipMotion tip_motion(const MechanismAtPose& mechanism) {
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+  svd.setThreshold(dependent_below);
+  svd.compute(mechanism.tip, Eigen::ComputeThinU);
+  TipMotion motion{.mass = 0.5 * (mechanism.mass + mechanism.mass.transpose()),
+                   .elements = mechanism.elements,
+                   .sensed = Eigen::MatrixXd::Zero(3, mechanism.tip.cols()),
+                   .pushed = Eigen::MatrixXd::Zero(3, mechanism.tip.cols()),
+                   .tip = mechanism.tip};
+  for (Eigen::Index i = 0; i < svd.rank(); ++i) {
+    const Eigen::Vector3d normal = svd.matrixU().col(i);
+    const Eigen::VectorXd along = mechanism.tip.transpose() * normal;
+    motion.sensed += normal * through_cables(along, mechanism.cables, mechanism.encoders,
+                                             ProblemCode::tip_not_determined_by_encoders, normal)
+                                  .transpose();
+    motion.pushed +=
+        normal * through_cables(along, mechanism.cables, mechanism.motors, ProblemCode::tip_not_moved_by_motors, normal)
+                     .transpose();
+  }
+  return motion;
 }
 
 Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal, DeviceParameters parameters) {
@@ -78,6 +124,13 @@ Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& nor
   parameters.loop.held = point(coordinates.points, "tip", along);
   parameters.loop.sensed = point(coordinates.points, "encoders", sensed);
   parameters.loop.actuated = point(coordinates.points, "motors", actuated);
+  // Along n where that is no direction in which the tip can move: of its part p that is, p c'/(p p') senses along n as c.
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> moves;
+  moves.setThreshold(dependent_below);
+  moves.compute(mechanism.tip.transpose());
+  const Eigen::Vector3d part = moves.solve(along);
+  coordinates.tip = {row_by_row(mechanism.tip), row_by_row(part * sensed.transpose() / part.squaredNorm()),
+                     row_by_row(part * actuated.transpose() / part.squaredNorm())};
   parameters.bodies.clear();
   parameters.links.clear();
   parameters.coordinates = std::move(coordinates);

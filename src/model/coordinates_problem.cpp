@@ -73,6 +73,11 @@ std::optional<DeviceProblem> find_coordinates_problem(const DeviceParameters& pa
     if (not_negative_numbers.contains(force) && force > 0.0) continue;
     return device_problem(key, {.code = ProblemCode::no_finite_number, .evidence = {{"value", force}}});
   }
+  if (of.tip) {
+    for (const std::vector<double>* rows : {&of.tip->moved, &of.tip->sensed, &of.tip->pushed}) {
+      if (!are_weights(*rows, 3 * n)) return refused("coordinates.tip", ProblemCode::weights_not_one_a_coordinate);
+    }
+  }
   if (!is_mass_matrix(of.mass, n)) return refused("coordinates.mass", ProblemCode::no_mass_matrix);
   return std::nullopt;
 }

@@ -292,7 +292,7 @@ void check_driver(const DeviceParameters& parameters, Checks& checks) {
 }
 
 void check_mechanism(const DeviceParameters& parameters, Checks& checks) {
-  const auto& [file, normal] = *parameters.mechanism;
+  const auto& [file, normal, is_point] = *parameters.mechanism;
   if (parameters.transfer_function || !parameters.bodies.empty() || !parameters.links.empty()) {
     checks.refuse("mechanism", {.code = ProblemCode::beside_mechanism});
   }
@@ -304,7 +304,7 @@ void check_mechanism(const DeviceParameters& parameters, Checks& checks) {
   }
   checks.name("mechanism.tip", file.tip);
   const bool is_finite = std::ranges::all_of(normal, [](double value) { return std::isfinite(value); });
-  if (!is_finite || std::ranges::all_of(normal, [](double value) { return value == 0.0; })) {
+  if (!is_point && (!is_finite || std::ranges::all_of(normal, [](double value) { return value == 0.0; }))) {
     checks.refuse("mechanism.normal", {.code = ProblemCode::no_direction,
                                        .evidence = {{"x", normal[0]}, {"y", normal[1]}, {"z", normal[2]}}});
   }

@@ -86,7 +86,7 @@ constexpr auto made_rows() {
         "Where the wall is touched and the user holds."},
        &MechanismFile::tip},
       {{mechanism, "encoders", texts, none, none, "the joints that motors drive", "joints", "Joints that are read."}},
-      {{mechanism, "normal", numbers, none, none, needed_key, "three numbers, not all 0",
+      {{mechanism, "normal", numbers, none, none, needed_key, "three numbers, not all 0, or \"all\"",
         "Normal of the wall in the world's frame."}},
 
       {{transmission, "joint", text, none, none, needed_key, "a joint of the mechanism", "Joint that the motor drives."}},

@@ -1,5 +1,7 @@
 #include "model/device_lengths.hpp"
 
+#include "zwidth/error.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -15,6 +17,8 @@ Weights without_zeros(const std::vector<double>& weights) {
 
 Weights weights_of(const Device& device, std::size_t point) {
   if (device.has_bodies()) return {{point, 1.0}};
+  // Its points are no answer: a loop of one direction would be computed from them.
+  if (is_point_wall(device)) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::point_wall_not_known});
   return without_zeros(device.parameters().coordinates->points[point].weights);
 }
 

@@ -8,7 +8,9 @@
 #include "counted.hpp"
 #include "model/implausible_numbers.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
+#include "stability/point_wall_analysis.hpp"
 #include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
@@ -199,6 +201,21 @@ void answer_beside_damper_loop(const Device& device, const AnalysisOptions& opti
   if (of_damper.damping > 0.0 && std::isfinite(of_damper.damping)) limit.damping_frequency = of_damper.frequency;
 }
 
+/// The same of a mechanism, whose tip is grasped in any direction; of the stiffness.
+void answer_any_grasp(const Device& device, Analysis& analysis) {
+  const CriticalStiffness& nobody = analysis.alone ? analysis.alone->critical : analysis.critical;
+  analysis.any_user = any_grasp_absolute_stability(device, virtual_damper(device), nobody);
+  if (!analysis.any_user) return analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+  analysis.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
+  analysis.any_user->trust.inherit(analysis.trust);
+  analysis.trust.inherit(analysis.any_user->trust);
+  HolderLimit& limit = analysis.limits.any_user.emplace();
+  limit.critical_stiffness = analysis.any_user->stiffness;
+  if (limit.critical_stiffness > 0.0 && std::isfinite(limit.critical_stiffness)) {
+    limit.frequency = analysis.any_user->frequency;
+  }
+}
+
 /// The limit over all passive users, of the stiffness and of the damper alone.
 void answer_absolute_stability(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                                Analysis& analysis) {
@@ -210,6 +227,7 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
   }
   // That limit rests on the critical stiffness of the device that nobody holds.
   if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
+  if (device.parameters().mechanism) return answer_any_grasp(device, analysis);
   if (has_damper_loop(device.loop())) return answer_beside_damper_loop(device, options, stages, analysis);
   const VirtualDamper damper = virtual_damper(device);
   AbsoluteStabilitySearch search(device, stages.stage());
@@ -238,11 +256,7 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
 /// The users: what is asked for and can be answered.
 void answer_about_users(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                         Analysis& analysis) {
-  const bool is_mechanism = device.parameters().mechanism.has_value();
-  if (options.any_user && is_mechanism) analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
-  if (options.any_user && device.is_mechanical() && !is_mechanism) {
-    answer_absolute_stability(device, options, stages, analysis);
-  }
+  if (options.any_user && device.is_mechanical()) answer_absolute_stability(device, options, stages, analysis);
   judge_absolute_stability(analysis);
   if (!options.family) return;
   stages.next(1.0);
@@ -295,6 +309,7 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
 
 Analysis analyze(const Device& device, const AnalysisOptions& options) {
   require_valid(find_problem(options, device));
+  if (is_point_wall(device)) return point_wall_analysis(device, options);
   ModalForm form = modal_form(device);
   Analysis analysis;
   analysis.remarks = implausible_numbers(device);

@@ -24,10 +24,11 @@ std::span<const Phrase> stability_phrases() {
              "nothing confirms the answer at {stiffness:.6g}, so it may be wrong: the loop has too many states for a "
              "second computation, or a pole too near the unit circle",
              "", "shorten the delay or merge bodies that hardly move against each other"},
-      Phrase{poles_along_circle, "poles_along_circle", refusal,
-             "which wall in several directions is the softest unstable one is open, so no limit is given: some motion is "
-             "hardly damped, and its poles run along the unit circle",
-             "", "give joints and cables the damping that they have"},
+      Phrase{
+          poles_along_circle, "poles_along_circle", refusal,
+          "which wall in several directions is the softest unstable one is open, so no limit is given: some motion is "
+          "hardly damped, and its poles run along the unit circle",
+          "", "give joints and cables the damping that they have"},
       Phrase{touch_without_pole, "touch_without_pole", doubt,
              "the limit of {limit:.6g} may be too low: a pole is to touch the unit circle there, and none does by a "
              "second computation",
@@ -77,9 +78,20 @@ std::span<const Phrase> stability_phrases() {
       Phrase{damper_above_any_user_limit, "damper_above_any_user_limit", warning,
              "the wall has more damping than the limit with any passive user",
              "stable alone only: some user's grasp makes it oscillate", "stay below that limit"},
-      Phrase{any_grasp_not_known, "any_grasp_not_known", note,
-             "the limit over all passive users of a mechanism is not computed: they hold its tip in every direction",
-             ""},
+      Phrase{
+          any_grasp_not_known, "any_grasp_not_known", note,
+          "the limit over all passive users of a mechanism, who hold its tip in every direction, is not computed here",
+          ""},
+      Phrase{
+          any_grasp_scanned, "any_grasp_scanned", note,
+          "any passive user holds the tip in every direction; his limit is the least at the frequencies looked at, and "
+          "not shown to be the least in between",
+          ""},
+      Phrase{
+          any_grasp_bounded, "any_grasp_bounded", note,
+          "the limit for any passive user of a wall in every direction lies between two bounds, each the least at the "
+          "frequencies looked at",
+          ""},
       Phrase{too_many_bodies_for_any_user, "too_many_bodies_for_any_user", note,
              "the limit over all passive users is not computed for {bodies:n} bodies; at most {most:n}",
              "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"},

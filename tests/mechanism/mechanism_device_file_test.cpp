@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "zwidth/design/region.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/mechanism.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -67,15 +69,80 @@ TEST(MechanismDeviceFile, IsTheDeviceAlongTheNormal) {
   EXPECT_NEAR(in_degrees.parameters().mechanism->mechanism.pose.at("elbow"), 0.4, 1e-15);
 }
 
-TEST(MechanismDeviceFile, AnyPassiveUserIsLeftOutByCode) {
+std::ptrdiff_t remarks_of(const Analysis& analysis, FindingCode code) {
+  return std::ranges::count_if(analysis.remarks,
+                               [code](const Remark& each) { return each.finding && each.finding->code == code; });
+}
+
+// theory, section 9, to 1e-5: held along the normal alone the arm would allow more.
+TEST(MechanismDeviceFile, AnyPassiveUserHoldsTheTipInEveryDirection) {
   const Analysis found = analyze(arm());
+  ASSERT_TRUE(found.any_user);
+  EXPECT_NEAR(found.any_user->stiffness / 278.8459, 1.0, 1e-5);
+  EXPECT_NEAR(found.any_user->frequency / 84.3337, 1.0, 1e-3);
+  EXPECT_FALSE(found.any_user->needs_no_user);
+  EXPECT_EQ(found.limits.any_user.value().critical_stiffness, found.any_user->stiffness);
+  EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_scanned), 1);
+  EXPECT_EQ(absolute_stability_limit(arm()).stiffness, found.any_user->stiffness);
+  EXPECT_NEAR(analyze(arm({"mechanism.normal=[0,1,0]"})).any_user.value().stiffness / 999.6188, 1.0, 1e-5);
+  const Analysis between = analyze(arm({"wall.stiffness=300"}));
+  EXPECT_TRUE(between.wall_stable_for.value().nobody);
+  EXPECT_EQ(between.wall_stable_for->any_user, false);
+  EXPECT_EQ(remarks_of(between, FindingCode::stiffer_than_any_user_limit), 1);
+  EXPECT_EQ(analyze(arm({"wall.stiffness=270"})).wall_stable_for.value().any_user, true);
+}
+
+// Property: the limit for any passive user is one of the device, whoever the file says holds it.
+TEST(MechanismDeviceFile, AnyPassiveUserIsNotTheFiles) {
+  const Analysis found = analyze(arm({"operator.mass=0.3", "operator.damping=5"}));
+  EXPECT_NEAR(found.any_user.value().stiffness / 278.8459, 1.0, 1e-5);
+}
+
+// A normal with a part along which the tip cannot move: the wall knows and pushes that much less of the tip's motion.
+TEST(MechanismDeviceFile, ANormalOutOfThePlaneIsSoftenedByItsShare) {
+  const Analysis found = analyze(arm({"mechanism.normal=[3,0,4]"}));
+  EXPECT_NEAR(found.limits.nobody.critical_stiffness / (318.881897 / 0.36), 1.0, 1e-8);
+  EXPECT_NEAR(found.any_user.value().stiffness / (278.8459 / 0.36), 1.0, 1e-5);
+}
+
+TEST(MechanismDeviceFile, AnyPassiveUserIsLeftOutByCode) {
+  const std::string text = arm_text + "[[wall.filter]]\ntype = \"low_pass\"\nfrequency_hz = 100\n";
+  const auto device = parse_device(text, source);
+  ASSERT_TRUE(device) << device.error().str();
+  const Analysis found = analyze(*device);
   EXPECT_FALSE(found.any_user);
   EXPECT_FALSE(found.limits.any_user);
-  EXPECT_EQ(std::ranges::count_if(found.remarks,
-                                  [](const Remark& each) {
-                                    return each.finding && each.finding->code == FindingCode::any_grasp_not_known;
-                                  }),
-            1);
+  EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_not_known), 1);
+}
+
+// theory, section 9: closed-loop eigenvalues.
+TEST(MechanismDeviceFile, APointWallIsAnsweredByAnalyzeAlone) {
+  const Device device = arm({"mechanism.normal=\"all\"", "wall.stiffness=200"});
+  const Analysis found = analyze(device);
+  EXPECT_EQ(found.critical.status, StiffnessStatus::finite);
+  EXPECT_NEAR(found.critical.stiffness / 255.98844746532407, 1.0, 1e-8);
+  EXPECT_EQ(found.limits.nobody.critical_stiffness, found.critical.stiffness);
+  ASSERT_TRUE(found.point_wall);
+  EXPECT_NEAR(found.point_wall->direction.norm(), 1.0, 1e-12);
+  EXPECT_NEAR(found.point_wall->direction.z(), 0.0, 1e-12);
+  ASSERT_TRUE(found.point_wall->any_user);
+  EXPECT_LE(found.point_wall->any_user->at_least, found.point_wall->any_user->at_most);
+  EXPECT_LE(found.point_wall->any_user->at_most, found.critical.stiffness);
+  EXPECT_GT(found.point_wall->any_user->at_least, 0.0);
+  EXPECT_FALSE(found.limits.any_user);
+  EXPECT_FALSE(found.any_user);
+  EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_bounded), 1);
+  ASSERT_TRUE(found.wall);
+  EXPECT_TRUE(found.wall->stable);
+  EXPECT_NEAR(found.wall->stiffness_margin.value() / (255.98844746532407 / 200.0), 1.0, 1e-8);
+  EXPECT_FALSE(analyze(arm({"mechanism.normal=\"all\"", "wall.stiffness=257"})).wall_stable_for.value().nobody);
+  const auto again = parse_device(write_device(device.parameters()), source);
+  ASSERT_TRUE(again) << again.error().str();
+  EXPECT_TRUE(is_point_wall(*again));
+  EXPECT_EQ(write_device(again->parameters()), write_device(device.parameters()));
+  EXPECT_THROW((void)critical_stiffness(device), Error);
+  EXPECT_THROW((void)absolute_stability_limit(device), Error);
+  EXPECT_THROW((void)region(device), Error);
 }
 
 TEST(MechanismDeviceFile, ComesAsTextToo) {
@@ -141,7 +208,6 @@ TEST(MechanismDeviceFile, RefusesWithPlaceAndCode) {
       {"[1, 0, 0]", "[1, 0]", normal_not_three_numbers, "mechanism.normal", 5},
       {"[1, 0, 0]", "[0, 0, 0]", no_direction, "mechanism.normal", 5},
       {"[1, 0, 0]", "[0, 0, 1]", tip_does_not_move, "mechanism.normal", 5},
-      {"[1, 0, 0]", "\"all\"", point_wall_not_known, "mechanism.normal", 5},
       {"[loop]", "[loop]\nheld = \"tip\"", beside_mechanism, "loop.held", 7},
       {"[mechanism]", "motion = \"rotary\"\n[mechanism]", mechanism_of_rotary_motion, "motion", 1},
       {"tip = \"tip\"", "tips = \"tip\"", unknown_key, "mechanism.tips", 3},

@@ -365,12 +365,12 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
   const User& user = device.user;
   const bool has_limit = analysed.analysis.any_user && analysed.analysis.any_user->stiffness > 0.0 &&
                          std::isfinite(analysed.analysis.any_user->stiffness);
-  const std::string held = device.bodies.empty() ? "" : device.bodies[device.loop.held].name;
+  const std::string held = device.bodies.empty() ? "the tip" : device.bodies[device.loop.held].name;
   if (user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0) {
     texts.push_back(fmt::format("The file's user holds {}: {} {}, {} {}, {}. Another grasp gives another answer.", held,
                                 number(user.mass), units.mass, number(user.damping), units.damping,
                                 quantity(user.stiffness, units.stiffness)));
-  } else if (device.bodies.empty()) {
+  } else if (device.transfer_function) {
     texts.emplace_back("The transfer function is taken as it is: a user who is not in it is left out.");
   } else if (device.bodies.size() == 1) {
     texts.emplace_back(std::string("Nobody holds the device for the critical stiffness.") +

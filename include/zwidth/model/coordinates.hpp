@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,17 @@ struct Coordinates {
     std::string name;             ///< for people
     std::vector<double> weights;  ///< n, not all 0
   };
+  /// How the tip of a mechanism moves, in the world's frame: 3 x n each, row by row.
+  struct Tip {
+    std::vector<double> moved;   ///< J
+    std::vector<double> sensed;  ///< as the controller knows it, in the directions in which the wall acts; else 0
+    std::vector<double> pushed;  ///< as the controller pushes it, likewise
+  };
   std::vector<double> mass;              ///< n x n, row by row; symmetric and positive definite
   std::vector<Element> elements;         ///< all that is stiff or damped
   std::vector<Point> points;             ///< what the loop can name
   std::vector<Friction> frictions = {};  ///< all that rubs
+  std::optional<Tip> tip = {};           ///< of a mechanism, whose user holds it in every direction
   /// n
   [[nodiscard]] std::size_t size() const noexcept { return points.empty() ? 0 : points.front().weights.size(); }
 };

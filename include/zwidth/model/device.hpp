@@ -172,6 +172,12 @@ class Device {
   DeviceParameters parameters_;
 };
 
+/// Whether the wall of a mechanism acts in every direction at once: analyze() and point_wall_limit() answer for it, what is of one
+/// direction throws Error (invalid_argument).
+[[nodiscard]] inline bool is_point_wall(const Device& device) noexcept {
+  return device.parameters().mechanism && device.parameters().mechanism->is_point;
+}
+
 /// Throws Error (needs_bodies) for a device of coordinates: for computations that know bodies and transfer functions alone.
 void require_no_coordinates(const Device& device);
 

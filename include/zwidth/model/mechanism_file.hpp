@@ -35,6 +35,7 @@ struct MechanismFile {
 struct MechanismDirection {
   MechanismFile mechanism;            ///< and its pose
   std::array<double, 3> normal = {};  ///< of the wall, in the world's frame; not all 0
+  bool is_point = false;              ///< the wall acts in every direction that the tip can move; `normal` is not read
 };
 
 }  // namespace zwidth

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "zwidth/model/coordinates.hpp"
+#include "zwidth/model/device.hpp"
 
 namespace zwidth {
 
@@ -20,5 +22,8 @@ struct TipMotion {
   Eigen::MatrixXd pushed;                      ///< S_a, 3 x n
   Eigen::MatrixXd tip;                         ///< J, 3 x n
 };
+
+/// That of a device of a mechanism, in the directions in which its wall acts; nothing of any other device.
+[[nodiscard]] std::optional<TipMotion> tip_motion_of(const Device& device);
 
 }  // namespace zwidth

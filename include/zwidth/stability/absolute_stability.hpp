@@ -44,7 +44,8 @@ struct AbsoluteStabilityLimit {
 /// The least K that violates this is found by a scan over frequency and then shown to be the least on whole intervals
 /// that cover (0, pi/T], w -> 0 included, by bounds of interpolating polynomials (docs/absolute_stability.md says what is
 /// proven). Frequencies at which the damped bodies stand still, above Nyquist too, are zeros of Re Y: found with a
-/// hundred digits and seen however narrow. Never above the critical stiffness of the free device. The device's [operator] is left out: it is one of
+/// hundred digits and seen however narrow. The tip of a mechanism is grasped in any direction: any_grasp_limit(), a scan.
+/// Never above the critical stiffness of the free device. The device's [operator] is left out: it is one of
 /// the users. Throws Error (needs_bodies) for a transfer function, and what critical_stiffness() throws. Source:
 /// theory, section 5; Colgate & Schenkel 1997 is the rigid case without delay.
 [[nodiscard]] AbsoluteStabilityLimit absolute_stability_limit(const Device& device, VirtualDamper damper = {},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/disk_margin.hpp"
 #include "zwidth/stability/force_per_count.hpp"
+#include "zwidth/stability/grasp_limit.hpp"
 #include "zwidth/stability/holding.hpp"
 #include "zwidth/stability/quantisation_passivity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
@@ -88,6 +90,13 @@ struct AnswerAlone {
   std::optional<WallMargins> wall;           ///< absent without wall.stiffness
 };
 
+/// What a wall in every direction that a mechanism's tip can move has besides a wall along one.
+struct PointWallAnswer {
+  double frequency = 0.0;  ///< rad/s, of the oscillation at the critical stiffness; 0 unless finite
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< in which the tip then shakes most; 0 unless finite
+  std::optional<PointGraspLimit> any_user = {};  ///< between two bounds; absent where it is not asked for or known
+};
+
 /// The whole answer for one device. Where it is refused (trust), no stiffness, margin or interval is held.
 struct Analysis {
   CriticalStiffness critical;                         ///< the limit with the file's user, and every crossover
@@ -106,7 +115,9 @@ struct Analysis {
   std::optional<AbsoluteStabilityLimit> any_user;  ///< absent unless asked for, and where there is none (see options)
   std::optional<WorstUser> worst_user;             ///< absent unless asked for, and where any_user is 0 or infinite
   std::optional<UserFamilyAnswer> user_family;     ///< absent unless asked for
-  Trust trust;                                     ///< of everything here: the device's, and what the guards found
+  std::optional<PointWallAnswer>
+      point_wall;               ///< of is_point_wall() alone: crossovers, intervals and modes are left out
+  Trust trust;                  ///< of everything here: the device's, and what the guards found
   std::vector<Remark> remarks;  ///< what was left out, and why; numbers that are probably not in SI units
 };
 

@@ -1,11 +1,30 @@
 #include "zwidth/stability/absolute_stability.hpp"
 
+#include <utility>
+
 #include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/any_grasp.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_user.hpp"
 
 namespace zwidth {
 using namespace internal;
+namespace {
+
+AbsoluteStabilityLimit of_mechanism(const Device& device, VirtualDamper damper) {
+  DeviceParameters alone = device_without_user(device).parameters();
+  alone.wall.damping = damper.damping;
+  alone.wall.velocity_filter_hz = damper.velocity_filter_hz;
+  const Device free(std::move(alone));
+  auto limit = any_grasp_absolute_stability(free, damper, critical_stiffness(free));
+  if (!limit) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::one_direction_alone});
+  return *std::move(limit);
+}
+
+}  // namespace
 
 AbsoluteStabilityLimit absolute_stability_limit(const Device& device, VirtualDamper damper, const Progress& progress) {
+  if (device.parameters().mechanism) return of_mechanism(device, damper);
   return AbsoluteStabilitySearch(device, progress).limit(damper, progress);
 }
 

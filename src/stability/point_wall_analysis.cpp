@@ -1,0 +1,106 @@
+#include "stability/point_wall_analysis.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "model/implausible_numbers.hpp"
+#include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/device_user.hpp"
+#include "zwidth/model/tip_motion.hpp"
+#include "zwidth/stability/point_wall.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+HolderLimit holder_limit_of(const PointWallLimit& limit) {
+  HolderLimit of{.critical_stiffness = limit.stiffness};
+  if (limit.status == StiffnessStatus::finite) of.frequency = limit.frequency;
+  return of;
+}
+
+// A damper of the same period and delay as the spring, or none, is no loop of its own.
+DeviceParameters loop_of(const Device& device) {
+  DeviceParameters loop = device.parameters();
+  if (!has_damper_loop(loop.loop) || loop.wall.damping == 0.0) loop.loop.damper.reset();
+  return loop;
+}
+
+void judge_point_wall(const TipMotion& motion, const DeviceParameters& loop, const DeviceParameters& alone,
+                      Analysis& analysis) {
+  if (!(loop.wall.stiffness.value_or(0.0) > 0.0)) return;
+  const PointWallMargins margins = point_wall_margins(motion, loop);
+  WallMargins& wall = analysis.wall.emplace();
+  wall.stiffness = *loop.wall.stiffness;
+  wall.damping = loop.wall.damping;
+  wall.stable = margins.stable;
+  wall.spectral_radius = margins.spectral_radius;
+  wall.stiffness_margin = margins.stiffness_margin;
+  StableFor& holders = analysis.wall_stable_for.emplace();
+  holders.nobody = margins.stable;
+  if (!analysis.limits.user) return;
+  holders.user = margins.stable;
+  holders.nobody = point_wall_margins(motion, alone).stable;
+  if (margins.stable && !holders.nobody) {
+    analysis.remarks.push_back(
+        warning({.code = FindingCode::unstable_with_nobody,
+                 .evidence = {{"stiffness", wall.stiffness}},
+                 .effect = {{"critical_stiffness", analysis.limits.nobody.critical_stiffness}}}));
+  }
+}
+
+// A wall between the bounds is neither shown to be stable with everyone nor not to be.
+void add_any_grasp(const TipMotion& motion, const DeviceParameters& alone, Analysis& analysis) {
+  PointGraspLimit& bounds = analysis.point_wall->any_user.emplace(any_grasp_limit_of_point(motion, alone));
+  const double nobody = analysis.limits.nobody.critical_stiffness;
+  bounds.at_most = std::min(bounds.at_most, nobody);
+  bounds.at_least = std::min(bounds.at_least, bounds.at_most);
+  analysis.remarks.push_back(note({.code = FindingCode::any_grasp_bounded}));
+  if (!analysis.wall) return;
+  StableFor& holders = *analysis.wall_stable_for;
+  if (!holders.nobody || analysis.wall->stiffness > bounds.at_most) {
+    holders.any_user = false;
+  } else if (analysis.wall->stiffness < bounds.at_least) {
+    holders.any_user = true;
+  }
+}
+
+}  // namespace
+
+Analysis point_wall_analysis(const Device& device, const AnalysisOptions& options) {
+  Analysis analysis;
+  analysis.remarks = implausible_numbers(device);
+  const TipMotion motion = tip_motion_of(device).value();
+  const DeviceParameters loop = loop_of(device);
+  DeviceParameters alone = loop;
+  alone.user = {};
+  const PointWallLimit limit = point_wall_limit(motion, loop);
+  const PointWallLimit nobody = device_has_user(device) ? point_wall_limit(motion, alone) : limit;
+  analysis.trust = trust_of(device);
+  analysis.trust.inherit(limit.trust);
+  analysis.trust.inherit(nobody.trust);
+  analysis.point_wall.emplace();
+  if (analysis.trust.refused()) {
+    analysis.critical.status = StiffnessStatus::refused;
+    analysis.critical.stiffness = std::numeric_limits<double>::quiet_NaN();
+    analysis.critical.trust = analysis.trust;
+    return analysis;
+  }
+  analysis.critical.status = limit.status;
+  analysis.critical.stiffness = limit.stiffness;
+  analysis.critical.trust = analysis.trust;
+  analysis.point_wall->frequency = limit.frequency;
+  analysis.point_wall->direction = limit.direction;
+  analysis.limits.nobody = holder_limit_of(nobody);
+  if (device_has_user(device)) analysis.limits.user = holder_limit_of(limit);
+  judge_point_wall(motion, loop, alone, analysis);
+  if (!options.any_user) return analysis;
+  if (device.degrees_of_freedom() <= most_bodies_for_absolute_stability) {
+    add_any_grasp(motion, alone, analysis);
+  } else {
+    analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+  }
+  return analysis;
+}
+
+}  // namespace zwidth::internal

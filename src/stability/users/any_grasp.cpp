@@ -1,0 +1,46 @@
+#include "stability/users/any_grasp.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/tip_motion.hpp"
+#include "zwidth/stability/grasp_limit.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+// rad per sample: of the scan's lowest frequency, below which the limit is taken for constant.
+constexpr double lowest_scanned = 1.001e-3;
+
+}  // namespace
+
+std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
+                                                                   const CriticalStiffness& nobody) {
+  const std::optional<TipMotion> motion = tip_motion_of(device);
+  if (!motion || !device.parameters().mechanism) return std::nullopt;
+  DeviceParameters loop = device.parameters();
+  const bool is_apart = has_damper_loop(loop.loop) && damper.damping > 0.0;
+  if (is_apart || !loop.wall.filters.empty()) return std::nullopt;
+  loop.loop.damper.reset();
+  loop.wall.damping = damper.damping;
+  loop.wall.velocity_filter_hz = damper.velocity_filter_hz;
+  AbsoluteStabilityLimit limit;
+  limit.trust = nobody.trust;
+  limit.stiffness = nobody.stiffness;
+  if (std::isnan(nobody.stiffness) || nobody.stiffness == 0.0) return limit;
+  const Eigen::Vector3d normal(loop.mechanism->normal.data());
+  const GraspLimit grasp = any_grasp_limit(*motion, loop, normal);
+  limit.needs_no_user = nobody.stiffness <= grasp.stiffness;
+  limit.stiffness = std::min(nobody.stiffness, grasp.stiffness);
+  if (limit.stiffness == 0.0 || std::isinf(limit.stiffness)) return limit;
+  if (!limit.needs_no_user) {
+    limit.frequency = grasp.frequency * loop.loop.sampling_period > lowest_scanned ? grasp.frequency : 0.0;
+  } else if (nobody.limit) {
+    limit.frequency = nobody.limit->frequency;
+  }
+  return limit;
+}
+
+}  // namespace zwidth::internal

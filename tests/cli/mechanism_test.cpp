@@ -1,0 +1,92 @@
+// The program on a device of a mechanism, against closed-loop eigenvalues (tests/reference/README.md).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using nlohmann::json;
+
+class MechanismOfProgram : public Workspace {
+ protected:
+  [[nodiscard]] json analysed(const json& reference, const std::string& normal) const {
+    const Outcome outcome = run(
+        fmt::format("zwidth analyze devices/mechanisms/planar_arm.toml --json --set mechanism.pose.shoulder={} --set "
+                    "mechanism.pose.elbow={} --set loop.delay={} --set 'mechanism.normal={}'",
+                    reference["pose"][0].dump(), reference["pose"][1].dump(), reference["delay"].dump(), normal));
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return json::parse(outcome.output);
+  }
+};
+
+bool has_finding(const json& document, const std::string& code) {
+  return std::ranges::any_of(document["findings"], [&](const json& each) { return each["code"] == code; });
+}
+
+json references() {
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.json");
+  return json::parse(file);
+}
+
+TEST_F(MechanismOfProgram, LimitsAlongEveryNormalWithNobodyAndWithAnyPassiveUser) {
+  int normals = 0;
+  int any_users = 0;
+  for (const json& each : references()) {
+    if (each["normal"].is_null()) continue;
+    ++normals;
+    SCOPED_TRACE(each.dump());
+    const json found = analysed(each, fmt::format("[{},{},0]", each["normal"][0].dump(), each["normal"][1].dump()));
+    EXPECT_NEAR(found["critical_stiffness"].get<double>() / each["critical_stiffness"].get<double>(), 1.0, 1e-8);
+    EXPECT_EQ(found["limits"]["any_user"]["critical_stiffness"], found["any_user"]["critical_stiffness"]);
+    EXPECT_TRUE(has_finding(found, "any_grasp_scanned"));
+    EXPECT_LE(found["any_user"]["critical_stiffness"], found["critical_stiffness"]);
+    if (!each.contains("any_user")) continue;
+    ++any_users;
+    EXPECT_NEAR(
+        found["any_user"]["critical_stiffness"].get<double>() / each["any_user"]["critical_stiffness"].get<double>(),
+        1.0, 1e-5);
+  }
+  EXPECT_EQ(normals, 36);
+  EXPECT_EQ(any_users, 9);
+}
+
+TEST_F(MechanismOfProgram, APointWallOfEveryPose) {
+  int points = 0;
+  for (const json& each : references()) {
+    if (!each["normal"].is_null()) continue;
+    ++points;
+    SCOPED_TRACE(each.dump());
+    const json found = analysed(each, "\"all\"");
+    EXPECT_EQ(found["schema"], "zwidth.analysis/1");
+    EXPECT_NEAR(found["critical_stiffness"].get<double>() / each["critical_stiffness"].get<double>(), 1.0, 1e-8);
+    EXPECT_GT(found["critical_frequency_rad_s"].get<double>(), 0.0);
+    EXPECT_EQ(found["point_wall"]["direction"].size(), 3U);
+    EXPECT_LE(found["point_wall"]["any_user"]["at_least"], found["point_wall"]["any_user"]["at_most"]);
+    EXPECT_TRUE(found["any_user"].is_null());
+    EXPECT_TRUE(found["limits"]["any_user"].is_null());
+    EXPECT_TRUE(has_finding(found, "any_grasp_bounded"));
+  }
+  EXPECT_EQ(points, 6);
+}
+
+TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysis) {
+  const std::string file = "devices/mechanisms/planar_arm.toml --set mechanism.normal=all";
+  for (const char* command : {"region", "bode", "design", "simulate", "export --format json"}) {
+    SCOPED_TRACE(command);
+    expect_refusal(fmt::format("zwidth {} {}", command, file), "mechanism.normal");
+  }
+  const Outcome text = run("zwidth analyze " + file);
+  EXPECT_EQ(text.status, 0) << text.errors;
+  EXPECT_NE(text.output.find("at least"), std::string::npos);
+  expect_refusal(fmt::format("zwidth analyze {} --report page.html", file), "--report");
+}
+
+}  // namespace
+}  // namespace zwidth::cli
