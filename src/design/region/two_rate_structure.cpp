@@ -31,6 +31,8 @@ constexpr double same_level_of_two_rates = 1e-10;
 constexpr double clear_of_edge = 1e-6;
 constexpr double beside_chord = 0.05;
 constexpr double far_apart = 0.02;
+constexpr double level_height = 1e-7;
+constexpr double level_length = 1e-2;
 constexpr std::uintmax_t most_root_steps = 100;
 
 // A branch by its chords.
@@ -51,6 +53,21 @@ struct Polyline {
                      (damping - before.damping) / (after->damping - before.damping));
   }
 };
+
+// The last of the nodes from that one on that are all at one B, over a stretch of K that counts; else that one.
+std::size_t end_of_level(const std::vector<Node>& nodes, std::size_t first, const WallPoint& most) {
+  double lowest = nodes[first].wall.damping;
+  double highest = lowest;
+  std::size_t last = first;
+  while (last + 1 < nodes.size()) {
+    lowest = std::min(lowest, nodes[last + 1].wall.damping);
+    highest = std::max(highest, nodes[last + 1].wall.damping);
+    if (highest - lowest > level_height * most.damping) break;
+    ++last;
+  }
+  const double length = std::abs(nodes[last].wall.stiffness - nodes[first].wall.stiffness);
+  return length > level_length * most.stiffness ? last : first;
+}
 
 bool is_straight(const Node& node) { return node.angle == 0.0 || node.angle > std::numbers::pi; }
 
@@ -110,19 +127,19 @@ void TwoRateStructure::build(int density, const Progress& progress) {
 Node TwoRateStructure::turn_between(const Node& first, const Node& last) const {
   const Vector3d chord = (place_of(last) - place_of(first)).cwiseQuotient(curve_.scales);
   const auto rise = [&](double part) {
-    const Vector3d along = curve_.tangent(between(first, last, part));
+    const Vector3d along = curve_.tangent(on_curve(first, last, part));
     return along.dot(chord) >= 0.0 ? along(2) : -along(2);
   };
   const double at_first = rise(0.0);
   const double at_last = rise(1.0);
-  if (!(at_first * at_last < 0.0)) return between(first, last, 0.5);
+  if (!(at_first * at_last < 0.0)) return on_curve(first, last, 0.5);
   std::uintmax_t steps = most_root_steps;
   const auto [low, high] = boost::math::tools::toms748_solve(rise, 0.0, 1.0, at_first, at_last,
                                                              boost::math::tools::eps_tolerance<double>(45), steps);
-  return between(first, last, 0.5 * (low + high));
+  return on_curve(first, last, 0.5 * (low + high));
 }
 
-// Divided at the extrema of B.
+// Divided at the extrema of B. A stretch along which B is the same to the drawing's digits is a branch at one level.
 void TwoRateStructure::add_branches(TwoRateChain chain) {
   std::vector<Node>& nodes = chain.nodes;
   if (nodes.size() < 2) return;
@@ -134,11 +151,27 @@ void TwoRateStructure::add_branches(TwoRateChain chain) {
     nodes.front() = turn;
     nodes.push_back(turn);
   }
-  const auto add = [&](std::vector<Node> part) {
-    if (part.size() < 2) return;
-    branches.emplace_back(std::move(part));
-    kinds_.push_back(chain.kind);
-  };
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::size_t last = end_of_level(nodes, i, most_);
+    if (last == i) continue;
+    const double level = 0.5 * (nodes[i].wall.damping + nodes[last].wall.damping);
+    for (std::size_t k = i; k <= last; ++k) nodes[k].wall.damping = level;
+    const auto at = [&](std::size_t k) { return nodes.begin() + static_cast<std::ptrdiff_t>(k); };
+    add_monotonic({at(begin), at(i + 1)}, chain.kind);
+    add_branch({at(i), at(last + 1)}, chain.kind);
+    begin = i = last;
+  }
+  add_monotonic({nodes.begin() + static_cast<std::ptrdiff_t>(begin), nodes.end()}, chain.kind);
+}
+
+void TwoRateStructure::add_branch(std::vector<Node> nodes, BoundaryKind kind) {
+  if (nodes.size() < 2) return;
+  branches.emplace_back(std::move(nodes));
+  kinds_.push_back(kind);
+}
+
+void TwoRateStructure::add_monotonic(const std::vector<Node>& nodes, BoundaryKind kind) {
   std::vector<Node> part{nodes.front()};
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const bool turns = i + 1 < nodes.size() && (nodes[i].wall.damping > nodes[i - 1].wall.damping) !=
@@ -157,14 +190,20 @@ void TwoRateStructure::add_branches(TwoRateChain chain) {
                            .dot((place_of(turn) - place_of(nodes[i])).cwiseQuotient(curve_.scales));
     if (!is_beyond && way > 0.0) part.push_back(nodes[i]);
     part.push_back(turn);
-    add(std::move(part));
+    add_branch(std::move(part), kind);
     part = {turn};
     if (!is_beyond && way <= 0.0) part.push_back(nodes[i]);
   }
-  add(std::move(part));
+  add_branch(std::move(part), kind);
 }
 
 Node TwoRateStructure::between(const Node& from, const Node& to, double part) const {
+  if (from.wall.damping != to.wall.damping) return on_curve(from, to, part);
+  const Vector3d at = place_of(from) + part * (place_of(to) - place_of(from));  // at one level
+  return {at(0), {at(1), at(2)}};
+}
+
+Node TwoRateStructure::on_curve(const Node& from, const Node& to, double part) const {
   const Vector3d first = place_of(from);
   const Vector3d way = place_of(to) - first;
   const Vector3d at = first + part * way;

@@ -33,6 +33,9 @@ class TwoRateStructure final : public RegionStructure {
  private:
   void build(int density, const Progress& progress);
   void add_branches(TwoRateChain chain);
+  void add_branch(std::vector<Node> nodes, BoundaryKind kind);
+  void add_monotonic(const std::vector<Node>& nodes, BoundaryKind kind);
+  [[nodiscard]] Node on_curve(const Node& from, const Node& to, double part) const;
   [[nodiscard]] Node turn_between(const Node& first, const Node& last) const;
   [[nodiscard]] Node at_damping(std::size_t branch, double damping) const;
   [[nodiscard]] std::vector<double> levels() const;

@@ -26,6 +26,7 @@ constexpr double shortest_step = 1e-10;
 constexpr double most_turn = 0.15;         // rad
 constexpr double most_correction = 0.2;    // of the step
 constexpr double same_crossing = 1e-4;     // a chain meets a slice there
+constexpr double same_point = 1e-7;        // ends of two chains
 constexpr double closing = 0.1;            // of a step: the chain passes its own beginning
 constexpr std::size_t most_nodes = 20000;  // of a chain
 // Beside z = 1 and z = -1 the curve is known by its limits, of which these are a square away.
@@ -52,7 +53,8 @@ class ChainTracer {
 
   [[nodiscard]] std::vector<TwoRateChain> all() {
     std::vector<TwoRateChain> chains;
-    for (std::size_t i = 0; i < slices_.slices.size(); ++i) {
+    // From the largest gain on: what is small in shares of it is known to fewer digits, and mostly on a chain by then.
+    for (std::size_t i = slices_.slices.size(); i-- > 0;) {
       const RegionSlice& slice = slices_.slices[i];
       for (std::size_t j = 0; j < slice.found.crossings.size(); ++j) {
         const GainCrossing& seed = slice.found.crossings[j];
@@ -62,9 +64,8 @@ class ChainTracer {
         covered_[i][j] = true;
         // A crossing that only touches the circle is passed by others.
         if (seed.poles_leaving == 0) continue;
-        chains.push_back(through({seed.angle, curve_.wall(seed.gain, slice.inside)}));
-        cover(chains.back());
-        tell(progress_, static_cast<double>(i) / static_cast<double>(slices_.slices.size()));
+        add(through({seed.angle, curve_.wall(seed.gain, slice.inside)}), chains);
+        tell(progress_, 1.0 - static_cast<double>(i) / static_cast<double>(slices_.slices.size()));
       }
     }
     add_from(ends_with_nothing_outside(), chains);
@@ -95,8 +96,7 @@ class ChainTracer {
                                    [&](const Node& end) { return (share(end) - share(seed)).norm() < same_crossing; });
       };
       if (std::ranges::any_of(chains, ends_here)) continue;
-      chains.push_back(through(seed));
-      cover(chains.back());
+      add(through(seed), chains);
     }
   }
 
@@ -146,6 +146,7 @@ class ChainTracer {
       }
     }
     std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }
 
@@ -250,6 +251,21 @@ class ChainTracer {
     Vector3d exact = place(*end);
     exact(coordinate) = coordinate > 0 || bound < 1.0 ? bound : std::numbers::pi;
     return node_at(exact);
+  }
+
+  // Adds what is no second tracing of another one, and no point: what is small in shares is known to few digits.
+  void add(TwoRateChain chain, std::vector<TwoRateChain>& chains) {
+    cover(chain);
+    const auto near = [&](const Node& a, const Node& b) { return (share(a) - share(b)).norm() < same_point; };
+    const Node& first = chain.nodes.front();
+    const Node& last = chain.nodes.back();
+    const auto ends_there = [&](const TwoRateChain& other) {
+      const Node& front = other.nodes.front();
+      const Node& back = other.nodes.back();
+      return !other.is_closed && ((near(front, first) && near(back, last)) || (near(front, last) && near(back, first)));
+    };
+    if (!chain.is_closed && (near(first, last) || std::ranges::any_of(chains, ends_there))) return;
+    chains.push_back(std::move(chain));
   }
 
   // The crossings of slices that the chain passes.
