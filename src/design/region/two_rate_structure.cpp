@@ -104,7 +104,7 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   most_ = curve_.wall(slices_.most_outside, slices_.most_inside);
   curve_.scales = {1.0, most_.stiffness, most_.damping};
   stages.next(share_of_chains);
-  for (TwoRateChain& chain : trace_chains(curve_, slices_, stages.stage())) add_branches(std::move(chain));
+  for (TwoRateChain& chain : trace_chains(curve_, slices_, density, stages.stage())) add_branches(std::move(chain));
   stages.next(1.0);
   const std::vector<double> found = levels();
   for (std::size_t i = 1; i < found.size(); ++i) {

@@ -43,8 +43,8 @@ constexpr std::uintmax_t most_steps_to_end = 60;
 
 class ChainTracer {
  public:
-  ChainTracer(const TwoRateCurve& curve, const RegionSlices& slices, const Progress& progress)
-      : curve_(curve), slices_(slices), progress_(progress) {
+  ChainTracer(const TwoRateCurve& curve, const RegionSlices& slices, int fineness, const Progress& progress)
+      : curve_(curve), slices_(slices), fineness_(fineness), progress_(progress) {
     const WallPoint most = curve.wall(slices.most_outside, slices.most_inside);
     lowest_ = {least_angle, 0.0, 0.0};
     highest_ = {std::numbers::pi - beside_nyquist, most.stiffness, most.damping};
@@ -59,7 +59,7 @@ class ChainTracer {
       for (std::size_t j = 0; j < slice.found.crossings.size(); ++j) {
         const GainCrossing& seed = slice.found.crossings[j];
         const bool inside = seed.angle > lowest_(0) && seed.angle < highest_(0) && seed.gain < slices_.most_outside &&
-                            slice.inside < slices_.most_inside;
+                            slice.inside <= slices_.most_inside;
         if (!inside || covered_[i][j]) continue;
         covered_[i][j] = true;
         // A crossing that only touches the circle is passed by others.
@@ -169,7 +169,8 @@ class ChainTracer {
   // Whether it comes back to where it began; else it goes on to where it leaves the gains looked at.
   [[nodiscard]] bool follow(std::vector<Node>& nodes, Vector3d along) const {
     const Vector3d first = along;
-    double step = first_step;
+    const double longest = longest_step / (fineness_ * fineness_);
+    double step = std::min(first_step, longest);
     while (nodes.size() < most_nodes) {
       if (step < shortest_step) lose();
       const Node& last = nodes.back();
@@ -202,7 +203,7 @@ class ChainTracer {
       const bool straighter = turned.dot(along) > std::cos(0.5 * most_turn);
       nodes.push_back(*next);
       along = turned;
-      if (straighter) step = std::min(1.5 * step, longest_step);
+      if (straighter) step = std::min(1.5 * step, longest);
     }
     lose();
   }
@@ -265,6 +266,13 @@ class ChainTracer {
       return !other.is_closed && ((near(front, first) && near(back, last)) || (near(front, last) && near(back, first)));
     };
     if (!chain.is_closed && (near(first, last) || std::ranges::any_of(chains, ends_there))) return;
+    // With one end alone in common a chain left its curve for another one, which shorter steps tell apart.
+    const auto shares_end = [&](const TwoRateChain& other) {
+      const std::array ends{other.nodes.front(), other.nodes.back()};
+      return !other.is_closed &&
+             std::ranges::any_of(ends, [&](const Node& end) { return near(end, first) || near(end, last); });
+    };
+    if (fineness_ == 1 && !chain.is_closed && std::ranges::any_of(chains, shares_end)) lose();
     chains.push_back(std::move(chain));
   }
 
@@ -350,6 +358,7 @@ class ChainTracer {
 
   const TwoRateCurve& curve_;
   const RegionSlices& slices_;
+  int fineness_;
   const Progress& progress_;
   Vector3d lowest_;
   Vector3d highest_;
@@ -358,9 +367,9 @@ class ChainTracer {
 
 }  // namespace
 
-std::vector<TwoRateChain> trace_chains(const TwoRateCurve& curve, const RegionSlices& slices,
+std::vector<TwoRateChain> trace_chains(const TwoRateCurve& curve, const RegionSlices& slices, int fineness,
                                        const Progress& progress) {
-  return ChainTracer(curve, slices, progress).all();
+  return ChainTracer(curve, slices, fineness, progress).all();
 }
 
 }  // namespace zwidth::internal

@@ -16,8 +16,9 @@ struct TwoRateChain {
 };
 
 // Every chain within the slices' gains that a slice meets: followed from there by its tangent and Newton's method, in both
-// directions, to where it leaves them. Throws Error (did_not_converge) where it cannot be followed.
+// directions, to where it leaves them. Throws Error (did_not_converge) where it cannot be followed, and at a fineness of 1, that
+// of the longest steps, also where two chains have one end alone in common.
 [[nodiscard]] std::vector<TwoRateChain> trace_chains(const TwoRateCurve& curve, const RegionSlices& slices,
-                                                     const Progress& progress);
+                                                     int fineness, const Progress& progress);
 
 }  // namespace zwidth::internal
