@@ -31,6 +31,7 @@ constexpr double same_level_of_two_rates = 1e-10;
 constexpr double clear_of_edge = 1e-6;
 constexpr double beside_chord = 0.05;
 constexpr double far_apart = 0.02;
+constexpr double beside_nyquist = 1e-5;  // nearer, the curve is known by its end at z = -1
 constexpr double level_height = 1e-7;
 constexpr double level_length = 1e-2;
 constexpr std::uintmax_t most_root_steps = 100;
@@ -56,17 +57,13 @@ struct Polyline {
 
 // The last of the nodes from that one on that are all at one B, over a stretch of K that counts; else that one.
 std::size_t end_of_level(const std::vector<Node>& nodes, std::size_t first, const WallPoint& most) {
-  double lowest = nodes[first].wall.damping;
-  double highest = lowest;
+  const WallPoint& begin = nodes[first].wall;
   std::size_t last = first;
-  while (last + 1 < nodes.size()) {
-    lowest = std::min(lowest, nodes[last + 1].wall.damping);
-    highest = std::max(highest, nodes[last + 1].wall.damping);
-    if (highest - lowest > level_height * most.damping) break;
+  while (last + 1 < nodes.size() &&
+         std::abs(nodes[last + 1].wall.damping - begin.damping) <= level_height * most.damping) {
     ++last;
   }
-  const double length = std::abs(nodes[last].wall.stiffness - nodes[first].wall.stiffness);
-  return length > level_length * most.stiffness ? last : first;
+  return std::abs(nodes[last].wall.stiffness - begin.stiffness) > level_length * most.stiffness ? last : first;
 }
 
 bool is_straight(const Node& node) { return node.angle == 0.0 || node.angle > std::numbers::pi; }
@@ -76,9 +73,8 @@ Vector3d place_of(const Node& node) { return {node.angle, node.wall.stiffness, n
 }  // namespace
 
 TwoRateStructure::TwoRateStructure(const Device& device, const Progress& progress) : curve_(device) {
-  proven = false;
-  if (!curve_.is_seen()) {
-    proven = true;
+  proven = !curve_.is_seen();
+  if (proven) {
     slabs.push_back({0.0, infinity, {{RegionEdge{BoundaryKind::no_stiffness, 0}, std::nullopt}}});
     return;
   }
@@ -207,17 +203,15 @@ Node TwoRateStructure::on_curve(const Node& from, const Node& to, double part) c
   const Vector3d first = place_of(from);
   const Vector3d way = place_of(to) - first;
   const Vector3d at = first + part * way;
-  Node guess{at(0), {at(1), at(2)}};
+  const Node guess{at(0), {at(1), at(2)}};
   if (way.isZero(0.0) || is_straight(from)) return guess;
-  if (from.angle == std::numbers::pi && to.angle == std::numbers::pi) {
-    const double inside = curve_.inside(guess.wall);
-    return {guess.angle, curve_.wall(curve_.nyquist_gain(inside), inside)};
-  }
-  if (part == 0.0) return from;
-  if (part == 1.0) return to;
+  const double q = curve_.inside(guess.wall);
+  if (std::min(from.angle, to.angle) == std::numbers::pi) return {guess.angle, curve_.wall(curve_.nyquist_gain(q), q)};
+  if (part == 0.0 || part == 1.0) return part == 0.0 ? from : to;
   const std::optional<Node> found = curve_.solve(guess, way.cwiseQuotient(curve_.scales).normalized());
-  if (!found) throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
-  return *found;
+  if (found) return *found;
+  if (std::numbers::pi - guess.angle < beside_nyquist) return guess;
+  throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
 }
 
 Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
@@ -302,10 +296,6 @@ std::vector<double> TwoRateStructure::levels() const {
   return found;
 }
 
-bool TwoRateStructure::is_stable(const WallPoint& wall) const {
-  return region_slice(curve_, curve_.inside(wall)).is_stable(curve_.outside(wall));
-}
-
 std::vector<RegionCell> TwoRateStructure::cells_at(double damping) const {
   struct Crossing {
     double stiffness;
@@ -326,7 +316,8 @@ std::vector<RegionCell> TwoRateStructure::cells_at(double damping) const {
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const double next = i + 1 < crossings.size() ? crossings[i + 1].stiffness : most_.stiffness;
     const WallPoint middle{0.5 * (crossings[i].stiffness + next), damping};
-    const bool stable = slice ? slice->is_stable(middle.stiffness) : is_stable(middle);
+    if (!curve_.is_damper_inside()) slice = region_slice(curve_, middle.stiffness);
+    const bool stable = slice->is_stable(curve_.outside(middle));
     if (stable && !was_stable) cells.push_back({crossings[i].edge, std::nullopt});
     if (!stable && was_stable) cells.back().right = crossings[i].edge;
     was_stable = stable;

@@ -41,7 +41,6 @@ class TwoRateStructure final : public RegionStructure {
   [[nodiscard]] std::vector<double> levels() const;
   void add_crossings(std::size_t first, std::size_t second, std::vector<double>& found) const;
   [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
-  [[nodiscard]] bool is_stable(const WallPoint& wall) const;
   [[nodiscard]] bool holds(const RegionSlice& slice) const;
   [[nodiscard]] Node node_of(const BoundaryPoint& point) const;
 
