@@ -119,20 +119,36 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   stages.done();
 }
 
+// The slope of B at that part of the way between two nodes, along the way.
+double TwoRateStructure::rise(const Node& first, const Node& last, double part) const {
+  const Vector3d chord = (place_of(last) - place_of(first)).cwiseQuotient(curve_.scales);
+  Node node = on_curve(first, last, part);
+  // At z = -1 itself the tangent is that of its curve.
+  if (first.angle != last.angle) node.angle = std::min(node.angle, std::numbers::pi - beside_nyquist);
+  const Vector3d along = curve_.tangent(node);
+  return along.dot(chord) >= 0.0 ? along(2) : -along(2);
+}
+
 // The point between two nodes, on either side of it, where B turns.
 Node TwoRateStructure::turn_between(const Node& first, const Node& last) const {
-  const Vector3d chord = (place_of(last) - place_of(first)).cwiseQuotient(curve_.scales);
-  const auto rise = [&](double part) {
-    const Vector3d along = curve_.tangent(on_curve(first, last, part));
-    return along.dot(chord) >= 0.0 ? along(2) : -along(2);
-  };
-  const double at_first = rise(0.0);
-  const double at_last = rise(1.0);
+  const auto slope = [&](double part) { return rise(first, last, part); };
+  const double at_first = slope(0.0);
+  const double at_last = slope(1.0);
   if (!(at_first * at_last < 0.0)) return on_curve(first, last, 0.5);
   std::uintmax_t steps = most_root_steps;
-  const auto [low, high] = boost::math::tools::toms748_solve(rise, 0.0, 1.0, at_first, at_last,
+  const auto [low, high] = boost::math::tools::toms748_solve(slope, 0.0, 1.0, at_first, at_last,
                                                              boost::math::tools::eps_tolerance<double>(45), steps);
   return on_curve(first, last, 0.5 * (low + high));
+}
+
+// The turn of B between an end and the node next to it, of which no chord tells: B goes on beyond the end, then back.
+std::optional<Node> TwoRateStructure::turn_beside(const Node& end, const Node& next) const {
+  if (is_straight(end)) return std::nullopt;
+  const double way = next.wall.damping - end.wall.damping;
+  if (!(rise(end, next, 0.0) * way < 0.0)) return std::nullopt;
+  const Node turn = turn_between(end, next);
+  const double beyond = way > 0.0 ? end.wall.damping - turn.wall.damping : turn.wall.damping - end.wall.damping;
+  return beyond > same_level_of_two_rates * most_.damping ? std::optional(turn) : std::nullopt;
 }
 
 // Divided at the extrema of B. A stretch along which B is the same to the drawing's digits is a branch at one level.
@@ -167,7 +183,10 @@ void TwoRateStructure::add_branch(std::vector<Node> nodes, BoundaryKind kind) {
   kinds_.push_back(kind);
 }
 
-void TwoRateStructure::add_monotonic(const std::vector<Node>& nodes, BoundaryKind kind) {
+void TwoRateStructure::add_monotonic(std::vector<Node> nodes, BoundaryKind kind) {
+  if (nodes.size() < 2) return;
+  if (const auto turn = turn_beside(nodes.front(), nodes[1])) nodes.insert(nodes.begin() + 1, *turn);
+  if (const auto turn = turn_beside(nodes.back(), nodes[nodes.size() - 2])) nodes.insert(nodes.end() - 1, *turn);
   std::vector<Node> part{nodes.front()};
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const bool turns = i + 1 < nodes.size() && (nodes[i].wall.damping > nodes[i - 1].wall.damping) !=

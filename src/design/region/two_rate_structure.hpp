@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "design/region/region_structure.hpp"
@@ -34,9 +35,11 @@ class TwoRateStructure final : public RegionStructure {
   void build(int density, const Progress& progress);
   void add_branches(TwoRateChain chain);
   void add_branch(std::vector<Node> nodes, BoundaryKind kind);
-  void add_monotonic(const std::vector<Node>& nodes, BoundaryKind kind);
+  void add_monotonic(std::vector<Node> nodes, BoundaryKind kind);
   [[nodiscard]] Node on_curve(const Node& from, const Node& to, double part) const;
+  [[nodiscard]] double rise(const Node& first, const Node& last, double part) const;
   [[nodiscard]] Node turn_between(const Node& first, const Node& last) const;
+  [[nodiscard]] std::optional<Node> turn_beside(const Node& end, const Node& next) const;
   [[nodiscard]] Node at_damping(std::size_t branch, double damping) const;
   [[nodiscard]] std::vector<double> levels() const;
   void add_crossings(std::size_t first, std::size_t second, std::vector<double>& found) const;
