@@ -227,6 +227,13 @@ Node TwoRateStructure::on_curve(const Node& from, const Node& to, double part) c
   const double q = curve_.inside(guess.wall);
   if (std::min(from.angle, to.angle) == std::numbers::pi) return {guess.angle, curve_.wall(curve_.nyquist_gain(q), q)};
   if (part == 0.0 || part == 1.0) return part == 0.0 ? from : to;
+  if (std::max(from.angle, to.angle) == std::numbers::pi) {
+    // Walls move with the square of the angle from z = -1.
+    const double left = from.angle == std::numbers::pi ? part : 1.0 - part;
+    const double angle = std::numbers::pi - (std::numbers::pi - std::min(from.angle, to.angle)) * std::sqrt(left);
+    if (std::numbers::pi - angle < beside_nyquist) return {angle, guess.wall};
+    if (const auto found = curve_.solve({angle, guess.wall}, Vector3d::UnitX())) return *found;
+  }
   const std::optional<Node> found = curve_.solve(guess, way.cwiseQuotient(curve_.scales).normalized());
   if (found) return *found;
   if (std::numbers::pi - guess.angle < beside_nyquist) return guess;

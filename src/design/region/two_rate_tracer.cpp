@@ -23,12 +23,13 @@ using Eigen::Vector3d;
 constexpr double first_step = 0.01;
 constexpr double longest_step = 0.04;
 constexpr double shortest_step = 1e-10;
-constexpr double most_turn = 0.15;         // rad
-constexpr double most_correction = 0.2;    // of the step
-constexpr double same_crossing = 1e-4;     // a chain meets a slice there
-constexpr double same_point = 1e-7;        // ends of two chains
-constexpr double closing = 0.1;            // of a step: the chain passes its own beginning
-constexpr std::size_t most_nodes = 20000;  // of a chain
+constexpr double most_turn = 0.15;           // rad
+constexpr double most_correction = 0.2;      // of the step
+constexpr double most_end_correction = 0.3;  // of the way to z = -1
+constexpr double same_crossing = 1e-4;       // a chain meets a slice there
+constexpr double same_point = 1e-7;          // ends of two chains
+constexpr double closing = 0.1;              // of a step: the chain passes its own beginning
+constexpr std::size_t most_nodes = 20000;    // of a chain
 // Beside z = 1 and z = -1 the curve is known by its limits, of which these are a square away.
 constexpr double least_angle = 1e-6;
 constexpr double beside_nyquist = 1e-5;
@@ -242,13 +243,16 @@ class ChainTracer {
     const Vector3d to = place(next);
     const double part = std::clamp((bound - from(coordinate)) / (to(coordinate) - from(coordinate)), 0.0, 1.0);
     Vector3d guess = from + part * (to - from);
+    double reach = (share(next) - share(last)).norm();
+    if (coordinate == 0 && bound > 1.0) {  // walls move with the square of the angle from z = -1
+      const Vector3d along = curve_.tangent(last).cwiseProduct(curve_.scales);
+      guess = from + 0.5 * (std::numbers::pi - from(0)) / along(0) * along;
+      reach = most_end_correction * (guess - from).cwiseQuotient(curve_.scales).norm();
+    }
     guess(coordinate) = bound;
     const std::optional<Node> end = curve_.solve(node_at(guess), Vector3d::Unit(coordinate));
-    if (!end) return std::nullopt;
     // On the way, and not on another stretch.
-    if ((share(*end) - guess.cwiseQuotient(curve_.scales)).norm() > (share(next) - share(last)).norm()) {
-      return std::nullopt;
-    }
+    if (!end || (share(*end) - guess.cwiseQuotient(curve_.scales)).norm() > reach) return std::nullopt;
     Vector3d exact = place(*end);
     exact(coordinate) = coordinate > 0 || bound < 1.0 ? bound : std::numbers::pi;
     return node_at(exact);
