@@ -27,14 +27,9 @@ constexpr double share_of_slices = 0.3;  // of the progress
 constexpr double share_of_chains = 0.6;
 constexpr int more_slices = 3;
 // In shares of the greatest B and K.
-constexpr double same_level_of_two_rates = 1e-10;
 constexpr double clear_of_edge = 1e-6;
 constexpr double beside_chord = 0.05;
 constexpr double far_apart = 0.02;
-constexpr double beside_nyquist = 1e-5;  // nearer, the curve is known by its end at z = -1
-constexpr double level_height = 1e-7;
-constexpr double level_length = 1e-2;
-constexpr std::uintmax_t most_root_steps = 100;
 
 // A branch by its chords.
 struct Polyline {
@@ -54,21 +49,6 @@ struct Polyline {
                      (damping - before.damping) / (after->damping - before.damping));
   }
 };
-
-// The last of the nodes from that one on that are all at one B, over a stretch of K that counts; else that one.
-std::size_t end_of_level(const std::vector<Node>& nodes, std::size_t first, const WallPoint& most) {
-  const WallPoint& begin = nodes[first].wall;
-  std::size_t last = first;
-  while (last + 1 < nodes.size() &&
-         std::abs(nodes[last + 1].wall.damping - begin.damping) <= level_height * most.damping) {
-    ++last;
-  }
-  return std::abs(nodes[last].wall.stiffness - begin.stiffness) > level_length * most.stiffness ? last : first;
-}
-
-bool is_straight(const Node& node) { return node.angle == 0.0 || node.angle > std::numbers::pi; }
-
-Vector3d place_of(const Node& node) { return {node.angle, node.wall.stiffness, node.wall.damping}; }
 
 }  // namespace
 
@@ -119,111 +99,19 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   stages.done();
 }
 
-// The slope of B at that part of the way between two nodes, along the way.
-double TwoRateStructure::rise(const Node& first, const Node& last, double part) const {
-  const Vector3d chord = (place_of(last) - place_of(first)).cwiseQuotient(curve_.scales);
-  Node node = on_curve(first, last, part);
-  // At z = -1 itself the tangent is that of its curve.
-  if (first.angle != last.angle) node.angle = std::min(node.angle, std::numbers::pi - beside_nyquist);
-  const Vector3d along = curve_.tangent(node);
-  return along.dot(chord) >= 0.0 ? along(2) : -along(2);
-}
-
-// The point between two nodes, on either side of it, where B turns.
-Node TwoRateStructure::turn_between(const Node& first, const Node& last) const {
-  const auto slope = [&](double part) { return rise(first, last, part); };
-  const double at_first = slope(0.0);
-  const double at_last = slope(1.0);
-  if (!(at_first * at_last < 0.0)) return on_curve(first, last, 0.5);
-  std::uintmax_t steps = most_root_steps;
-  const auto [low, high] = boost::math::tools::toms748_solve(slope, 0.0, 1.0, at_first, at_last,
-                                                             boost::math::tools::eps_tolerance<double>(45), steps);
-  return on_curve(first, last, 0.5 * (low + high));
-}
-
-// The turn of B between an end and the node next to it, of which no chord tells: B goes on beyond the end, then back.
-std::optional<Node> TwoRateStructure::turn_beside(const Node& end, const Node& next) const {
-  if (is_straight(end)) return std::nullopt;
-  const double way = next.wall.damping - end.wall.damping;
-  if (!(rise(end, next, 0.0) * way < 0.0)) return std::nullopt;
-  const Node turn = turn_between(end, next);
-  const double beyond = way > 0.0 ? end.wall.damping - turn.wall.damping : turn.wall.damping - end.wall.damping;
-  return beyond > same_level_of_two_rates * most_.damping ? std::optional(turn) : std::nullopt;
-}
-
-// Divided at the extrema of B. A stretch along which B is the same to the drawing's digits is a branch at one level.
-void TwoRateStructure::add_branches(TwoRateChain chain) {
-  std::vector<Node>& nodes = chain.nodes;
-  if (nodes.size() < 2) return;
-  if (chain.is_closed) {  // it begins where B is greatest
-    nodes.pop_back();
-    const auto greatest = std::ranges::max_element(nodes, {}, [](const Node& each) { return each.wall.damping; });
-    std::rotate(nodes.begin(), greatest, nodes.end());
-    const Node turn = turn_between(nodes.back(), nodes[1]);
-    nodes.front() = turn;
-    nodes.push_back(turn);
-  }
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const std::size_t last = end_of_level(nodes, i, most_);
-    if (last == i) continue;
-    const double level = 0.5 * (nodes[i].wall.damping + nodes[last].wall.damping);
-    for (std::size_t k = i; k <= last; ++k) nodes[k].wall.damping = level;
-    const auto at = [&](std::size_t k) { return nodes.begin() + static_cast<std::ptrdiff_t>(k); };
-    add_monotonic({at(begin), at(i + 1)}, chain.kind);
-    add_branch({at(i), at(last + 1)}, chain.kind);
-    begin = i = last;
-  }
-  add_monotonic({nodes.begin() + static_cast<std::ptrdiff_t>(begin), nodes.end()}, chain.kind);
-}
-
-void TwoRateStructure::add_branch(std::vector<Node> nodes, BoundaryKind kind) {
-  if (nodes.size() < 2) return;
-  branches.emplace_back(std::move(nodes));
-  kinds_.push_back(kind);
-}
-
-void TwoRateStructure::add_monotonic(std::vector<Node> nodes, BoundaryKind kind) {
-  if (nodes.size() < 2) return;
-  if (const auto turn = turn_beside(nodes.front(), nodes[1])) nodes.insert(nodes.begin() + 1, *turn);
-  if (const auto turn = turn_beside(nodes.back(), nodes[nodes.size() - 2])) nodes.insert(nodes.end() - 1, *turn);
-  std::vector<Node> part{nodes.front()};
-  for (std::size_t i = 1; i < nodes.size(); ++i) {
-    const bool turns = i + 1 < nodes.size() && (nodes[i].wall.damping > nodes[i - 1].wall.damping) !=
-                                                   (nodes[i + 1].wall.damping > nodes[i].wall.damping);
-    if (!turns) {
-      part.push_back(nodes[i]);
-      continue;
-    }
-    const Node turn = turn_between(nodes[i - 1], nodes[i + 1]);
-    const bool is_top = nodes[i].wall.damping > nodes[i - 1].wall.damping;
-    // Rounding may leave the node itself beyond.
-    const bool is_beyond =
-        is_top ? nodes[i].wall.damping >= turn.wall.damping : nodes[i].wall.damping <= turn.wall.damping;
-    const double way = (place_of(nodes[i + 1]) - place_of(nodes[i - 1]))
-                           .cwiseQuotient(curve_.scales)
-                           .dot((place_of(turn) - place_of(nodes[i])).cwiseQuotient(curve_.scales));
-    if (!is_beyond && way > 0.0) part.push_back(nodes[i]);
-    part.push_back(turn);
-    add_branch(std::move(part), kind);
-    part = {turn};
-    if (!is_beyond && way <= 0.0) part.push_back(nodes[i]);
-  }
-  add_branch(std::move(part), kind);
-}
-
 Node TwoRateStructure::between(const Node& from, const Node& to, double part) const {
   if (from.wall.damping != to.wall.damping) return on_curve(from, to, part);
-  const Vector3d at = place_of(from) + part * (place_of(to) - place_of(from));  // at one level
+  const Vector3d at =
+      TwoRateCurve::place(from) + part * (TwoRateCurve::place(to) - TwoRateCurve::place(from));  // at one level
   return {at(0), {at(1), at(2)}};
 }
 
 Node TwoRateStructure::on_curve(const Node& from, const Node& to, double part) const {
-  const Vector3d first = place_of(from);
-  const Vector3d way = place_of(to) - first;
+  const Vector3d first = TwoRateCurve::place(from);
+  const Vector3d way = TwoRateCurve::place(to) - first;
   const Vector3d at = first + part * way;
   const Node guess{at(0), {at(1), at(2)}};
-  if (way.isZero(0.0) || is_straight(from)) return guess;
+  if (way.isZero(0.0) || TwoRateCurve::is_straight(from)) return guess;
   const double q = curve_.inside(guess.wall);
   if (std::min(from.angle, to.angle) == std::numbers::pi) return {guess.angle, curve_.wall(curve_.nyquist_gain(q), q)};
   if (part == 0.0 || part == 1.0) return part == 0.0 ? from : to;
@@ -252,11 +140,11 @@ Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
   const Node& b = *after;
   const double part = (damping - a.wall.damping) / (b.wall.damping - a.wall.damping);
   if (a.angle != std::numbers::pi || b.angle != std::numbers::pi) {
-    if (is_straight(a)) return between(a, b, part);
-    const Vector3d way = (place_of(b) - place_of(a)).cwiseQuotient(curve_.scales);
-    const Vector3d at = place_of(a) + part * (place_of(b) - place_of(a));
+    if (TwoRateCurve::is_straight(a)) return between(a, b, part);
+    const Vector3d way = (TwoRateCurve::place(b) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
+    const Vector3d at = TwoRateCurve::place(a) + part * (TwoRateCurve::place(b) - TwoRateCurve::place(a));
     if (const auto found = curve_.solve({at(0), {at(1), damping}}, Vector3d::UnitZ())) {
-      const Vector3d moved = (place_of(*found) - place_of(a)).cwiseQuotient(curve_.scales);
+      const Vector3d moved = (TwoRateCurve::place(*found) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
       const double along = moved.dot(way) / way.squaredNorm();
       const double off = (moved - along * way).norm();
       if (along > -beside_chord && along < 1.0 + beside_chord && off < way.norm()) {
@@ -265,7 +153,7 @@ Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
     }
   }
   const auto excess = [&](double share) { return between(a, b, share).wall.damping - damping; };
-  std::uintmax_t steps = most_root_steps;
+  std::uintmax_t steps = most_root_steps_of_two_rates;
   const auto [low, high] =
       boost::math::tools::toms748_solve(excess, 0.0, 1.0, a.wall.damping - damping, b.wall.damping - damping,
                                         boost::math::tools::eps_tolerance<double>(48), steps);
@@ -298,7 +186,7 @@ void TwoRateStructure::add_crossings(std::size_t first, std::size_t second, std:
       const double at_low = apart(places[i - 1]);
       const double at_high = apart(places[i]);
       if (at_low * at_high < 0.0) {
-        std::uintmax_t steps = most_root_steps;
+        std::uintmax_t steps = most_root_steps_of_two_rates;
         const auto [from, to] = boost::math::tools::toms748_solve(apart, places[i - 1], places[i], at_low, at_high,
                                                                   boost::math::tools::eps_tolerance<double>(48), steps);
         found.push_back(0.5 * (from + to));
@@ -408,7 +296,7 @@ Node TwoRateStructure::node_of(const BoundaryPoint& point) const {
 BoundaryPoint TwoRateStructure::stiffest_between(const BoundaryPoint& first, const BoundaryPoint& last) const {
   const Node from = node_of(first);
   const Node to = node_of(last);
-  std::uintmax_t steps = most_root_steps;
+  std::uintmax_t steps = most_root_steps_of_two_rates;
   const double part =
       boost::math::tools::brent_find_minima([&](double share) { return -between(from, to, share).wall.stiffness; }, 0.0,
                                             1.0, std::numeric_limits<double>::digits / 2, steps)

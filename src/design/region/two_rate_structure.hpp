@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,10 @@
 #include "zwidth/progress.hpp"
 
 namespace zwidth::internal {
+
+// Levels of B nearer than this share of the greatest are one.
+inline constexpr double same_level_of_two_rates = 1e-10;
+inline constexpr std::uintmax_t most_root_steps_of_two_rates = 100;
 
 // The walls of a device whose damper runs in a loop of its own. Slices of one gain inside have every crossing; the chains
 // through them, divided where B turns, are the branches. Between two levels of B, at which branches end or cross, the cells

@@ -32,7 +32,6 @@ constexpr double closing = 0.1;              // of a step: the chain passes its 
 constexpr std::size_t most_nodes = 20000;    // of a chain
 // Beside z = 1 and z = -1 the curve is known by its limits, of which these are a square away.
 constexpr double least_angle = 1e-6;
-constexpr double beside_nyquist = 1e-5;
 // Of the curve of z = -1.
 constexpr int most_halvings = 40;
 constexpr double straight = 1e-3;
@@ -85,7 +84,7 @@ class ChainTracer {
   }
 
  private:
-  static Vector3d place(const Node& node) { return {node.angle, node.wall.stiffness, node.wall.damping}; }
+  static Vector3d place(const Node& node) { return TwoRateCurve::place(node); }
   static Node node_at(const Vector3d& place) { return {place(0), {place(1), place(2)}}; }
   [[nodiscard]] Vector3d share(const Node& node) const { return place(node).cwiseQuotient(curve_.scales); }
 

@@ -8,6 +8,9 @@
 
 namespace zwidth::internal {
 
+// rad from z = -1: nearer, the curve is known by its end there.
+inline constexpr double beside_nyquist = 1e-5;
+
 // A stretch of boundary from node to node: the curve turns little between two of them.
 struct TwoRateChain {
   BoundaryKind kind = BoundaryKind::oscillation;
