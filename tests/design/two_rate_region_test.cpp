@@ -59,6 +59,50 @@ TEST(TwoRateRegion, OfLhifamHasItsLimits) {
   EXPECT_NEAR(slow.region.most_damped->damping / one.region.most_damped->damping, 1.0, 1e-9);
 }
 
+// A pole of the damper's loop that hardly anything of a held force reaches: the boundary runs along one B from K = 0 to beyond
+// the region.
+TEST(TwoRateRegion, MayEndAlongOneDamping) {
+  DeviceParameters parameters;
+  parameters.name = "late spring";
+  parameters.bodies = {{"body", 2.778e-3, 2.047e-3, 0.0, 0.0}};
+  parameters.loop = {0, 0, 0, 2.5e-3, 8.75e-3};
+  parameters.loop.damper = LoopDamper{2.5e-3 / 8.0, 2.5e-3 / 8.0};
+  const WallRegion found = region(Device(parameters), walls_alone);
+  ASSERT_EQ(found.status, WallRegion::Status::bounded);
+  const double most = found.region.most_damped->damping;
+  for (const double share : {0.5, 0.999}) {
+    parameters.wall.damping = share * most;
+    const double limit = critical_stiffness(Device(parameters)).stiffness;
+    EXPECT_GT(limit, 0.0);
+    EXPECT_NEAR(first_limit_at(*found.walls, share * most), limit, 1e-9 * limit);
+  }
+  parameters.wall.damping = 1.001 * most;
+  EXPECT_EQ(critical_stiffness(Device(parameters)).status, StiffnessStatus::none_stable);
+}
+
+// Between two slices in which no wall is stable: an island at twenty times the stiffness of the rest.
+TEST(TwoRateRegion, HasWhatLiesFarFromTheRest) {
+  DeviceParameters parameters;
+  parameters.name = "three bodies";
+  parameters.bodies = {
+      {"a", 5.8183, 1.6802, 0.0, 0.0}, {"b", 2.8515, 2.7494, 0.0, 0.0}, {"c", 9.0434, 15.2487, 0.0, 0.0}};
+  parameters.links = {{0, 1, 20647.32, 18.2518}, {1, 2, 69501.81, 8.4571}};
+  parameters.loop.held = 2;
+  parameters.loop.sampling_period = 3.4912e-5;
+  parameters.loop.damper = LoopDamper{8.0 * 3.4912e-5, 2.93371e-4};
+  const Device device(parameters);
+  const WallRegion found = region(device, walls_alone);
+  ASSERT_EQ(found.status, WallRegion::Status::bounded);
+  EXPECT_TRUE(found.trust.sound());
+  const std::vector<StableInterval> intervals = found.walls->stable_stiffnesses(18128.9);
+  ASSERT_EQ(intervals.size(), 1U);
+  EXPECT_NEAR(intervals.front().lower, 664e6, 3e6);
+  EXPECT_NEAR(*intervals.front().upper, 672e6, 3e6);
+  for (const double end : {intervals.front().lower, *intervals.front().upper}) {
+    EXPECT_LT(nearest_to_circle(device, end, 18128.9), 1e-8);
+  }
+}
+
 // Hardly anything of a fast force reaches a sensor behind the link: the usual gain is 10^10 times that of the boundary.
 TEST(TwoRateRegion, OfASensorBehindTheLinkIsFound) {
   DeviceParameters parameters;

@@ -69,6 +69,11 @@ class TwoRateCurve {
   // Its angle in the longer period. Such angles above pi stand for straight lines.
   [[nodiscard]] double unreached_angle() const { return static_cast<double>(steps_) * std::numbers::pi; }
 
+  [[nodiscard]] static Eigen::Vector3d place(const Node& node) {
+    return {node.angle, node.wall.stiffness, node.wall.damping};
+  }
+  [[nodiscard]] static bool is_straight(const Node& node) { return node.angle == 0.0 || node.angle > std::numbers::pi; }
+
   // What is one along each of angle, K and B: all steps are in shares of it.
   Eigen::Vector3d scales = Eigen::Vector3d::Ones();
 

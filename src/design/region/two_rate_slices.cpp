@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "staged_progress.hpp"
@@ -21,6 +22,8 @@ constexpr double last_among = 2.0;
 constexpr double highest_slice = 30.0;
 constexpr double slow_angle = 0.1;  // rad a period inside
 constexpr int even_slices = 20;
+// Between two slices that differ by more than the places of their crossings walls may be stable: so often halved.
+constexpr int most_halvings_between = 4;
 constexpr double beyond_stable = 1.5;  // of the largest stable gain outside
 
 std::vector<double> stable_ends(const RegionSlice& slice) {
@@ -34,6 +37,16 @@ std::vector<double> stable_ends(const RegionSlice& slice) {
     throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::region_changes_too_often});
   }
   return ends;
+}
+
+// Whether the same crossings come in the same order.
+bool is_alike(const RegionSlice& a, const RegionSlice& b) {
+  const auto same = [](const GainCrossing& first, const GainCrossing& second) {
+    return first.poles_leaving == second.poles_leaving &&
+           (first.angle == std::numbers::pi) == (second.angle == std::numbers::pi);
+  };
+  return a.found.initially_unstable == b.found.initially_unstable &&
+         std::ranges::equal(a.found.crossings, b.found.crossings, same);
 }
 
 // The gains inside at which something happens: crossings of the loop with nothing outside, and its usual gain. A device whose
@@ -102,6 +115,20 @@ RegionSlices region_slices(const TwoRateCurve& curve, int density, const Progres
     inside = next;
   }
   if (highest_stable == 0.0) return result;
+  const auto look_between = [&](const auto& self, std::size_t below, std::size_t above, int halvings) -> void {
+    if (halvings == 0 || is_alike(result.slices[below], result.slices[above])) return;
+    const double between = std::sqrt(result.slices[below].inside * result.slices[above].inside);
+    const std::size_t middle = result.slices.size();
+    if (add(between)) {
+      highest_stable = std::max(highest_stable, between);
+      result.most_inside = std::max(result.most_inside, result.slices[above].inside);
+    }
+    self(self, below, middle, halvings - 1);
+    self(self, middle, above, halvings - 1);
+  };
+  for (std::size_t i = 1, last = result.slices.size(); i < last; ++i) {
+    if (result.slices[i - 1].inside >= highest_stable) look_between(look_between, i - 1, i, most_halvings_between);
+  }
   const int count = even_slices * density;
   for (int i = 1; i <= count; ++i) {
     const double between = result.most_inside * (i - 0.5) / count;

@@ -27,11 +27,9 @@ constexpr double share_of_slices = 0.3;  // of the progress
 constexpr double share_of_chains = 0.6;
 constexpr int more_slices = 3;
 // In shares of the greatest B and K.
-constexpr double same_level_of_two_rates = 1e-10;
 constexpr double clear_of_edge = 1e-6;
 constexpr double beside_chord = 0.05;
 constexpr double far_apart = 0.02;
-constexpr std::uintmax_t most_root_steps = 100;
 
 // A branch by its chords.
 struct Polyline {
@@ -52,16 +50,11 @@ struct Polyline {
   }
 };
 
-bool is_straight(const Node& node) { return node.angle == 0.0 || node.angle > std::numbers::pi; }
-
-Vector3d place_of(const Node& node) { return {node.angle, node.wall.stiffness, node.wall.damping}; }
-
 }  // namespace
 
 TwoRateStructure::TwoRateStructure(const Device& device, const Progress& progress) : curve_(device) {
-  proven = false;
-  if (!curve_.is_seen()) {
-    proven = true;
+  proven = !curve_.is_seen();
+  if (proven) {
     slabs.push_back({0.0, infinity, {{RegionEdge{BoundaryKind::no_stiffness, 0}, std::nullopt}}});
     return;
   }
@@ -87,7 +80,7 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   most_ = curve_.wall(slices_.most_outside, slices_.most_inside);
   curve_.scales = {1.0, most_.stiffness, most_.damping};
   stages.next(share_of_chains);
-  for (TwoRateChain& chain : trace_chains(curve_, slices_, stages.stage())) add_branches(std::move(chain));
+  for (TwoRateChain& chain : trace_chains(curve_, slices_, density, stages.stage())) add_branches(std::move(chain));
   stages.next(1.0);
   const std::vector<double> found = levels();
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -106,79 +99,33 @@ void TwoRateStructure::build(int density, const Progress& progress) {
   stages.done();
 }
 
-// The point between two nodes, on either side of it, where B turns.
-Node TwoRateStructure::turn_between(const Node& first, const Node& last) const {
-  const Vector3d chord = (place_of(last) - place_of(first)).cwiseQuotient(curve_.scales);
-  const auto rise = [&](double part) {
-    const Vector3d along = curve_.tangent(between(first, last, part));
-    return along.dot(chord) >= 0.0 ? along(2) : -along(2);
-  };
-  const double at_first = rise(0.0);
-  const double at_last = rise(1.0);
-  if (!(at_first * at_last < 0.0)) return between(first, last, 0.5);
-  std::uintmax_t steps = most_root_steps;
-  const auto [low, high] = boost::math::tools::toms748_solve(rise, 0.0, 1.0, at_first, at_last,
-                                                             boost::math::tools::eps_tolerance<double>(45), steps);
-  return between(first, last, 0.5 * (low + high));
-}
-
-// Divided at the extrema of B.
-void TwoRateStructure::add_branches(TwoRateChain chain) {
-  std::vector<Node>& nodes = chain.nodes;
-  if (nodes.size() < 2) return;
-  if (chain.is_closed) {  // it begins where B is greatest
-    nodes.pop_back();
-    const auto greatest = std::ranges::max_element(nodes, {}, [](const Node& each) { return each.wall.damping; });
-    std::rotate(nodes.begin(), greatest, nodes.end());
-    const Node turn = turn_between(nodes.back(), nodes[1]);
-    nodes.front() = turn;
-    nodes.push_back(turn);
-  }
-  const auto add = [&](std::vector<Node> part) {
-    if (part.size() < 2) return;
-    branches.emplace_back(std::move(part));
-    kinds_.push_back(chain.kind);
-  };
-  std::vector<Node> part{nodes.front()};
-  for (std::size_t i = 1; i < nodes.size(); ++i) {
-    const bool turns = i + 1 < nodes.size() && (nodes[i].wall.damping > nodes[i - 1].wall.damping) !=
-                                                   (nodes[i + 1].wall.damping > nodes[i].wall.damping);
-    if (!turns) {
-      part.push_back(nodes[i]);
-      continue;
-    }
-    const Node turn = turn_between(nodes[i - 1], nodes[i + 1]);
-    const bool is_top = nodes[i].wall.damping > nodes[i - 1].wall.damping;
-    // Rounding may leave the node itself beyond.
-    const bool is_beyond =
-        is_top ? nodes[i].wall.damping >= turn.wall.damping : nodes[i].wall.damping <= turn.wall.damping;
-    const double way = (place_of(nodes[i + 1]) - place_of(nodes[i - 1]))
-                           .cwiseQuotient(curve_.scales)
-                           .dot((place_of(turn) - place_of(nodes[i])).cwiseQuotient(curve_.scales));
-    if (!is_beyond && way > 0.0) part.push_back(nodes[i]);
-    part.push_back(turn);
-    add(std::move(part));
-    part = {turn};
-    if (!is_beyond && way <= 0.0) part.push_back(nodes[i]);
-  }
-  add(std::move(part));
-}
-
 Node TwoRateStructure::between(const Node& from, const Node& to, double part) const {
-  const Vector3d first = place_of(from);
-  const Vector3d way = place_of(to) - first;
+  if (from.wall.damping != to.wall.damping) return on_curve(from, to, part);
+  const Vector3d at =
+      TwoRateCurve::place(from) + part * (TwoRateCurve::place(to) - TwoRateCurve::place(from));  // at one level
+  return {at(0), {at(1), at(2)}};
+}
+
+Node TwoRateStructure::on_curve(const Node& from, const Node& to, double part) const {
+  const Vector3d first = TwoRateCurve::place(from);
+  const Vector3d way = TwoRateCurve::place(to) - first;
   const Vector3d at = first + part * way;
-  Node guess{at(0), {at(1), at(2)}};
-  if (way.isZero(0.0) || is_straight(from)) return guess;
-  if (from.angle == std::numbers::pi && to.angle == std::numbers::pi) {
-    const double inside = curve_.inside(guess.wall);
-    return {guess.angle, curve_.wall(curve_.nyquist_gain(inside), inside)};
+  const Node guess{at(0), {at(1), at(2)}};
+  if (way.isZero(0.0) || TwoRateCurve::is_straight(from)) return guess;
+  const double q = curve_.inside(guess.wall);
+  if (std::min(from.angle, to.angle) == std::numbers::pi) return {guess.angle, curve_.wall(curve_.nyquist_gain(q), q)};
+  if (part == 0.0 || part == 1.0) return part == 0.0 ? from : to;
+  if (std::max(from.angle, to.angle) == std::numbers::pi) {
+    // Walls move with the square of the angle from z = -1.
+    const double left = from.angle == std::numbers::pi ? part : 1.0 - part;
+    const double angle = std::numbers::pi - (std::numbers::pi - std::min(from.angle, to.angle)) * std::sqrt(left);
+    if (std::numbers::pi - angle < beside_nyquist) return {angle, guess.wall};
+    if (const auto found = curve_.solve({angle, guess.wall}, Vector3d::UnitX())) return *found;
   }
-  if (part == 0.0) return from;
-  if (part == 1.0) return to;
   const std::optional<Node> found = curve_.solve(guess, way.cwiseQuotient(curve_.scales).normalized());
-  if (!found) throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
-  return *found;
+  if (found) return *found;
+  if (std::numbers::pi - guess.angle < beside_nyquist) return guess;
+  throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
 }
 
 Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
@@ -193,11 +140,11 @@ Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
   const Node& b = *after;
   const double part = (damping - a.wall.damping) / (b.wall.damping - a.wall.damping);
   if (a.angle != std::numbers::pi || b.angle != std::numbers::pi) {
-    if (is_straight(a)) return between(a, b, part);
-    const Vector3d way = (place_of(b) - place_of(a)).cwiseQuotient(curve_.scales);
-    const Vector3d at = place_of(a) + part * (place_of(b) - place_of(a));
+    if (TwoRateCurve::is_straight(a)) return between(a, b, part);
+    const Vector3d way = (TwoRateCurve::place(b) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
+    const Vector3d at = TwoRateCurve::place(a) + part * (TwoRateCurve::place(b) - TwoRateCurve::place(a));
     if (const auto found = curve_.solve({at(0), {at(1), damping}}, Vector3d::UnitZ())) {
-      const Vector3d moved = (place_of(*found) - place_of(a)).cwiseQuotient(curve_.scales);
+      const Vector3d moved = (TwoRateCurve::place(*found) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
       const double along = moved.dot(way) / way.squaredNorm();
       const double off = (moved - along * way).norm();
       if (along > -beside_chord && along < 1.0 + beside_chord && off < way.norm()) {
@@ -206,7 +153,7 @@ Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
     }
   }
   const auto excess = [&](double share) { return between(a, b, share).wall.damping - damping; };
-  std::uintmax_t steps = most_root_steps;
+  std::uintmax_t steps = most_root_steps_of_two_rates;
   const auto [low, high] =
       boost::math::tools::toms748_solve(excess, 0.0, 1.0, a.wall.damping - damping, b.wall.damping - damping,
                                         boost::math::tools::eps_tolerance<double>(48), steps);
@@ -239,7 +186,7 @@ void TwoRateStructure::add_crossings(std::size_t first, std::size_t second, std:
       const double at_low = apart(places[i - 1]);
       const double at_high = apart(places[i]);
       if (at_low * at_high < 0.0) {
-        std::uintmax_t steps = most_root_steps;
+        std::uintmax_t steps = most_root_steps_of_two_rates;
         const auto [from, to] = boost::math::tools::toms748_solve(apart, places[i - 1], places[i], at_low, at_high,
                                                                   boost::math::tools::eps_tolerance<double>(48), steps);
         found.push_back(0.5 * (from + to));
@@ -263,10 +210,6 @@ std::vector<double> TwoRateStructure::levels() const {
   return found;
 }
 
-bool TwoRateStructure::is_stable(const WallPoint& wall) const {
-  return region_slice(curve_, curve_.inside(wall)).is_stable(curve_.outside(wall));
-}
-
 std::vector<RegionCell> TwoRateStructure::cells_at(double damping) const {
   struct Crossing {
     double stiffness;
@@ -287,7 +230,8 @@ std::vector<RegionCell> TwoRateStructure::cells_at(double damping) const {
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const double next = i + 1 < crossings.size() ? crossings[i + 1].stiffness : most_.stiffness;
     const WallPoint middle{0.5 * (crossings[i].stiffness + next), damping};
-    const bool stable = slice ? slice->is_stable(middle.stiffness) : is_stable(middle);
+    if (!curve_.is_damper_inside()) slice = region_slice(curve_, middle.stiffness);
+    const bool stable = slice->is_stable(curve_.outside(middle));
     if (stable && !was_stable) cells.push_back({crossings[i].edge, std::nullopt});
     if (!stable && was_stable) cells.back().right = crossings[i].edge;
     was_stable = stable;
@@ -352,7 +296,7 @@ Node TwoRateStructure::node_of(const BoundaryPoint& point) const {
 BoundaryPoint TwoRateStructure::stiffest_between(const BoundaryPoint& first, const BoundaryPoint& last) const {
   const Node from = node_of(first);
   const Node to = node_of(last);
-  std::uintmax_t steps = most_root_steps;
+  std::uintmax_t steps = most_root_steps_of_two_rates;
   const double part =
       boost::math::tools::brent_find_minima([&](double share) { return -between(from, to, share).wall.stiffness; }, 0.0,
                                             1.0, std::numeric_limits<double>::digits / 2, steps)

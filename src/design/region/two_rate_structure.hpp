@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "design/region/region_structure.hpp"
@@ -10,6 +12,10 @@
 #include "zwidth/progress.hpp"
 
 namespace zwidth::internal {
+
+// Levels of B nearer than this share of the greatest are one.
+inline constexpr double same_level_of_two_rates = 1e-10;
+inline constexpr std::uintmax_t most_root_steps_of_two_rates = 100;
 
 // The walls of a device whose damper runs in a loop of its own. Slices of one gain inside have every crossing; the chains
 // through them, divided where B turns, are the branches. Between two levels of B, at which branches end or cross, the cells
@@ -33,12 +39,16 @@ class TwoRateStructure final : public RegionStructure {
  private:
   void build(int density, const Progress& progress);
   void add_branches(TwoRateChain chain);
+  void add_branch(std::vector<Node> nodes, BoundaryKind kind);
+  void add_monotonic(std::vector<Node> nodes, BoundaryKind kind);
+  [[nodiscard]] Node on_curve(const Node& from, const Node& to, double part) const;
+  [[nodiscard]] double rise(const Node& first, const Node& last, double part) const;
   [[nodiscard]] Node turn_between(const Node& first, const Node& last) const;
+  [[nodiscard]] std::optional<Node> turn_beside(const Node& end, const Node& next) const;
   [[nodiscard]] Node at_damping(std::size_t branch, double damping) const;
   [[nodiscard]] std::vector<double> levels() const;
   void add_crossings(std::size_t first, std::size_t second, std::vector<double>& found) const;
   [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
-  [[nodiscard]] bool is_stable(const WallPoint& wall) const;
   [[nodiscard]] bool holds(const RegionSlice& slice) const;
   [[nodiscard]] Node node_of(const BoundaryPoint& point) const;
 

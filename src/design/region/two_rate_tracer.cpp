@@ -23,14 +23,15 @@ using Eigen::Vector3d;
 constexpr double first_step = 0.01;
 constexpr double longest_step = 0.04;
 constexpr double shortest_step = 1e-10;
-constexpr double most_turn = 0.15;         // rad
-constexpr double most_correction = 0.2;    // of the step
-constexpr double same_crossing = 1e-4;     // a chain meets a slice there
-constexpr double closing = 0.1;            // of a step: the chain passes its own beginning
-constexpr std::size_t most_nodes = 20000;  // of a chain
+constexpr double most_turn = 0.15;           // rad
+constexpr double most_correction = 0.2;      // of the step
+constexpr double most_end_correction = 0.3;  // of the way to z = -1
+constexpr double same_crossing = 1e-4;       // a chain meets a slice there
+constexpr double same_point = 1e-7;          // ends of two chains
+constexpr double closing = 0.1;              // of a step: the chain passes its own beginning
+constexpr std::size_t most_nodes = 20000;    // of a chain
 // Beside z = 1 and z = -1 the curve is known by its limits, of which these are a square away.
 constexpr double least_angle = 1e-6;
-constexpr double beside_nyquist = 1e-5;
 // Of the curve of z = -1.
 constexpr int most_halvings = 40;
 constexpr double straight = 1e-3;
@@ -42,8 +43,8 @@ constexpr std::uintmax_t most_steps_to_end = 60;
 
 class ChainTracer {
  public:
-  ChainTracer(const TwoRateCurve& curve, const RegionSlices& slices, const Progress& progress)
-      : curve_(curve), slices_(slices), progress_(progress) {
+  ChainTracer(const TwoRateCurve& curve, const RegionSlices& slices, int fineness, const Progress& progress)
+      : curve_(curve), slices_(slices), fineness_(fineness), progress_(progress) {
     const WallPoint most = curve.wall(slices.most_outside, slices.most_inside);
     lowest_ = {least_angle, 0.0, 0.0};
     highest_ = {std::numbers::pi - beside_nyquist, most.stiffness, most.damping};
@@ -52,19 +53,19 @@ class ChainTracer {
 
   [[nodiscard]] std::vector<TwoRateChain> all() {
     std::vector<TwoRateChain> chains;
-    for (std::size_t i = 0; i < slices_.slices.size(); ++i) {
+    // From the largest gain on: what is small in shares of it is known to fewer digits, and mostly on a chain by then.
+    for (std::size_t i = slices_.slices.size(); i-- > 0;) {
       const RegionSlice& slice = slices_.slices[i];
       for (std::size_t j = 0; j < slice.found.crossings.size(); ++j) {
         const GainCrossing& seed = slice.found.crossings[j];
         const bool inside = seed.angle > lowest_(0) && seed.angle < highest_(0) && seed.gain < slices_.most_outside &&
-                            slice.inside < slices_.most_inside;
+                            slice.inside <= slices_.most_inside;
         if (!inside || covered_[i][j]) continue;
         covered_[i][j] = true;
         // A crossing that only touches the circle is passed by others.
         if (seed.poles_leaving == 0) continue;
-        chains.push_back(through({seed.angle, curve_.wall(seed.gain, slice.inside)}));
-        cover(chains.back());
-        tell(progress_, static_cast<double>(i) / static_cast<double>(slices_.slices.size()));
+        add(through({seed.angle, curve_.wall(seed.gain, slice.inside)}), chains);
+        tell(progress_, 1.0 - static_cast<double>(i) / static_cast<double>(slices_.slices.size()));
       }
     }
     add_from(ends_with_nothing_outside(), chains);
@@ -83,7 +84,7 @@ class ChainTracer {
   }
 
  private:
-  static Vector3d place(const Node& node) { return {node.angle, node.wall.stiffness, node.wall.damping}; }
+  static Vector3d place(const Node& node) { return TwoRateCurve::place(node); }
   static Node node_at(const Vector3d& place) { return {place(0), {place(1), place(2)}}; }
   [[nodiscard]] Vector3d share(const Node& node) const { return place(node).cwiseQuotient(curve_.scales); }
 
@@ -95,8 +96,7 @@ class ChainTracer {
                                    [&](const Node& end) { return (share(end) - share(seed)).norm() < same_crossing; });
       };
       if (std::ranges::any_of(chains, ends_here)) continue;
-      chains.push_back(through(seed));
-      cover(chains.back());
+      add(through(seed), chains);
     }
   }
 
@@ -146,6 +146,7 @@ class ChainTracer {
       }
     }
     std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }
 
@@ -168,7 +169,8 @@ class ChainTracer {
   // Whether it comes back to where it began; else it goes on to where it leaves the gains looked at.
   [[nodiscard]] bool follow(std::vector<Node>& nodes, Vector3d along) const {
     const Vector3d first = along;
-    double step = first_step;
+    const double longest = longest_step / (fineness_ * fineness_);
+    double step = std::min(first_step, longest);
     while (nodes.size() < most_nodes) {
       if (step < shortest_step) lose();
       const Node& last = nodes.back();
@@ -201,7 +203,7 @@ class ChainTracer {
       const bool straighter = turned.dot(along) > std::cos(0.5 * most_turn);
       nodes.push_back(*next);
       along = turned;
-      if (straighter) step = std::min(1.5 * step, longest_step);
+      if (straighter) step = std::min(1.5 * step, longest);
     }
     lose();
   }
@@ -240,16 +242,41 @@ class ChainTracer {
     const Vector3d to = place(next);
     const double part = std::clamp((bound - from(coordinate)) / (to(coordinate) - from(coordinate)), 0.0, 1.0);
     Vector3d guess = from + part * (to - from);
+    double reach = (share(next) - share(last)).norm();
+    if (coordinate == 0 && bound > 1.0) {  // walls move with the square of the angle from z = -1
+      const Vector3d along = curve_.tangent(last).cwiseProduct(curve_.scales);
+      guess = from + 0.5 * (std::numbers::pi - from(0)) / along(0) * along;
+      reach = most_end_correction * (guess - from).cwiseQuotient(curve_.scales).norm();
+    }
     guess(coordinate) = bound;
     const std::optional<Node> end = curve_.solve(node_at(guess), Vector3d::Unit(coordinate));
-    if (!end) return std::nullopt;
     // On the way, and not on another stretch.
-    if ((share(*end) - guess.cwiseQuotient(curve_.scales)).norm() > (share(next) - share(last)).norm()) {
-      return std::nullopt;
-    }
+    if (!end || (share(*end) - guess.cwiseQuotient(curve_.scales)).norm() > reach) return std::nullopt;
     Vector3d exact = place(*end);
     exact(coordinate) = coordinate > 0 || bound < 1.0 ? bound : std::numbers::pi;
     return node_at(exact);
+  }
+
+  // Adds what is no second tracing of another one, and no point: what is small in shares is known to few digits.
+  void add(TwoRateChain chain, std::vector<TwoRateChain>& chains) {
+    cover(chain);
+    const auto near = [&](const Node& a, const Node& b) { return (share(a) - share(b)).norm() < same_point; };
+    const Node& first = chain.nodes.front();
+    const Node& last = chain.nodes.back();
+    const auto ends_there = [&](const TwoRateChain& other) {
+      const Node& front = other.nodes.front();
+      const Node& back = other.nodes.back();
+      return !other.is_closed && ((near(front, first) && near(back, last)) || (near(front, last) && near(back, first)));
+    };
+    if (!chain.is_closed && (near(first, last) || std::ranges::any_of(chains, ends_there))) return;
+    // With one end alone in common a chain left its curve for another one, which shorter steps tell apart.
+    const auto shares_end = [&](const TwoRateChain& other) {
+      const std::array ends{other.nodes.front(), other.nodes.back()};
+      return !other.is_closed &&
+             std::ranges::any_of(ends, [&](const Node& end) { return near(end, first) || near(end, last); });
+    };
+    if (fineness_ == 1 && !chain.is_closed && std::ranges::any_of(chains, shares_end)) lose();
+    chains.push_back(std::move(chain));
   }
 
   // The crossings of slices that the chain passes.
@@ -334,6 +361,7 @@ class ChainTracer {
 
   const TwoRateCurve& curve_;
   const RegionSlices& slices_;
+  int fineness_;
   const Progress& progress_;
   Vector3d lowest_;
   Vector3d highest_;
@@ -342,9 +370,9 @@ class ChainTracer {
 
 }  // namespace
 
-std::vector<TwoRateChain> trace_chains(const TwoRateCurve& curve, const RegionSlices& slices,
+std::vector<TwoRateChain> trace_chains(const TwoRateCurve& curve, const RegionSlices& slices, int fineness,
                                        const Progress& progress) {
-  return ChainTracer(curve, slices, progress).all();
+  return ChainTracer(curve, slices, fineness, progress).all();
 }
 
 }  // namespace zwidth::internal
