@@ -10,8 +10,7 @@
 namespace zwidth::internal {
 namespace {
 
-/// Sums of a column's past, the mean of its beginning before it as often as the longest mean reaches back. One value there would
-/// be that noise in every row whose means reach before the column.
+/// PastSums of a column, its first value before it as often as the longest mean reaches back.
 class PastSums {
  public:
   explicit PastSums(Eigen::Index reach) : reach_(reach) {}
@@ -19,8 +18,7 @@ class PastSums {
   void take(const Eigen::Ref<const Eigen::VectorXd>& column) {
     sums_.assign(1, 0.0);
     sums_.reserve(static_cast<std::size_t>(reach_ + column.size() + 1));
-    const double before = reach_ == 0 ? 0.0 : column.head(std::min(reach_, column.size())).mean();
-    for (Eigen::Index k = 0; k < reach_; ++k) sums_.push_back(sums_.back() + before);
+    for (Eigen::Index k = 0; k < reach_; ++k) sums_.push_back(sums_.back() + column(0));
     for (const double each : column) sums_.push_back(sums_.back() + each);
   }
   /// Of all values before each from `first` on.

@@ -9,7 +9,7 @@ namespace zwidth::internal {
 ///
 ///     e[k] = (sum_j filter[j] r[k - j] + sum_m means[m] mean(r[k - 2 n], ..., r[k - n - 1]) ) / deviation,   n = order 2^m
 ///
-/// order: that of `filter`. Before the first sample r is the mean of the first ones, of so many as the means reach back.
+/// order: that of `filter`. Before the first sample r is as there.
 struct Noise {
   std::vector<double> filter = {1.0};
   std::vector<double> means = {};  ///< of the past, each twice as long and as far as the one before
