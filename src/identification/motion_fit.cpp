@@ -37,7 +37,8 @@ class LimitOfMotion {
     return log_critical_stiffness(found_.model->family().device_at(z, instant));
   }
 
-  /// An end that is more likely than the best was none: the search goes on from there.
+  /// The least and the largest limit that are as likely, everything refitted on the way, rivals too. Where an end is more likely
+  /// than the best, that was none: the search goes on from there.
   [[nodiscard]] std::optional<LimitRange> range() {
     constexpr int most_begins = 4;
     constexpr MinimiseOptions fine{.most_steps = 15, .least_gain = 0.02};

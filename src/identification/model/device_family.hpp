@@ -25,7 +25,7 @@ class DeviceFamily {
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return numbers_; }
   /// How many are the device's.
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
-  /// How many of the first numbers device_at() hangs on, at any instant.
+  /// How many of the first numbers device_at() hangs on, at any instant: the device's and its drifts. The limit hangs on no other.
   [[nodiscard]] Eigen::Index of_limit() const noexcept { return of_limit_; }
   /// As a device file has it, nothing locked: no delay below 0.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;

@@ -9,7 +9,8 @@
 
 namespace zwidth::internal {
 
-// A rival a file, named for it: what it is, its numbers, what is believed of them and why.
+// A rival a file, named for it: what it is, its numbers, what is believed of them and why. CONTRIBUTING.md: how one is added;
+// docs/identification_method.md: how it reaches the interval.
 [[nodiscard]] Rival constant_force();
 [[nodiscard]] Rival coulomb_friction();
 [[nodiscard]] Rival presliding();
