@@ -78,7 +78,7 @@ TEST(MechanismText, WhatIsNoXmlIsRefusedWithItsLine) {
     EXPECT_EQ(refused->line, 2.0) << text;
   }
   EXPECT_EQ(refusal_of_text("<!DOCTYPE a [<!ENTITY b \"c\">]>\n<a>&b;</a>")->code, no_xml);
-  for (const std::string text : {"just text", "text<a/>", "<a/>text", "", "<!-- -->", "</a>", "<a>\n</b>"}) {
+  for (const std::string text : {"just text", "text<a/>", "<a/>text", " ", "<!-- -->", "</a>", "<a>\n</b>"}) {
     const auto refused = refusal_of_text(text);
     ASSERT_TRUE(refused) << text;
     EXPECT_EQ(refused->code, no_xml) << text;
