@@ -103,13 +103,11 @@ void solve_group(const KernelGroup& group, const KernelDevices& devices, std::si
   loaded<on_demand::Kernel>().solve_group(group, devices, count, answers, scratch);
 }
 
-#ifdef ZWIDTH_MUJOCO
-MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
-  return loaded<on_demand::Mechanisms>().mujoco_at_pose(file, texts);
-}
-#endif
-
 }  // namespace internal
+
+#ifdef ZWIDTH_MUJOCO
+MechanismAtPose at_pose(const MechanismFile& file) { return loaded<on_demand::Mechanisms>().at_pose(file); }
+#endif
 
 namespace study_engine {
 

@@ -1,6 +1,7 @@
 #include "mechanism/mechanism_text.hpp"
 
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <array>
@@ -13,13 +14,17 @@
 
 #include "counted.hpp"
 #include "mechanism/refusal.hpp"
-#include "mechanism/xml_elements.hpp"
 
 namespace zwidth::internal {
 namespace {
 
+using namespace std::string_view_literals;
+using tinyxml2::XMLAttribute;
+using tinyxml2::XMLElement;
+using tinyxml2::XMLNode;
 using Names = std::span<const std::string_view>;
 
+constexpr std::size_t most_elements = 10000;
 constexpr std::array<std::string_view, 17> not_needed{
     "asset", "camera", "contact",   "custom", "deformable", "gazebo",   "keyframe", "light",       "sensor",
     "size",  "skin",   "statistic", "visual", "collision",  "material", "texture",  "transmission"};
@@ -44,6 +49,31 @@ std::optional<std::string> contents(const std::filesystem::path& path) {
   return text;
 }
 
+std::string_view value(const XMLElement& of, const char* attribute) {
+  const char* found = of.Attribute(attribute);
+  return found != nullptr ? found : "";
+}
+
+// MuJoCo makes one body of links that joints fix, and the tip may be such a link.
+void keep_links_apart(XMLElement& robot) {
+  XMLElement* settings = robot.FirstChildElement("mujoco");
+  if (settings == nullptr) settings = robot.InsertNewChildElement("mujoco");
+  XMLElement* compiler = settings->FirstChildElement("compiler");
+  if (compiler == nullptr) compiler = settings->InsertNewChildElement("compiler");
+  compiler->SetAttribute("fusestatic", false);
+}
+
+// A body with a joint, or within one that has. Where an included file begins, it may stand within one.
+bool moves(const XMLElement& body) {
+  for (const XMLElement* at = &body; at != nullptr; at = at->Parent()->ToElement()) {
+    const std::string_view name = at->Name();
+    if (name == "worldbody") return false;
+    const auto has_child = [at](std::string_view each) { return at->FirstChildElement(each.data()) != nullptr; };
+    if (name != "body" || std::ranges::any_of(joints, has_child)) return true;
+  }
+  return true;
+}
+
 class MechanismReader {
  public:
   explicit MechanismReader(const MechanismFile& file) : may_name_files_(file.text.empty()) {
@@ -55,44 +85,32 @@ class MechanismReader {
       refuse_mechanism("mechanism.file",
                        {.code = ProblemCode::mechanism_file_refused, .subjects = {{"name", path.string()}}});
     }
-    add("mechanism.xml", path.filename().string(), *std::move(text));
+    add("mechanism.xml", path.filename().string(), *text);
   }
 
   [[nodiscard]] std::vector<MechanismText> texts() && { return std::move(texts_); }
 
  private:
-  // A text, what of it is read, and its changes.
+  // What stands in a file, and what is read of it.
   struct Document {
     std::string file;  // for people; empty where it is a text
-    std::string text;
-    std::vector<XmlElement> elements;
-    std::vector<TextRange> blanks;
-    std::vector<std::pair<std::size_t, std::string>> inserts;
+    tinyxml2::XMLDocument xml;
+    std::size_t elements = 0;
+    bool takes_inertia_of_geoms = false;
+    tinyxml2::XMLPrinter read{nullptr, true};
+    int line = 1;  // that it has reached
   };
 
-  [[noreturn]] void refuse(ProblemCode code, const Document& of, std::size_t line, std::string_view name,
+  [[noreturn]] void refuse(ProblemCode code, const Document& of, int line, std::string_view name,
                            std::vector<Subject> subjects = {}) const {
     if (!of.file.empty()) subjects.push_back({"file", of.file});
     if (!name.empty()) subjects.push_back({"name", std::string(name.substr(0, 100))});
     refuse_mechanism(may_name_files_ ? "mechanism.file" : "mechanism.text",
-                     {.code = code, .evidence = {counted("line", line)}, .subjects = std::move(subjects)});
+                     {.code = code, .evidence = {counted("line", static_cast<std::size_t>(line))}, .subjects = std::move(subjects)});
   }
 
-  void add(const std::string& called, const std::string& file, std::string text) {
-    const std::size_t at = texts_.size();
-    texts_.push_back({called, ""});
-    bytes_ += text.size();
-    if (bytes_ > most_mechanism_bytes) refuse_size(most_mechanism_bytes, "bytes");
-    Document document{file, std::move(text), {}, {}, {}};
-    auto elements = xml_elements(document.text);
-    if (!elements) refuse(ProblemCode::no_xml, document, elements.error().line, "", {{"why", elements.error().why}});
-    document.elements = *std::move(elements);
-    joints_ += static_cast<std::size_t>(
-        std::ranges::count_if(document.elements, [](const XmlElement& each) { return is_of(joints, each.name); }));
-    if (joints_ > most_mechanism_joints) refuse_size(most_mechanism_joints, "joints");
-    for (std::size_t i = 0; i < document.elements.size(); ++i) read(document, i);
-    if (document.elements.front().name == "robot") keep_links_apart(document);
-    texts_[at].text = changed(std::move(document));
+  [[noreturn]] void refuse_xml(const Document& of, int line, const char* why) const {
+    refuse(ProblemCode::no_xml, of, std::max(line, 1), "", {{"why", why}});
   }
 
   [[noreturn]] void refuse_size(std::size_t most, const char* what) const {
@@ -101,123 +119,104 @@ class MechanismReader {
         {.code = ProblemCode::mechanism_too_large, .evidence = {counted("most", most)}, .subjects = {{"what", what}}});
   }
 
-  void read(Document& document, std::size_t index) {
-    const XmlElement& element = document.elements[index];
-    if (is_of(not_read, element.name)) {
-      refuse(ProblemCode::element_not_read, document, element.line, element.name);
+  void add(const std::string& called, const std::string& file, const std::string& text) {
+    const std::size_t at = texts_.size();
+    texts_.push_back({called, ""});
+    bytes_ += text.size();
+    if (bytes_ > most_mechanism_bytes) refuse_size(most_mechanism_bytes, "bytes");
+    Document document;
+    document.file = file;
+    if (text.find('\0') != std::string::npos) refuse_xml(document, 1, "zero");
+    document.xml.Parse(text.data(), text.size());
+    if (document.xml.Error()) refuse_xml(document, document.xml.ErrorLineNum(), document.xml.ErrorName());
+    XMLElement* root = document.xml.RootElement();
+    if (root == nullptr) refuse_xml(document, 1, "none");
+    if (const XMLElement* second = root->NextSiblingElement()) refuse_xml(document, second->GetLineNum(), "roots");
+    check(document, document.xml);
+    if (root->Name() == "robot"sv) keep_links_apart(*root);
+    write(document, *root, false);
+    texts_[at].text = document.read.CStr();
+  }
+
+  // Elements, and their attributes; comments and the text of elements say nothing.
+  void check(Document& document, const XMLNode& node) {
+    const tinyxml2::XMLText* text = node.ToText();
+    const bool is_outside = text != nullptr && (text->CData() || text->Parent() == &document.xml);
+    if (is_outside || node.ToUnknown() != nullptr) refuse_xml(document, node.GetLineNum(), "declared");
+    if (const XMLElement* element = node.ToElement()) check_element(document, *element);
+    for (const XMLNode* each = node.FirstChild(); each != nullptr; each = each->NextSibling()) check(document, *each);
+  }
+
+  void check_element(Document& document, const XMLElement& element) {
+    const std::string_view name = element.Name();
+    if (++document.elements > most_elements) refuse_xml(document, element.GetLineNum(), "many");
+    if (is_of(joints, name) && ++joints_ > most_mechanism_joints) refuse_size(most_mechanism_joints, "joints");
+    if (is_of(not_read, name)) refuse(ProblemCode::element_not_read, document, element.GetLineNum(), name);
+    bool names_file = name == "include";
+    for (const XMLAttribute* each = element.FirstAttribute(); each != nullptr; each = each->Next()) {
+      if (std::string_view(each->Value()).find('<') != std::string_view::npos) {
+        refuse_xml(document, each->GetLineNum(), "value");
+      }
+      names_file = names_file || is_of(paths, each->Name());
     }
-    const bool names_file =
-        std::ranges::any_of(element.attributes, [](const XmlAttribute& each) { return is_of(paths, each.name); });
-    if (!may_name_files_ && (names_file || element.name == "include")) {
-      refuse(ProblemCode::path_in_text, document, element.line, element.name);
-    }
-    if (!document.blanks.empty() && element.range.begin < document.blanks.back().end) return;
-    if (element.name == "include") return include(document, element);
-    const bool is_of_mesh =
-        element.name == "geom" && !(element.value("mesh").empty() && element.value("hfield").empty());
-    const bool is_default = is_within(document, index, "default");
+    if (names_file && !may_name_files_) refuse(ProblemCode::path_in_text, document, element.GetLineNum(), name);
+    if (name == "compiler" && value(element, "inertiafromgeom") == "true") document.takes_inertia_of_geoms = true;
+  }
+
+  // What is needed of an element, in the line in which it stands.
+  void write(Document& document, const XMLElement& element, bool is_default) {
+    const std::string_view name = element.Name();
+    const bool is_of_mesh = name == "geom" && !(value(element, "mesh").empty() && value(element, "hfield").empty());
     if (is_of_mesh && !is_default) check_mass(document, element);
-    if (is_of(not_needed, element.name) || (is_of_mesh && !is_default)) {
-      document.blanks.push_back(element.range);
-      return;
+    if (is_of(not_needed, name) || (is_of_mesh && !is_default)) return;
+    for (; document.line < element.GetLineNum(); ++document.line) document.read.PushText("\n");
+    document.read.OpenElement(element.Name(), true);
+    if (name == "include") {
+      document.read.PushAttribute("file", included(document, element).c_str());
+    } else {
+      write_content(document, element, is_default || name == "default");
     }
-    for (const XmlAttribute& each : element.attributes) {
-      const bool is_mesh = element.name == "geom" && (each.name == "mesh" || each.name == "hfield");
-      if (is_mesh || is_of(attributes_not_needed, each.name)) document.blanks.push_back(each.range);
+    document.read.CloseElement(true);
+  }
+
+  void write_content(Document& document, const XMLElement& element, bool is_default) {
+    const bool is_geom = element.Name() == "geom"sv;
+    for (const XMLAttribute* each = element.FirstAttribute(); each != nullptr; each = each->Next()) {
+      const bool is_mesh = is_geom && (each->Name() == "mesh"sv || each->Name() == "hfield"sv);
+      if (is_mesh || is_of(attributes_not_needed, each->Name())) continue;
+      std::string on_one_line = each->Value();
+      std::ranges::replace(on_one_line, '\n', ' ');
+      document.read.PushAttribute(each->Name(), on_one_line.c_str());
+    }
+    for (const XMLElement* each = element.FirstChildElement(); each != nullptr; each = each->NextSiblingElement()) {
+      write(document, *each, is_default);
     }
   }
 
-  void include(Document& document, const XmlElement& element) {
-    const std::string name(element.value("file"));
+  // Reads the file; by which name MuJoCo finds it.
+  std::string included(const Document& document, const XMLElement& element) {
+    const std::string name(value(element, "file"));
     const bool is_new = included_.insert(name).second;
     std::optional<std::string> text;
-    if (is_new && !name.empty() && name.find('&') == std::string::npos) text = contents(folder_ / name);
+    if (is_new && !name.empty()) text = contents(folder_ / name);
     if (!text) {
-      refuse(ProblemCode::include_not_read, document, element.line, name,
+      refuse(ProblemCode::include_not_read, document, element.GetLineNum(), name,
              is_new ? std::vector<Subject>{} : std::vector<Subject>{{"twice", "twice"}});
     }
-    const std::string called = fmt::format("included_{}.xml", included_.size());
-    for (const XmlAttribute& each : element.attributes) document.blanks.push_back(each.range);
-    document.inserts.emplace_back(element.opened, fmt::format(" file=\"{}\"", called));
-    add(called, name, *std::move(text));
+    std::string called = fmt::format("included_{}.xml", included_.size());
+    add(called, name, *text);
+    return called;
   }
 
   // A mesh may give a body its mass, and meshes are not read.
-  void check_mass(const Document& document, const XmlElement& geom) const {
-    if (geom.parent == XmlElement::none || document.elements[geom.parent].name != "body") return;
-    const std::string_view mass = geom.value("mass");
+  void check_mass(const Document& document, const XMLElement& geom) const {
+    const XMLElement* body = geom.Parent()->ToElement();
+    if (body == nullptr || body->Name() != "body"sv) return;
+    const std::string_view mass = value(geom, "mass");
     if (!mass.empty() && mass.find_first_not_of("0. ") == std::string_view::npos) return;
-    const bool states_inertia = has_child(document, geom.parent, "inertial") && !takes_inertia_of_geoms(document);
-    if (states_inertia || !moves(document, geom.parent)) return;
-    refuse(ProblemCode::mass_of_mesh, document, geom.line, document.elements[geom.parent].value("name"));
-  }
-
-  static bool takes_inertia_of_geoms(const Document& document) {
-    return std::ranges::any_of(document.elements, [](const XmlElement& each) {
-      return each.name == "compiler" && each.value("inertiafromgeom") == "true";
-    });
-  }
-
-  static bool has_child(const Document& document, std::size_t parent, std::string_view name) {
-    return std::ranges::any_of(document.elements,
-                               [&](const XmlElement& each) { return each.parent == parent && each.name == name; });
-  }
-
-  // A body with a joint, or within one that has. Where an included file begins, it may stand within one.
-  static bool moves(const Document& document, std::size_t body) {
-    for (std::size_t at = body; at != XmlElement::none; at = document.elements[at].parent) {
-      const std::string_view name = document.elements[at].name;
-      if (name == "worldbody") return false;
-      if (name == "mujocoinclude" || name != "body") return true;
-      if (std::ranges::any_of(joints, [&](std::string_view each) { return has_child(document, at, each); }))
-        return true;
-    }
-    return true;
-  }
-
-  static bool is_within(const Document& document, std::size_t index, std::string_view name) {
-    for (std::size_t at = document.elements[index].parent; at != XmlElement::none; at = document.elements[at].parent) {
-      if (document.elements[at].name == name) return true;
-    }
-    return false;
-  }
-
-  // MuJoCo makes one body of links that joints fix, and the tip may be such a link.
-  static void keep_links_apart(Document& document) {
-    const auto child = [&](std::size_t parent, std::string_view name) {
-      for (std::size_t i = 0; i < document.elements.size(); ++i) {
-        if (document.elements[i].parent == parent && document.elements[i].name == name) return i;
-      }
-      return XmlElement::none;
-    };
-    const std::size_t settings = child(0, "mujoco");
-    const std::size_t compiler = settings == XmlElement::none ? XmlElement::none : child(settings, "compiler");
-    const std::string apart = " fusestatic=\"false\"";
-    if (compiler != XmlElement::none) {
-      for (const XmlAttribute& each : document.elements[compiler].attributes) {
-        if (each.name == "fusestatic") document.blanks.push_back(each.range);
-      }
-      document.inserts.emplace_back(document.elements[compiler].opened, apart);
-    } else if (settings != XmlElement::none &&
-               document.elements[settings].entered < document.elements[settings].range.end) {
-      document.inserts.emplace_back(document.elements[settings].entered, fmt::format("<compiler{}/>", apart));
-    } else if (document.elements[0].entered < document.elements[0].range.end) {
-      if (settings != XmlElement::none) document.blanks.push_back(document.elements[settings].range);
-      document.inserts.emplace_back(document.elements[0].entered, fmt::format("<mujoco><compiler{}/></mujoco>", apart));
-    }
-  }
-
-  // Blanks keep the lines; inserts are at places that rise from the last.
-  static std::string changed(Document document) {
-    std::string text = std::move(document.text);
-    for (const TextRange& each : document.blanks) {
-      for (std::size_t at = each.begin; at < each.end; ++at) {
-        if (text[at] != '\n') text[at] = ' ';
-      }
-    }
-    std::ranges::sort(document.inserts, std::ranges::greater{}, &std::pair<std::size_t, std::string>::first);
-    for (const auto& [at, insert] : document.inserts) text.insert(at, insert);
-    return text;
+    const bool states_inertia = body->FirstChildElement("inertial") != nullptr && !document.takes_inertia_of_geoms;
+    if (states_inertia || !moves(*body)) return;
+    refuse(ProblemCode::mass_of_mesh, document, geom.GetLineNum(), value(*body, "name"));
   }
 
   bool may_name_files_;

@@ -21,7 +21,7 @@ inline constexpr std::size_t most_mechanism_joints = 300;
 
 // What MuJoCo reads of a mechanism: bodies, joints, tendons, motors and loops. First the file itself, then what it includes.
 //
-// Meshes, textures, cameras and the like are blanked out, so that lines keep their numbers. Links of URDF stay apart where
+// Meshes, textures, cameras and the like are left out, and each element stands in its line. Links of URDF stay apart where
 // joints fix them, and have the inertia that they state. Throws Error (invalid_argument) for what is no XML or too large;
 // elements that make or load others; a body that has its mass of a mesh; and every path where the mechanism is a text.
 [[nodiscard]] std::vector<MechanismText> mechanism_texts(const MechanismFile& file);

@@ -1,7 +1,5 @@
 // Mechanism files by MuJoCo, which no other file knows.
 
-#include "mechanism/mujoco_file.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/QR>
@@ -14,14 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "mechanism/mechanism_text.hpp"
 #include "mechanism/refusal.hpp"
 #include "mechanism/transmissions.hpp"
 #include "mechanism/trial_process.hpp"
+#include "zwidth/mechanism.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
 
-namespace zwidth::internal {
+namespace zwidth {
+namespace internal {
 namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -308,9 +309,12 @@ MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<Mechan
 }
 
 }  // namespace
+}  // namespace internal
 
 // What MuJoCo does not expect may crash it: a text is read in another process first.
-MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
+MechanismAtPose at_pose(const MechanismFile& file) {
+  using namespace internal;
+  const std::vector<MechanismText> texts = mechanism_texts(file);
   const Handlers handlers;
   static std::vector<MechanismText> read_before;  // its own only while the handlers are ours
   if (texts != read_before) {
@@ -320,13 +324,13 @@ MechanismAtPose mujoco_at_pose(const MechanismFile& file, const std::vector<Mech
   return read_at_pose(file, texts);
 }
 
-}  // namespace zwidth::internal
+}  // namespace zwidth
 #else
-namespace zwidth::internal {
+namespace zwidth {
 
-MechanismAtPose mujoco_at_pose(const MechanismFile&, const std::vector<MechanismText>&) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+MechanismAtPose at_pose(const MechanismFile&) {
+  internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
 }
 
-}  // namespace zwidth::internal
+}  // namespace zwidth
 #endif

@@ -108,13 +108,20 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "must be smaller"},
       ProblemPhrase{
           no_xml, "no_xml",
-          "{?file|{file}: }line {line:n}: {?why=comment|a comment or declaration does not end}{?why=closing|a closing "
-          "tag stands where none of its name is open}{?why=roots|a second root element}{?why=many|more elements than "
-          "are read}{?why=deep|elements stand in one another too deep}{?why=nameless|a tag without a "
-          "name}{?why=apart|an attribute does not stand apart}{?why=quotes|an attribute without its value in "
-          "quotes}{?why=open|an attribute does not end}{?why=twice|an attribute stands twice}{?why=value|an attribute "
-          "has a <}{?why=zero|a byte of 0}{?why=unclosed|an element does not end}{?why=none|no element}{?why=text|text "
-          "outside of its element}{?why=declared|declarations and CDATA are not read}",
+          "{?file|{file}: }line {line:n}: {?why=XML_ERROR_MISMATCHED_ELEMENT|an element does not end with a tag of its "
+          "name}{?why=XML_ERROR_PARSING_ELEMENT|a tag does not end}{?why=XML_ERROR_PARSING_ATTRIBUTE|an attribute "
+          "without "
+          "its value in quotes, or twice}{?why=XML_ERROR_PARSING_TEXT|text that no tag follows}"
+          "{?why=XML_ERROR_PARSING_CDATA|CDATA does not end}{?why=XML_ERROR_PARSING_COMMENT|a comment does not end}"
+          "{?why=XML_ERROR_PARSING_DECLARATION|a declaration does not end, or is not the first}"
+          "{?why=XML_ERROR_PARSING_UNKNOWN|a declaration does not end}{?why=XML_ERROR_PARSING|a tag without a name}"
+          "{?why=XML_ERROR_EMPTY_DOCUMENT|no element}{?why=XML_ELEMENT_DEPTH_EXCEEDED|elements stand in one another "
+          "too "
+          "deep}{?why=many|more elements than are read}{?why=roots|a second root element}{?why=value|an attribute has "
+          "a "
+          "<}{?why=zero|a byte of 0}{?why=none|no element}{?why=declared|declarations of types, CDATA and text outside "
+          "of "
+          "elements are not read}",
           ""},
       ProblemPhrase{element_not_read, "element_not_read", "{?file|{file}: }line {line:n}: <{name}> is not read",
                     "{?name=mimic|write the motion that follows another as an equality of MJCF}"

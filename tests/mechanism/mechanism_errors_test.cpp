@@ -50,6 +50,17 @@ std::optional<ProblemCode> code_of(const MechanismFile& file) {
   return std::nullopt;
 }
 
+// MuJoCo's own errors name lines of the text that it gets, which are the file's.
+TEST(MechanismErrors, TheReadersLinesAreTheFiles) {
+  try {
+    (void)at_pose(mechanism(
+        paddle("<geom type='mesh' mesh='m' mass='0'/>\n<!-- a\n b -->\n" + mass + "\n<joint axis='a'/>" + tip)));
+    FAIL() << "it was read";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("line 8"), std::string::npos) << error.what();
+  }
+}
+
 TEST(MechanismErrors, EachHasItsCode) {
   EXPECT_EQ(code_of(mechanism(paddle(mass + tip))), std::nullopt);
   EXPECT_EQ(code_of(mechanism(paddle(mass))), no_such_part);
