@@ -53,10 +53,24 @@ std::size_t point(std::vector<Coordinates::Point>& points, const char* name, con
   return points.size() - 1;
 }
 
-std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
-  const Eigen::MatrixXd columns = matrix.transpose();
-  return {columns.data(), columns.data() + columns.size()};
+// Mass, springs, dampers and frictions without what rounding leaves of a number that is 0.
+Coordinates coordinates_of(const MechanismAtPose& mechanism) {
+  Coordinates coordinates;
+  Eigen::MatrixXd mass = 0.5 * (mechanism.mass + mechanism.mass.transpose());
+  const Eigen::VectorXd scale = mass.diagonal().cwiseAbs().cwiseSqrt();
+  mass = (mass.array().abs() > no_weight_below * (scale * scale.transpose()).array()).select(mass, 0.0).eval();
+  coordinates.mass.assign(mass.data(), mass.data() + mass.size());
+  const auto clean = [](std::vector<double>& of) {
+    of = weights(Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size())));
+  };
+  coordinates.elements = mechanism.elements;
+  for (Coordinates::Element& each : coordinates.elements) clean(each.weights);
+  coordinates.frictions = mechanism.frictions;
+  for (Coordinates::Friction& each : coordinates.frictions) clean(each.weights);
+  return coordinates;
 }
+
+std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) { return weights(matrix.transpose().reshaped()); }
 
 Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameters) {
   Eigen::Index row = 0;
@@ -64,10 +78,7 @@ Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameter
     internal::refuse_mechanism("mechanism.pose", {.code = ProblemCode::tip_stands_still});
   }
   const TipMotion motion = tip_motion(mechanism);
-  Coordinates coordinates;
-  coordinates.mass.assign(motion.mass.data(), motion.mass.data() + motion.mass.size());
-  coordinates.elements = mechanism.elements;
-  coordinates.frictions = mechanism.frictions;
+  Coordinates coordinates = coordinates_of(mechanism);
   coordinates.points = {{"tip", weights(mechanism.tip.row(row).transpose())}};
   coordinates.tip = {row_by_row(motion.tip), row_by_row(motion.sensed), row_by_row(motion.pushed)};
   parameters.loop.held = parameters.loop.sensed = parameters.loop.actuated = 0;
@@ -116,11 +127,7 @@ Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& nor
       through_cables(along, mechanism.cables, mechanism.encoders, ProblemCode::tip_not_determined_by_encoders, normal);
   const Eigen::VectorXd actuated =
       through_cables(along, mechanism.cables, mechanism.motors, ProblemCode::tip_not_moved_by_motors, normal);
-  Coordinates coordinates;
-  const Eigen::MatrixXd mass = 0.5 * (mechanism.mass + mechanism.mass.transpose());
-  coordinates.mass.assign(mass.data(), mass.data() + mass.size());
-  coordinates.elements = mechanism.elements;
-  coordinates.frictions = mechanism.frictions;
+  Coordinates coordinates = coordinates_of(mechanism);
   parameters.loop.held = point(coordinates.points, "tip", along);
   parameters.loop.sensed = point(coordinates.points, "encoders", sensed);
   parameters.loop.actuated = point(coordinates.points, "motors", actuated);
