@@ -25,6 +25,7 @@ using tinyxml2::XMLNode;
 using Names = std::span<const std::string_view>;
 
 constexpr std::size_t most_elements = 10000;
+constexpr std::ptrdiff_t most_attributes = 20000;  // the parser holds each of an element's against all before it
 constexpr std::array<std::string_view, 17> not_needed{
     "asset", "camera", "contact",   "custom", "deformable", "gazebo",   "keyframe", "light",       "sensor",
     "size",  "skin",   "statistic", "visual", "collision",  "material", "texture",  "transmission"};
@@ -105,8 +106,9 @@ class MechanismReader {
                            std::vector<Subject> subjects = {}) const {
     if (!of.file.empty()) subjects.push_back({"file", of.file});
     if (!name.empty()) subjects.push_back({"name", std::string(name.substr(0, 100))});
-    refuse_mechanism(may_name_files_ ? "mechanism.file" : "mechanism.text",
-                     {.code = code, .evidence = {counted("line", static_cast<std::size_t>(line))}, .subjects = std::move(subjects)});
+    refuse_mechanism(
+        may_name_files_ ? "mechanism.file" : "mechanism.text",
+        {.code = code, .evidence = {counted("line", static_cast<std::size_t>(line))}, .subjects = std::move(subjects)});
   }
 
   [[noreturn]] void refuse_xml(const Document& of, int line, const char* why) const {
@@ -124,6 +126,7 @@ class MechanismReader {
     texts_.push_back({called, ""});
     bytes_ += text.size();
     if (bytes_ > most_mechanism_bytes) refuse_size(most_mechanism_bytes, "bytes");
+    if (std::ranges::count(text, '=') > most_attributes) refuse_size(most_attributes, "attributes");
     Document document;
     document.file = file;
     if (text.find('\0') != std::string::npos) refuse_xml(document, 1, "zero");

@@ -94,6 +94,9 @@ TEST(MechanismText, WhatIsTooLargeIsRefused) {
   std::string many = "<a>";
   for (int i = 0; i < 20'000; ++i) many += "<b/>";
   EXPECT_EQ(refusal_of_text(many + "</a>")->code, no_xml);
+  std::string attributes = "<a";
+  for (int i = 0; i < 50'000; ++i) attributes += " a" + std::to_string(i) + "=''";
+  EXPECT_EQ(refusal_of_text(attributes + "/>")->code, mechanism_too_large);
   std::string joints = "<a>";
   for (int i = 0; i < 400; ++i) joints += "<joint/>";
   EXPECT_EQ(refusal_of_text(joints + "</a>")->code, mechanism_too_large);
