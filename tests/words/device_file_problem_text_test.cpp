@@ -126,7 +126,7 @@ TEST(DeviceFileProblemText, SaysWhatIsWrongWithAnOverride) {
   };
   EXPECT_EQ(variants("sensed"), "an override: is not KEY=VALUE,VALUE; write for instance sensed=motor,handle");
   EXPECT_EQ(variants("sensed=motor"), "an override: loop.sensed: has one value; give two or more");
-  EXPECT_EQ(variants("sensed=motor,motor"), "an override: loop.sensed: has motor twice; give each value once");
+  EXPECT_EQ(variants("sensed=motor,motor"), "an override: loop.sensed: \"motor\" is given twice; must be given once");
 }
 
 TEST(DeviceFileProblemText, SaysWhatIsNoDeviceFile) {

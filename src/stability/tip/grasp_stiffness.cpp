@@ -63,17 +63,20 @@ PointStiffness least_stiffness_of_point(const GraspDiscs::Sample& sample, Eigen:
   const double shared = std::abs(sample.shared);
   const Eigen::MatrixXcd centre =
       (sample.plant - sample.shared * (sample.own.shift + sample.shift_of_others)).topLeftCorner(m, m);
-  Eigen::MatrixXcd left = shared * sample.own.left.topLeftCorner(m, m);
-  Eigen::MatrixXcd right = shared * sample.own.right.topLeftCorner(m, m);
   const std::complex<double> closed = damper_response(damper, period, sample.angle / period);
-  PointStiffness least;
-  least.at_most = least_of_block(centre, left, right, closed);
-  for (const GraspDiscs::Alias& each : sample.others) {
+  Eigen::MatrixXcd left = Eigen::MatrixXcd::Zero(m, m);
+  Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(m, m);
+  // Each with both sides alike in size: of one direction their product is then the square of the sum of radii.
+  const auto add = [&](const GraspDiscs::Alias& each) {
     const double size = each.left.norm() > 0.0 ? std::sqrt(each.right.norm() / each.left.norm()) : 1.0;
-    if (!(size > 0.0)) continue;
+    if (!(size > 0.0)) return;
     left += shared * each.weight * size * each.left.topLeftCorner(m, m);
     right += shared * each.weight / size * each.right.topLeftCorner(m, m);
-  }
+  };
+  PointStiffness least;
+  add(sample.own);
+  least.at_most = least_of_block(centre, left, right, closed);
+  for (const GraspDiscs::Alias& each : sample.others) add(each);
   least.at_least = least_of_block(centre, left, right, closed);
   return least;
 }
