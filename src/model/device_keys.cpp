@@ -19,7 +19,8 @@ constexpr auto made_tables() {
       {link, root, "link", true, "none", "at most 1000"},
       {mechanism, root, "mechanism", false, "none", "instead of bodies and links; linear motion"},
       {mechanism_pose, mechanism, "pose", false, "none",
-       "a key a joint, in rad, or m of a slide, or a text with its unit; others follow loops and cables, or stay as the file has them"},
+       "a key a joint, in rad, or m of a slide, or a text with its unit; others follow loops and cables, or stay as "
+       "the file has them"},
       {transmission, root, "transmission", true, "none", "with `[mechanism]`: motors that its file does not have"},
       {loop, root, "loop", false, needed_key, ""},
       {loop_damper, loop, "damper", false, "none", "a damper that runs in a loop of its own"},
@@ -89,7 +90,8 @@ constexpr auto made_rows() {
       {{mechanism, "normal", numbers, none, none, needed_key, "three numbers, not all 0, or \"all\"",
         "Normal of the wall in the world's frame."}},
 
-      {{transmission, "joint", text, none, none, needed_key, "a joint of the mechanism", "Joint that the motor drives."}},
+      {{transmission, "joint", text, none, none, needed_key, "a joint of the mechanism",
+        "Joint that the motor drives."}},
       {{transmission, "ratio", number, ratio, above_0, "1", "", "Turns of the motor per turn of the joint."},
        &Transmission::ratio},
       {{transmission, "inertia", number, mass, above_0, needed_key, "", "Inertia of the motor."},
