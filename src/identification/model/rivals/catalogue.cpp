@@ -35,9 +35,10 @@ std::span<const Rival> rivals() {
 
 std::vector<AddedRival> add_rivals(const RivalSetting& setting, ModelParts& parts) {
   std::vector<AddedRival> added = add_each(setting, parts, [](const Rival&) { return true; });
-  const auto others = std::ranges::stable_partition(
-      parts.numbers, [&](const Number& number) { return parameter(setting.device, number.key).has_value(); });
-  std::ranges::stable_partition(others, [](const Number& number) {
+  const auto others = std::stable_partition(parts.numbers.begin(), parts.numbers.end(), [&](const Number& number) {
+    return parameter(setting.device, number.key).has_value();
+  });
+  std::stable_partition(others, parts.numbers.end(), [](const Number& number) {
     return number.key == key_of_damping_drift || number.key == key_of_delay_drift;
   });
   return added;
