@@ -344,8 +344,11 @@ tl::expected<Device, InputError> parse_device(std::string_view text, std::string
   for (const std::string& assignment : overrides) {
     auto error = apply_override(*document, assignment);
     if (!error) continue;
-    if (overriding) overriding->others.push_back(*std::move(error));
-    if (!overriding) overriding = std::move(error);
+    if (overriding) {
+      overriding->others.push_back(*std::move(error));
+    } else {
+      overriding = std::move(error);
+    }
   }
   if (overriding) return tl::unexpected(*std::move(overriding));
   DeviceReading reading(source);
