@@ -53,24 +53,19 @@ std::size_t point(std::vector<Coordinates::Point>& points, const char* name, con
   return points.size() - 1;
 }
 
-// Mass, springs, dampers and frictions without what rounding leaves of a number that is 0.
 Coordinates coordinates_of(const MechanismAtPose& mechanism) {
   Coordinates coordinates;
-  Eigen::MatrixXd mass = 0.5 * (mechanism.mass + mechanism.mass.transpose());
-  const Eigen::VectorXd scale = mass.diagonal().cwiseAbs().cwiseSqrt();
-  mass = (mass.array().abs() > no_weight_below * (scale * scale.transpose()).array()).select(mass, 0.0).eval();
+  const Eigen::MatrixXd mass = 0.5 * (mechanism.mass + mechanism.mass.transpose());
   coordinates.mass.assign(mass.data(), mass.data() + mass.size());
-  const auto clean = [](std::vector<double>& of) {
-    of = weights(Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size())));
-  };
   coordinates.elements = mechanism.elements;
-  for (Coordinates::Element& each : coordinates.elements) clean(each.weights);
   coordinates.frictions = mechanism.frictions;
-  for (Coordinates::Friction& each : coordinates.frictions) clean(each.weights);
   return coordinates;
 }
 
-std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) { return weights(matrix.transpose().reshaped()); }
+std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
+  const auto row_major = matrix.transpose().reshaped();
+  return {row_major.begin(), row_major.end()};
+}
 
 Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameters) {
   Eigen::Index row = 0;

@@ -19,18 +19,21 @@ constexpr double least_eigenvalue = 1e-10;
 
 bool is_number(double value) { return not_negative_numbers.contains(std::abs(value)); }
 
+// Also what rounding leaves of 0, less than any number of a device.
+bool is_share(double value) { return is_number(value) || std::abs(value) < not_negative_numbers.least; }
+
 bool is_mass_matrix(const std::vector<double>& mass, std::size_t n) {
-  if (mass.size() != n * n || !std::ranges::all_of(mass, is_number)) return false;
+  if (mass.size() != n * n || !std::ranges::all_of(mass, is_share)) return false;
   const auto size = static_cast<Eigen::Index>(n);
   const Eigen::Map<const Eigen::MatrixXd> matrix(mass.data(), size, size);
-  if (matrix != matrix.transpose() || !(matrix.diagonal().minCoeff() > 0.0)) return false;
+  if (matrix != matrix.transpose() || !(matrix.diagonal().minCoeff() >= not_negative_numbers.least)) return false;
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   return symmetric_eigenvalues(scale.asDiagonal() * matrix * scale.asDiagonal()).minCoeff() > least_eigenvalue;
 }
 
 bool are_weights(const std::vector<double>& weights, std::size_t n) {
-  return weights.size() == n && std::ranges::all_of(weights, is_number) &&
-         std::ranges::any_of(weights, [](double w) { return w != 0.0; });
+  return weights.size() == n && std::ranges::all_of(weights, is_share) &&
+         std::ranges::any_of(weights, [](double w) { return w != 0.0 && is_number(w); });
 }
 
 }  // namespace

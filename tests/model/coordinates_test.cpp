@@ -6,6 +6,7 @@
 #include "reference/planar_arm.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
 namespace {
@@ -31,6 +32,9 @@ TEST(Coordinates, are_refused_where_they_make_no_device) {
        weights_not_one_a_coordinate},
       {"no_weight", [](auto& d) { d.coordinates->elements[2].weights.assign(4, 0.0); }, "coordinates.elements.2",
        weights_not_one_a_coordinate},
+      {"rounding_alone", [](auto& d) { d.coordinates->elements[2].weights.assign(4, 1e-32); }, "coordinates.elements.2",
+       weights_not_one_a_coordinate},
+      {"mass_of_rounding_alone", [](auto& d) { d.coordinates->mass[15] = 1e-32; }, "coordinates.mass", no_mass_matrix},
       {"negative_stiffness", [](auto& d) { d.coordinates->elements[4].stiffness = -1.0; }, "coordinates.elements.4",
        no_finite_number},
       {"neither", [](auto& d) { d.coordinates->elements[0].damping = 0.0; }, "coordinates.elements.0", link_of_nothing},
@@ -61,6 +65,17 @@ TEST(Coordinates, are_refused_where_they_make_no_device) {
 }
 
 // Two motions of the arm that no spring holds are one rigid term: one pole at zero is seen along a normal.
+TEST(Coordinates, may_have_what_rounding_leaves_of_0) {
+  DeviceParameters parameters = planar_arm::device({0.3, 1.2}, 1.0, 0.0);
+  ASSERT_EQ(parameters.coordinates->points[1].weights.size(), 4U);
+  const double limit = critical_stiffness(Device(parameters)).stiffness;
+  parameters.coordinates->points[0].weights[3] += 1e-32;
+  parameters.coordinates->elements[2].weights[3] = -1e-32;
+  parameters.coordinates->mass[3] = parameters.coordinates->mass[12] = 1e-35;
+  ASSERT_FALSE(find_problem(parameters));
+  EXPECT_NEAR(critical_stiffness(Device(parameters)).stiffness / limit, 1.0, 1e-12);
+}
+
 TEST(Coordinates, of_an_arm_have_one_rigid_term_and_a_mode_for_each_cable) {
   const ModalForm form = modal_form(Device(planar_arm::device({0.3, 1.2}, 1.0, 0.0)));
   EXPECT_EQ(form.modes.size(), 2U);
