@@ -17,8 +17,7 @@ namespace {
 /// The numbers of the structure that were not free, but for those of the loop.
 std::vector<Number> numbers_given(const MotionStart& start, const std::vector<std::string>& locked) {
   const RivalSetting setting = rival_setting(start.device, locked, start.records);
-  const TypicalSizes typical{setting.sampling_period, typical_damping(setting),
-                             setting.rms_force / setting.rms_position};
+  const TypicalSizes typical{setting.sampling_period, typical_damping(setting), typical_stiffness(setting)};
   std::vector<Number> given;
   for (const std::string& key : fittable_parameters(Device(start.device), locked)) {
     const bool is_of_loop = key == key_of_delay || key == key_of_lag;

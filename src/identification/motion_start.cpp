@@ -53,7 +53,7 @@ MotionStart motion_start(std::span<const Recording> recordings, const FrequencyR
 
   RivalSetting setting = rival_setting(start.device, free.locked, start.records);
   setting.frees_lag = free.lateness || holds(keys, key_of_lag);
-  const TypicalSizes typical{period, typical_damping(setting), setting.rms_force / setting.rms_position};
+  const TypicalSizes typical{period, typical_damping(setting), typical_stiffness(setting)};
   for (const std::string& key : keys) {
     if (key != key_of_lag) start.parts.numbers.push_back(device_number(key, start.device, typical));
   }

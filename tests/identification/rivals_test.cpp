@@ -186,13 +186,13 @@ TEST(Rivals, PartialsOfForcesAreDifferences) {
       const LawState state{0.3, velocity, 0.8};
       std::vector<double> numbers(most_numbers_of_law, 0.0);
       for (std::size_t i = 0; i < term.numbers.size(); ++i) numbers[i] = 0.5 + 0.2 * static_cast<double>(i);
-      const LawForce here = term.law->at(state, numbers.data());
+      const LawForce here = term.law(state, numbers.data());
       const auto difference = [&](auto&& changed) { return (changed(step) - changed(-step)) / (2.0 * step); };
       const auto by_position = difference([&](double by) {
-        return term.law->at({state.position + by, state.velocity, state.share}, numbers.data()).force;
+        return term.law({state.position + by, state.velocity, state.share}, numbers.data()).force;
       });
       const auto by_velocity = difference([&](double by) {
-        return term.law->at({state.position, state.velocity + by, state.share}, numbers.data()).force;
+        return term.law({state.position, state.velocity + by, state.share}, numbers.data()).force;
       });
       EXPECT_NEAR(here.by_position, by_position, close) << term.numbers[0];
       EXPECT_NEAR(here.by_velocity, by_velocity, close) << term.numbers[0];
@@ -200,7 +200,7 @@ TEST(Rivals, PartialsOfForcesAreDifferences) {
         const auto by_number = difference([&](double by) {
           std::vector<double> moved = numbers;
           moved[i] += by;
-          return term.law->at(state, moved.data()).force;
+          return term.law(state, moved.data()).force;
         });
         EXPECT_NEAR(here.by_number[i], by_number, close) << term.numbers[i];
       }

@@ -22,14 +22,7 @@ struct LawState {
   double share = 0.0;     ///< of the record that is over, 0 to 1
 };
 
-/// A force beside the linear device, smooth in what it hangs on.
-class ForceLaw {
- public:
-  ForceLaw() = default;
-  ForceLaw(const ForceLaw&) = delete;
-  ForceLaw& operator=(const ForceLaw&) = delete;
-  virtual ~ForceLaw() = default;
-  [[nodiscard]] virtual LawForce at(const LawState& state, const double* numbers) const = 0;
-};
+/// A force beside the linear device, smooth in what it hangs on. `numbers`: its own, in its order.
+using ForceLaw = LawForce (*)(const LawState& state, const double* numbers);
 
 }  // namespace zwidth::internal

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +11,7 @@ namespace zwidth::internal {
 
 /// A smooth force beside the linear device.
 struct ForceTerm {
-  std::shared_ptr<const ForceLaw> law;
+  ForceLaw law = nullptr;
   std::string body;
   std::vector<std::string> numbers = {};   ///< of the law, by their keys, in its order
   std::optional<std::size_t> record = {};  ///< it acts in; absent: all

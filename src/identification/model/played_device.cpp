@@ -26,7 +26,7 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   }
   for (const ForceTerm& term : terms.forces) {
     if (term.record && *term.record != record) continue;
-    Force force{.law = term.law.get(), .body = index(term.body)};
+    Force force{.law = term.law, .body = index(term.body)};
     for (std::size_t i = 0; i < term.numbers.size(); ++i) {
       force.numbers[i] = place(term.numbers[i]);
       force.values[i] = value(force.numbers[i]);

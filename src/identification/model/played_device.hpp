@@ -23,7 +23,7 @@ struct PlayedDevice {
                bool with_slopes);
 
   struct Force {
-    const ForceLaw* law = nullptr;
+    ForceLaw law = nullptr;
     Eigen::Index body = 0;
     std::array<Eigen::Index, most_numbers_of_law> numbers = {};  // behind the law's own: not used
     std::array<double, most_numbers_of_law> values = {};

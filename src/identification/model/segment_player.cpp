@@ -138,7 +138,7 @@ void SegmentPlayer::add_forces(double share) {
   const auto position_of = [&](Eigen::Index body) { return body == 0 ? middle(0) : middle(0) + middle(body); };
   for (const PlayedDevice::Force& force : device_.forces) {
     const LawState state{position_of(force.body), middle(bodies_ + force.body), share};
-    add_force(force, force.law->at(state, force.values.data()));
+    add_force(force, force.law(state, force.values.data()));
   }
   if (!with_slopes_) return;
   force_slopes_.setZero();

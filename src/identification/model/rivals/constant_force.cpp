@@ -6,12 +6,7 @@ namespace {
 
 /// A load that stays: weight, a drive's offset, the pull of a cable. Dry friction that differs between directions is Coulomb's
 /// friction of the mean limit with such a force.
-class ConstantForceLaw final : public ForceLaw {
- public:
-  [[nodiscard]] LawForce at(const LawState& /*state*/, const double* numbers) const override {
-    return {numbers[0], 0.0, 0.0, {1.0}};
-  }
-};
+LawForce constant_force_law(const LawState& /*state*/, const double* numbers) { return {numbers[0], 0.0, 0.0, {1.0}}; }
 
 /// Of the rms force: a load that a builder would still record with. An assumption.
 constexpr double constant_deviation = 0.3;
@@ -20,7 +15,7 @@ void add_constant_forces(const RivalSetting& setting, ModelParts& parts) {
   for (std::size_t record = 0; record < setting.records; ++record) {
     const std::string key =
         parts.add({constant_force_key(record), Number::Scale::any, setting.rms_force, 0.0, constant_deviation});
-    parts.terms.forces.push_back({std::make_shared<ConstantForceLaw>(), actuated_body(setting), {key}, record});
+    parts.terms.forces.push_back({constant_force_law, actuated_body(setting), {key}, record});
   }
 }
 

@@ -6,16 +6,13 @@ namespace zwidth::internal {
 namespace {
 
 /// -d b (share - 1/2) v: a body's damping b that changes by the share d from a record's beginning to its end, as grease warms.
-class DampingDriftLaw final : public ForceLaw {
- public:
-  [[nodiscard]] LawForce at(const LawState& state, const double* numbers) const override {
-    constexpr double middle = 0.5;
-    const double gone = (state.share - middle) * state.velocity;
-    const double drift = numbers[0];
-    const double damping = numbers[1];
-    return {-drift * damping * gone, 0.0, -drift * damping * (state.share - middle), {-damping * gone, -drift * gone}};
-  }
-};
+LawForce damping_drift_law(const LawState& state, const double* numbers) {
+  constexpr double middle = 0.5;
+  const double gone = (state.share - middle) * state.velocity;
+  const double drift = numbers[0];
+  const double damping = numbers[1];
+  return {-drift * damping * gone, 0.0, -drift * damping * (state.share - middle), {-damping * gone, -drift * gone}};
+}
 
 /// Over the record (theory, section 10): a grease thins by 3 to 4 % a kelvin, and a motor that works hard warms by some kelvin.
 constexpr double drift_deviation = 0.2;
@@ -29,8 +26,7 @@ void add_damping_drift(const RivalSetting& setting, ModelParts& parts) {
   }
   if (bodies.empty()) return;
   const std::string drift = parts.add({key_of_damping_drift, Number::Scale::any, 1.0, 0.0, drift_deviation});
-  for (const auto& [body, damping] : bodies)
-    parts.terms.forces.push_back({std::make_shared<DampingDriftLaw>(), body, {drift, damping}});
+  for (const auto& [body, damping] : bodies) parts.terms.forces.push_back({damping_drift_law, body, {drift, damping}});
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "identification/model/rivals/catalogue.hpp"
 
 namespace zwidth::internal {
@@ -10,11 +8,10 @@ constexpr double spring_deviation = 1.0;
 /// -k x on the held body: a hand that rests, a cable, a spring that the structure lacks. It is believed to be as stiff as the
 /// force over the position allows (theory, section 10): stiffer, and the body had moved less.
 void add_ground_spring(const RivalSetting& setting, ModelParts& parts) {
-  const Body& held = setting.device.bodies[setting.device.loop.held];
-  const std::string key = "body." + held.name + ".stiffness";
-  const std::vector<std::string> moving = moving_bodies_of(setting);
-  if (held.stiffness > 0.0 || parts.has(key) || std::ranges::find(moving, held.name) == moving.end()) return;
-  parts.add({key, Number::Scale::not_negative, setting.rms_force / setting.rms_position, 0.0, spring_deviation});
+  const auto held = moving_held_body(setting);
+  if (!held || setting.device.bodies[setting.device.loop.held].stiffness > 0.0) return;
+  const std::string key = "body." + *held + ".stiffness";
+  if (!parts.has(key)) parts.add({key, Number::Scale::not_negative, typical_stiffness(setting), 0.0, spring_deviation});
 }
 
 }  // namespace

@@ -56,6 +56,14 @@ std::vector<std::string> moving_bodies_of(const RivalSetting& setting) {
   return names;
 }
 
+std::optional<std::string> moving_held_body(const RivalSetting& setting) {
+  const std::string& held = setting.device.bodies[setting.device.loop.held].name;
+  const std::vector<std::string> moving = moving_bodies_of(setting);
+  return std::ranges::find(moving, held) == moving.end() ? std::nullopt : std::optional(held);
+}
+
+double typical_stiffness(const RivalSetting& setting) { return setting.rms_force / setting.rms_position; }
+
 const std::string& actuated_body(const RivalSetting& setting) {
   return setting.device.bodies[setting.device.loop.actuated].name;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,12 @@ struct RivalSetting {
 
 /// Names of the bodies that move in the records.
 [[nodiscard]] std::vector<std::string> moving_bodies_of(const RivalSetting& setting);
+
+/// Name of the body that a hand holds; nothing where it stood still.
+[[nodiscard]] std::optional<std::string> moving_held_body(const RivalSetting& setting);
+
+/// N/m or N m/rad: the rms force over the rms position. A body on a stiffer spring had moved less.
+[[nodiscard]] double typical_stiffness(const RivalSetting& setting);
 
 /// Name of the body that the actuator pushes.
 [[nodiscard]] const std::string& actuated_body(const RivalSetting& setting);
