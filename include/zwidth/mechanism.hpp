@@ -23,12 +23,12 @@ struct MechanismAtPose {
   Eigen::MatrixXd mass;                          ///< M, n x n
   std::vector<Coordinates::Element> elements;    ///< springs and dampers of joints and cables
   std::vector<Coordinates::Friction> frictions;  ///< of joints and cables
-  Eigen::MatrixXd cables;       ///< T, whose lengths T q the controller takes for constant: those with stiffness
-  Eigen::MatrixXd motors;       ///< A_m: a row a motor
-  Eigen::MatrixXd encoders;     ///< A_e: a row an encoder
-  Eigen::MatrixXd tip;          ///< J, 3 x n, in the world's frame
+  Eigen::MatrixXd cables;              ///< T, whose lengths T q the controller takes for constant: those with stiffness
+  Eigen::MatrixXd motors;              ///< A_m: a row a motor
+  Eigen::MatrixXd encoders;            ///< A_e: a row an encoder
+  Eigen::MatrixXd tip;                 ///< J, 3 x n, in the world's frame
   Eigen::MatrixXd joint_motions = {};  ///< of the file's joints: a row a joint of MechanismModel::joints()
-  Eigen::VectorXd joints = {};  ///< where the file's joints are, as MechanismModel::joints()
+  Eigen::VectorXd joints = {};         ///< where the file's joints are, as MechanismModel::joints()
   Eigen::Vector3d tip_position = Eigen::Vector3d::Zero();  ///< m, in the world's frame
 };
 
