@@ -43,6 +43,12 @@ enum class FindingCode : std::uint16_t {
   any_grasp_not_known,           ///< the limit over all passive grasps of a mechanism's tip is not computed
   any_grasp_scanned,             ///< the least over frequency, of a scan, with any passive grasp of a mechanism's tip
   any_grasp_bounded,             ///< of a point wall that limit lies between two bounds, of a scan
+  workspace_of_tried_poses,      ///< the least over a workspace is that of the poses and directions tried
+  workspace_poses_refused,       ///< some poses of a workspace are singular or not reached
+  workspace_directions_refused,  ///< along some directions of a workspace no wall is known
+  workspace_points_not_reached,  ///< some points of a workspace are not reached
+  workspace_without_user,        ///< the limits of a workspace leave the file's user out
+  workspace_least_contradicts,   ///< two computations contradict each other on the least limit of a workspace
   too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
   any_user_limit_scanned,        ///< the limit over all passive users is the least of a scan, not shown to be the least
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed

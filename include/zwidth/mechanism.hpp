@@ -1,6 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
@@ -9,6 +13,9 @@
 
 namespace zwidth {
 
+/// Positions of joints by their names, m of a slide or rad of a hinge.
+using JointPositions = std::map<std::string, double>;
+
 /// A mechanism at a pose, linearised at rest with gravity compensated, in n coordinates q.
 ///
 ///     M q'' + (sum d w w') q' + (sum k w w') q = A_m' tau,   y = A_e q,   x = J q
@@ -16,10 +23,69 @@ struct MechanismAtPose {
   Eigen::MatrixXd mass;                          ///< M, n x n
   std::vector<Coordinates::Element> elements;    ///< springs and dampers of joints and cables
   std::vector<Coordinates::Friction> frictions;  ///< of joints and cables
-  Eigen::MatrixXd cables;    ///< T, whose lengths T q the controller takes for constant: those with stiffness
-  Eigen::MatrixXd motors;    ///< A_m: a row a motor
-  Eigen::MatrixXd encoders;  ///< A_e: a row an encoder
-  Eigen::MatrixXd tip;       ///< J, 3 x n, in the world's frame
+  Eigen::MatrixXd cables;              ///< T, whose lengths T q the controller takes for constant: those with stiffness
+  Eigen::MatrixXd motors;              ///< A_m: a row a motor
+  Eigen::MatrixXd encoders;            ///< A_e: a row an encoder
+  Eigen::MatrixXd tip;                 ///< J, 3 x n, in the world's frame
+  Eigen::MatrixXd joint_motions = {};  ///< of the file's joints: a row a joint of MechanismModel::joints()
+  Eigen::VectorXd joints = {};         ///< where the file's joints are, as MechanismModel::joints()
+  Eigen::Vector3d tip_position = Eigen::Vector3d::Zero();  ///< m, in the world's frame
+};
+
+/// From where to where a joint moves, m or rad.
+struct JointRange {
+  double least = 0.0;     ///< first end
+  double greatest = 0.0;  ///< other end
+};
+
+/// A joint of a mechanism's file.
+struct MechanismJoint {
+  std::string name;                      ///< in the file; its number where it has none
+  Motion motion = Motion::rotary;        ///< linear: a slide, m; rotary: a hinge, rad
+  double position = 0.0;                 ///< in the file's own pose, m or rad
+  std::optional<JointRange> range = {};  ///< that the file gives
+  bool is_driven = false;                ///< an actuator of the file turns it
+  bool is_of_pose = false;               ///< among those that give a pose: see MechanismModel::pose_joints()
+};
+
+/// A mechanism's file, read once and looked at in many poses.
+///
+/// A value; copies share what was read, which nothing changes. All may be asked from several threads at once.
+class MechanismModel {
+ public:
+  /// Reads the file. Throws Error (invalid_argument) as at_pose() does, at the file's pose too.
+  explicit MechanismModel(const MechanismFile& file);
+
+  /// All joints of the file, in its order.
+  [[nodiscard]] const std::vector<MechanismJoint>& joints() const;
+
+  /// Joints that give a pose, the others following: which loops and unstretched cables leave independent of each other.
+  ///
+  /// First those that the file's pose names, then those that actuators drive without a cable, then what moves freely.
+  [[nodiscard]] std::vector<std::string> pose_joints() const;
+
+  /// What was read, with its pose.
+  [[nodiscard]] const MechanismFile& file() const;
+
+  /// The mechanism where these joints are there, and of others those of the file's pose. Throws Error as at_pose() does.
+  [[nodiscard]] MechanismAtPose at(const JointPositions& pose = {}) const;
+
+  /// A pose of pose_joints() with the tip at a point of the world's frame, m, from the file's pose on.
+  ///
+  ///     minimise |x(q) - point|,  loops closed, cables not stretched, ranges of joints kept
+  ///
+  /// Damped Gauss-Newton steps (Levenberg-Marquardt), at most 200, from the file's pose, and where that ends short from some
+  /// around it. Throws Error (invalid_argument) for a point that is not finite.
+  struct Reached {
+    JointPositions pose;    ///< of pose_joints(), the closest that was found
+    double short_of = 0.0;  ///< m, from the tip to the point: at most 1e-9 where it is reached
+    bool reached = false;   ///< to 1e-9 m
+  };
+  [[nodiscard]] Reached reach(const Eigen::Vector3d& point) const;
+
+ private:
+  class Read;
+  std::shared_ptr<const Read> read_;
 };
 
 /// Reads the file and goes to the pose.

@@ -349,6 +349,11 @@ enum class ProblemCode : std::uint16_t {
   mass_of_mesh,                    ///< a body has its mass of a mesh
   include_not_read,                ///< a file that a mechanism includes is not there, or stands twice
   tip_stands_still,                ///< a tip cannot move at all
+  not_a_mechanism,                 ///< a workspace of a device that is no mechanism
+  joint_without_range,             ///< a joint of which neither the mechanism's file nor the grid says the range
+  poses_given_twice,               ///< poses of a workspace are given in more than one way
+  joint_given_twice,               ///< a joint stands twice in a grid of poses
+  too_many_workspace_limits,       ///< too many poses times directions
   no_wall_stiffness,               ///< margins of a wall that is not given
   one_direction_alone,             ///< what a wall in several directions does not know
   coordinates_not_known,           ///< a computation that knows bodies alone

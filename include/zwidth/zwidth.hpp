@@ -133,3 +133,4 @@
 #include "zwidth/trust.hpp"
 #include "zwidth/words/finding_text.hpp"
 #include "zwidth/words/problem_text.hpp"
+#include "zwidth/workspace.hpp"
