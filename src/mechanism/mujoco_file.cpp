@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "mechanism/mechanism_text.hpp"
-#include "mechanism/refusal.hpp"
 #include "mechanism/transmissions.hpp"
 #include "mechanism/trial_process.hpp"
 #include "zwidth/mechanism.hpp"
+#include "zwidth/require_valid.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
@@ -44,11 +44,11 @@ std::string plain(const char* said) {
 }
 
 [[noreturn]] void refuse_file(const char* why) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
+  refuse_key("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
 }
 
 [[noreturn]] void refuse_part(const char* part) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
+  refuse_key("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
 }
 
 // MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
@@ -110,8 +110,8 @@ class Posed {
     if (model_->njnt == 0) refuse_part("joint");
     for (int joint = 0; joint < model_->njnt; ++joint) {
       if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
-      refuse_mechanism("mechanism.file",
-                       {.code = ProblemCode::joint_of_many_motions, .subjects = {{"name", name(mjOBJ_JOINT, joint)}}});
+      refuse_key("mechanism.file",
+                 {.code = ProblemCode::joint_of_many_motions, .subjects = {{"name", name(mjOBJ_JOINT, joint)}}});
     }
     model_->opt.jacobian = mjJAC_DENSE;
     model_->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
@@ -127,7 +127,7 @@ class Posed {
       if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
         std::vector<Subject> subjects{{"name", joint}};
         if (slides) subjects.push_back({"slides", "slides"});
-        refuse_mechanism(key.c_str(), {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
+        refuse_key(key, {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
       }
       ways.push_back({.joint = of, .from = data_->qpos[of], .to = to});  // of hinges and slides, each has one
       is_given_[static_cast<std::size_t>(of)] = true;
@@ -144,7 +144,7 @@ class Posed {
     }
     std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
     if (!names.empty()) subjects.push_back({"names", names});
-    refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
+    refuse_key(key, {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
   }
 
   // Motions that the loops leave free: q' = Z z'.
@@ -236,7 +236,7 @@ class Posed {
       open = settle();
     }
     if (!(open <= closed))
-      refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
+      refuse_key("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
   }
 
   // Joints that are not given close the loops; those of them that motors drive follow their cables. How far loops stay open.
@@ -298,7 +298,7 @@ MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<Mechan
     const int joint = posed.index(fmt::format("transmission.{}.joint", i), mjOBJ_JOINT, each.joint);
     add_transmission(at, joint, each, file.encoders.empty());
   }
-  if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
+  if (at.motors.rows() == 0) refuse_key("mechanism.file", {.code = ProblemCode::no_motor});
   const Eigen::MatrixXd of_joints = posed.free_motions();
   if (of_joints.cols() == of_joints.rows()) return without_springs(std::move(at));  // no loops
   const Eigen::Index motors = at.mass.rows() - of_joints.rows();
@@ -329,7 +329,7 @@ MechanismAtPose at_pose(const MechanismFile& file) {
 namespace zwidth {
 
 MechanismAtPose at_pose(const MechanismFile&) {
-  internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+  refuse_key("mechanism.file", {.code = ProblemCode::built_without_mujoco});
 }
 
 }  // namespace zwidth

@@ -94,6 +94,10 @@ double typical_of(std::vector<double> stiffnesses) {
 
 AbsoluteStabilitySearch::AbsoluteStabilitySearch(const Device& device, const Progress& progress)
     : free_(device_without_user(device)), discs_(device, progress), period_(device.loop().sampling_period) {
+  if (device.parameters().mechanism) {
+    grasps_.emplace(free_);
+    return;
+  }
   if (discs_.is_undamped()) return;
   pieces_ = DiscPieces(discs_, device);
   frequencies_ = frequencies_to_scan(discs_, period_, device.loop().delay, device.parameters().wall.filters);
@@ -347,6 +351,10 @@ AbsoluteStabilityLimit AbsoluteStabilitySearch::damping_limit(double velocity_fi
 
 AbsoluteStabilityLimit AbsoluteStabilitySearch::limit_of(VirtualDamper damper, const CriticalStiffness& free,
                                                          const Progress& progress) {
+  if (grasps_) {
+    tell(progress, 0.0);
+    return grasps_->limit(free_gain_, damper, free);
+  }
   AbsoluteStabilityLimit limit;
   if (free.status == StiffnessStatus::none_stable || discs_.is_undamped()) return limit;
   Sample least{{0.0, 0.0}, infinity};

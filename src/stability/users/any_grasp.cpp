@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stability/users/grasp_search.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/tip_motion.hpp"
 #include "zwidth/stability/grasp_limit.hpp"
 
@@ -22,7 +24,13 @@ std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device&
   if (!motion || !device.parameters().mechanism) return std::nullopt;
   DeviceParameters loop = device.parameters();
   const bool is_apart = has_damper_loop(loop.loop) && damper.damping > 0.0;
-  if (is_apart || !loop.wall.filters.empty()) return std::nullopt;
+  if (is_apart) return std::nullopt;
+  if (!loop.wall.filters.empty() && nobody.stiffness > 0.0) {
+    AbsoluteStabilityLimit limit =
+        GraspSearch(device_without_user(device)).limit(GraspSearch::FreeGain::stiffness, damper, nobody);
+    limit.trust = nobody.trust;
+    return limit;
+  }
   loop.loop.damper.reset();
   loop.wall.damping = damper.damping;
   loop.wall.velocity_filter_hz = damper.velocity_filter_hz;
