@@ -22,6 +22,7 @@ set(slow
   "^MechanismOfProgram\\."
   # the library
   "^SimulatedWall\\."
+  "^MechanismDesign\\.(slopes_(are_those_of_the_limits|of)|a_(design|study|sweep)|targets|an_oscillation|no_grasp|friction)"
   "^PointWall\\.(PlanarArm|IsThat)"
   "^(GraspLimit\\.NoRandom|LimitsAlong\\.AreThose)"
   "^AlikeBranches\\.(Nearly|Six)"
