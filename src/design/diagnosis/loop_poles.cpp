@@ -27,7 +27,12 @@ std::size_t free_positions(const Device& device) {
   if (!device.parameters().coordinates) return held_by_wall;
   const WeightedPath path{weights_of(device, device.loop().actuated), weights_of(device, device.loop().sensed)};
   const std::size_t seen = poles_at_zero_seen(device, path);
-  return poles_at_zero(device) - seen + (seen > 0 ? held_by_wall : 0);
+  // Those that are no states already.
+  const std::size_t lag = device.parameters().actuator.time_constant > 0.0 ? 1 : 0;
+  const auto states = static_cast<std::size_t>(state_space(device).A.rows());
+  const std::size_t left_out = 2 * device.degrees_of_freedom() + lag - states;
+  const std::size_t unseen = poles_at_zero(device) - seen;
+  return unseen - std::min(unseen, left_out) + (seen > 0 ? held_by_wall : 0);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "stability/second_route/pole_count.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/wall_condition.hpp"
 #include "staged_progress.hpp"
@@ -94,7 +95,7 @@ double typical_of(std::vector<double> stiffnesses) {
 
 AbsoluteStabilitySearch::AbsoluteStabilitySearch(const Device& device, const Progress& progress)
     : free_(device_without_user(device)), discs_(device, progress), period_(device.loop().sampling_period) {
-  if (device.parameters().mechanism) {
+  if (is_grasped_in_many_directions(device)) {
     grasps_.emplace(free_);
     return;
   }

@@ -1,6 +1,7 @@
 #include "stability/users/any_grasp.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +18,15 @@ namespace {
 constexpr double lowest_scanned = 1.001e-3;
 
 }  // namespace
+
+bool is_grasped_in_many_directions(const Device& device) {
+  constexpr double no_direction_below = 1e-9;  // relative
+  const std::optional<TipMotion> motion = tip_motion_of(device);
+  if (!motion || !device.parameters().mechanism) return false;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motion->tip);
+  qr.setThreshold(no_direction_below);
+  return qr.rank() > 1;
+}
 
 std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
                                                                    const CriticalStiffness& nobody) {

@@ -5,20 +5,21 @@
 #include <complex>
 #include <limits>
 
+#include "stability/users/any_grasp.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth::internal {
 
 UserDiscs::UserDiscs(const Device& device, const Progress& progress) : period_(device.loop().sampling_period) {
-  const std::optional<MechanismDirection>& mechanism = device.parameters().mechanism;
-  if (!mechanism) {
+  if (!is_grasped_in_many_directions(device)) {
     held_.emplace(device, progress);
     return;
   }
   tell(progress, 0.0);
   plant_ = filtered_plant(device);
-  grasped_.emplace(tip_motion_of(device).value(), device.parameters(), Eigen::Vector3d(mechanism->normal.data()));
+  grasped_.emplace(tip_motion_of(device).value(), device.parameters(),
+                   Eigen::Vector3d(device.parameters().mechanism->normal.data()));
 }
 
 TerminationDiscs::Disc UserDiscs::at(double frequency) const {

@@ -15,7 +15,8 @@ namespace zwidth::internal {
 // tip of a mechanism along its wall's normal, grasped in every direction.
 class UserDiscs {
  public:
-  // The device must be mechanical, and a mechanism's along one normal; its user is left out.
+  // The device must be mechanical, and a mechanism's along one normal; its user is left out. Of a tip that moves along one
+  // direction alone: as of a body.
   explicit UserDiscs(const Device& device, const Progress& progress = {});
 
   // 0 < frequency <= pi/T, rad/s.
