@@ -130,20 +130,5 @@ TEST_F(MechanismOfProgram, EveryCommandAnswersAlongANormal) {
   EXPECT_NEAR(relay["predictions"]["critical"]["stiffness"].get<double>(), 318.9, 0.1);
 }
 
-TEST_F(MechanismOfProgram, AStudyOfPoses) {
-  write("study.toml",
-        "[[parameter]]\nkey = \"mechanism.pose.elbow\"\ndistribution = \"uniform\"\nlower = \"20 deg\"\n"
-        "upper = \"70 deg\"\n[specification]\ncritical_stiffness = 400\n");
-  const Outcome outcome =
-      run("zwidth study devices/mechanisms/planar_arm.toml --study study.toml --samples 60 --index-samples 0 --json");
-  EXPECT_EQ(outcome.status, 0) << outcome.errors;
-  const json found = json::parse(outcome.output, nullptr, false);
-  EXPECT_EQ(found["failed_count"], 0);
-  EXPECT_GT(found["yield"].get<double>(), 0.3);
-  EXPECT_LT(found["yield"].get<double>(), 1.0);
-  // stretched as far as the study goes, or bent
-  EXPECT_NEAR(found["worst"]["critical_stiffness"].get<double>(), 318.9, 20.0);
-}
-
 }  // namespace
 }  // namespace zwidth::cli

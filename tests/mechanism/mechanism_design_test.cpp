@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 #include <tuple>
@@ -17,6 +18,7 @@
 #include "zwidth/design/parameter_sweep.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/io/study_file.hpp"
 #include "zwidth/mechanism.hpp"
 #include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -375,6 +377,22 @@ TEST(MechanismDesign, friction_of_joints_is_a_cause) {
   EXPECT_EQ(found.cause, OscillationCause::device);
   EXPECT_TRUE(std::ranges::any_of(
       found.candidates, [](const OscillationCandidate& each) { return each.cause == OscillationCause::friction; }));
+}
+
+TEST(MechanismDesign, a_study_file_takes_the_units_of_joints_and_motors) {
+  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const auto found = parse_study(
+      "[[parameter]]\nkey = \"mechanism.pose.elbow\"\ndistribution = \"uniform\"\nlower = \"20 deg\"\nupper = \"1.2 "
+      "rad\"\n"
+      "[[parameter]]\nkey = \"transmission.0.stiffness\"\ndistribution = \"normal\"\n"
+      "standard_deviation = \"0.02 kN m/rad\"\n",
+      "study.toml", device, std::nullopt);
+  ASSERT_TRUE(found) << found.error().str();
+  const std::vector<StudyParameter>& parameters = found->distributions.parameters;
+  EXPECT_NEAR(parameters[0].distribution.lower, 0.3490658503988659, 1e-12);
+  EXPECT_EQ(parameters[0].distribution.upper, 1.2);
+  EXPECT_EQ(parameters[1].distribution.centre, 400.0);
+  EXPECT_NEAR(parameters[1].distribution.deviation, 20.0, 1e-12);
 }
 
 }  // namespace
