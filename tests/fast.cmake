@@ -24,6 +24,7 @@ set(slow
   "^SimulatedWall\\."
   "^Workspace\\.(PlanarArm|NoDirection|InSpace|IsThatOf|TakesTheRanges)"
   "^MechanismModel\\.(IsAtEvery|ReachesPoints)"
+  "^MechanismDesign\\.(slopes_(are_those_of_the_limits|of)|a_(design|study|sweep)|targets|an_oscillation|no_grasp|friction)"
   "^PointWall\\.(PlanarArm|IsThat)"
   "^(GraspLimit\\.NoRandom|LimitsAlong\\.AreThose)"
   "^AlikeBranches\\.(Nearly|Six)"

@@ -126,7 +126,7 @@ std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& optio
     asked[i].progress = line.progress();
     analysed.push_back(worked(options.devices.files[i], [&] {
       report::AnalysedDevice each = report::analysed_device(std::move(devices[i]), asked[i]);
-      if (shows_walls(options) && !each.device.parameters().coordinates) {
+      if (shows_walls(options) && !is_point_wall(each.device)) {
         each.walls = wall_summary(each.device, each.analysis, {.progress = line.progress()});
       }
       return each;

@@ -15,6 +15,7 @@
 #include "report/text/analysis_tables.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/bode_json.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -70,7 +71,11 @@ void run_bode(const BodeArguments& arguments) {
   ProgressLine line(*arguments.devices.command, "computing the responses");
   AnalysisOptions of_analysis = limit_and_wall_only();
   of_analysis.progress = line.progress(0.0, analysis_share);
-  const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, of_analysis);
+  std::vector<Device> read = read_devices(arguments.devices);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    worked(arguments.devices.files[i], [&] { require_one_direction(read[i]); });
+  }
+  const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, std::move(read), of_analysis);
   for (const AnalysedDevice& each : devices) {
     if (const auto problem = find_problem(arguments.bode, each.device)) refuse(*problem, options_of_bode);
   }

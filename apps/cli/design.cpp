@@ -28,6 +28,7 @@
 #include "zwidth/design/parameter_sweep.hpp"
 #include "zwidth/io/device_variants.hpp"
 #include "zwidth/io/message_words.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -65,7 +66,7 @@ double end_of(const std::string& argument, const std::string& text, std::string_
 
 /// KEY=FIRST:LAST:COUNT, evenly spaced, or KEY=FIRST:LAST:COUNT:log, by equal factors; FIRST and LAST in SI units or
 /// with one of the key's. Throws BadInput.
-SweepAxis sweep_axis(const std::string& argument, Motion motion) {
+SweepAxis sweep_axis(const std::string& argument, const DeviceParameters& device) {
   const std::size_t equals = argument.find('=');
   if (equals == std::string::npos || equals == 0) refuse_sweep(argument, "has no KEY=");
   const std::vector<std::string> parts = parts_of(argument.substr(equals + 1), ':');
@@ -75,6 +76,7 @@ SweepAxis sweep_axis(const std::string& argument, Motion motion) {
   SweepAxis axis;
   axis.key = argument.substr(0, equals);
   const Measure measure = measure_of(axis.key).value_or(Measure::ratio);
+  const Motion motion = motion_of_key(device, axis.key);
   axis.first = end_of(argument, parts[0], "FIRST", measure, motion);
   axis.last = end_of(argument, parts[1], "LAST", measure, motion);
   const std::string& count = parts[2];
@@ -119,13 +121,13 @@ void run_sweep(const DesignArguments& arguments) {
   outputs.keep(arguments.devices.files, "device file");
   const Device device = only_device(arguments, "--sweep");
   std::vector<SweepAxis> axes;
-  for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each, device.parameters().motion));
+  for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each, device.parameters()));
   if (const auto problem = find_sweep_problem(device, axes)) {
     throw BadInput("--sweep", fmt::format("{}: {}", problem->key, problem->what), problem->allowed);
   }
   // The figure of one parameter shows the absolute stability limit beside it.
   const bool is_curve = outputs.figure("--output").has_value() && axes.size() == 1;
-  const SweepOptions options{arguments.any_user || (is_curve && device.has_bodies()), is_curve};
+  const SweepOptions options{arguments.any_user || (is_curve && device.is_mechanical()), is_curve};
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
   ProgressLine line(*arguments.devices.command, "sweeping");
   const ParameterSweep sweep =

@@ -197,7 +197,8 @@ std::string exported(const ExportArguments& arguments, const Outputs& outputs) {
   if (arguments.units) return exported_for_drive(arguments, outputs);
   if (arguments.format == "c") return exported_c(arguments, outputs);
   if (arguments.format == "chai3d") return exported_chai3d(arguments);
-  const DeviceModel model = device_model(read_devices(arguments.devices).front());
+  const Device device = std::move(read_devices(arguments.devices).front());
+  const DeviceModel model = worked(arguments.devices.files.front(), [&] { return device_model(device); });
   if (arguments.format == "octave") return report::export_octave(model);
   if (arguments.format == "python") return report::export_python(model);
   return results::line(results::export_json(model));

@@ -44,14 +44,6 @@ Progress of_reading(const RequestContext* own, const Progress& progress) {
   return [&progress](double) { progress(0.0); };
 }
 
-/// A wall in every direction has no answer but analyze's.
-tl::expected<Device, InputError> of_one_direction(const CLI::App& command, const std::string& name,
-                                                  tl::expected<Device, InputError> device) {
-  if (!device || !is_point_wall(*device) || command.get_name() == "analyze") return device;
-  return tl::unexpected(
-      InputError({.file = name, .key = "mechanism.normal"}, {.code = ProblemCode::point_wall_not_known}));
-}
-
 }  // namespace
 
 RequestContext* request_of(const CLI::App& command) {
@@ -84,10 +76,10 @@ void hand_over_series(const CLI::App& command, const std::string& name, const st
 tl::expected<Device, InputError> read_named_device(const CLI::App& command, const std::string& name,
                                                    std::span<const std::string> overrides) {
   const RequestContext* own = request_of(command);
-  if (own == nullptr) return of_one_direction(command, name, read_device_file(name, overrides));
+  if (own == nullptr) return read_device_file(name, overrides);
   const auto found = own->devices.find(name);
   if (found == own->devices.end()) return tl::unexpected(no_such_name(name, "must be the device given with it"));
-  return of_one_direction(command, name, parse_device(found->second, name, overrides, FilesBeside::refused));
+  return parse_device(found->second, name, overrides, FilesBeside::refused);
 }
 
 tl::expected<StudyFile, InputError> read_named_study(const CLI::App& command, const std::string& name,

@@ -13,6 +13,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::report {
@@ -170,8 +171,9 @@ std::string worst_sentence(const StudyRun& run, const Study& study) {
     const WorstDevice& worst = **found;
     std::string numbers;
     for (std::size_t j = 0; j < study.keys.size(); ++j) {
+      const Motion motion = motion_of_key(run.device().parameters(), study.keys[j]);
       numbers += fmt::format("{}{} {}", j > 0 ? ", " : "", study.keys[j],
-                             parameter_text(study.keys[j], worst.values[j], run.device().parameters().motion));
+                             parameter_text(study.keys[j], worst.values[j], motion));
     }
     const int mode = worst.critical.limit ? worst.critical.limit->limited_by.mode : -1;
     const std::string critical =

@@ -7,6 +7,7 @@
 #include "results/csv.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::results {
 
@@ -39,7 +40,7 @@ Json sensitivity_json(const std::string& key, double value, const Device& device
   const std::optional<Sensitivity> any_user = find(design.absolute_stability_sensitivities);
   return {{"parameter", key},
           {"value", value},
-          {"unit", parameter_unit(key, device.parameters().motion)},
+          {"unit", parameter_unit(key, motion_of_key(device.parameters(), key))},
           {"slope", slope(own)},
           {"relative", relative(own)},
           {"any_user_slope", slope(any_user)},
@@ -134,7 +135,7 @@ Json sweep_json(const Device& swept, const ParameterSweep& sweep) {
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
     const std::string& key = sweep.axes[i].key;
     json["axes"].push_back(
-        {{"parameter", key}, {"unit", parameter_unit(key, device.motion)}, {"values", sweep.values[i]}});
+        {{"parameter", key}, {"unit", parameter_unit(key, motion_of_key(device, key))}, {"values", sweep.values[i]}});
   }
   json["points"] = sweep.points;
   return json;

@@ -19,12 +19,20 @@ inline void require_valid(const std::optional<OptionProblem>& problem) {
               {input_problem_of(*problem, {.option = problem->member})});
 }
 
-/// Throws Error (invalid_argument) "key: what; allowed" where find_problem(parameters) found one, with the key for its
-/// place.
+/// Throws Error (invalid_argument) "key: what; allowed" of a key of a device, with the key for its place.
+[[noreturn]] inline void refuse_key(const DeviceProblem& problem) {
+  throw Error(ErrorCode::invalid_argument, problem.key + ": " + problem.what + "; " + problem.allowed,
+              {input_problem_of(problem, {.key = problem.key})});
+}
+
+/// The same, in the words of the problem.
+[[noreturn]] inline void refuse_key(std::string key, Problem problem) {
+  refuse_key(device_problem(std::move(key), std::move(problem)));
+}
+
+/// refuse_key() where find_problem(parameters) found one.
 inline void require_valid(const std::optional<DeviceProblem>& problem) {
-  if (!problem) return;
-  throw Error(ErrorCode::invalid_argument, problem->key + ": " + problem->what + "; " + problem->allowed,
-              {input_problem_of(*problem, {.key = problem->key})});
+  if (problem) refuse_key(*problem);
 }
 
 /// Throws Error (invalid_argument) of a member of the options, in the words of its problem, which do not name it.

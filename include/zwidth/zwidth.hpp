@@ -58,6 +58,7 @@
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/device_variants.hpp"
 #include "zwidth/model/mechanism_file.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/model/motor_drive.hpp"
 #include "zwidth/model/parameter.hpp"

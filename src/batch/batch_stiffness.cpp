@@ -13,6 +13,7 @@
 
 #include "batch/kernel/kernel_columns.hpp"
 #include "counted.hpp"
+#include "model/known_structure.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
@@ -70,14 +71,19 @@ class Devices {
   /// One device, asked as a user of the library would; what is to be said of it besides its numbers.
   [[nodiscard]] BatchException ask(std::size_t i, BatchStiffness& columns) const {
     BatchException said{i, {}, {}};
-    DeviceParameters parameters = at(i);
-    if (const auto problem = find_problem(parameters)) {
-      said.failure = fmt::format("{} {}; {}", problem->key, problem->what, problem->allowed);
+    std::optional<Device> made;  // once: a mechanism is put to its pose
+    try {
+      made.emplace(at(i));
+    } catch (const Error& error) {
+      said.failure = error.what();
+      for (const InputProblem& problem : error.problems()) {
+        said.failure = fmt::format("{} {}; {}", problem.place.key, problem.what, problem.allowed);
+      }
       return said;
     }
     if (trust_.refused()) return said;
     try {
-      const Device device(std::move(parameters));
+      const Device& device = *made;
       const CriticalStiffness critical = critical_stiffness(device);
       said.trust = critical.trust;
       if (options_.any_user && !said.trust.refused()) said.trust.inherit(ask_absolute_stability(device, i, columns));
@@ -158,7 +164,7 @@ std::string BatchStiffness::failure_of(std::size_t i) const {
 }
 
 std::optional<OptionProblem> find_problem(const BatchOptions& options, const Device& device) {
-  if (options.any_user && !device.has_bodies()) {
+  if (options.any_user && !device.is_mechanical()) {
     return option_problem("any_user", {.code = ProblemCode::asked_of_transfer_function});
   }
   if (options.threads > most_batch_threads) {
@@ -171,7 +177,7 @@ std::optional<OptionProblem> find_problem(const BatchOptions& options, const Dev
 
 BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterValues> changes,
                                const BatchOptions& options, const Progress& progress) {
-  require_no_coordinates(device);
+  internal::require_known_structure(device);
   if (const auto problem = find_problem(device, changes)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
   }

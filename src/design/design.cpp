@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/known_structure.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -18,7 +19,7 @@ std::optional<OptionProblem> find_problem(const DesignOptions& options) {
 }
 
 Design design(const Device& device, const DesignOptions& options) {
-  require_no_coordinates(device);
+  internal::require_known_structure(device);
   require_valid(find_problem(options));
   Design design;
   internal::StagedProgress stages(options.progress);
@@ -43,11 +44,11 @@ Design design(const Device& device, const DesignOptions& options) {
   }
   stages.next(1.0);
   if (!options.branch_switches) return design;
-  if (device.bodies().size() <= most_bodies_for_branch_switches) {
+  if (device.degrees_of_freedom() <= most_bodies_for_branch_switches) {
     design.branch_switches = branch_switches(device, {options.branch_switch_factor, stages.stage()});
   } else {
     design.remarks.push_back(note({.code = FindingCode::branch_switches_not_searched,
-                                   .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
+                                   .evidence = {{"bodies", static_cast<double>(device.degrees_of_freedom())},
                                                 {"most", static_cast<double>(most_bodies_for_branch_switches)}}}));
   }
   stages.done();

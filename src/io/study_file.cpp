@@ -14,6 +14,7 @@
 #include "io/study_samples.hpp"
 #include "io/toml_text.hpp"
 #include "zwidth/io/message_words.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
@@ -53,7 +54,7 @@ class StudyReader {
       reader.refuse_keys_not_in(specification_keys);
       study_.specification.critical_stiffness = read_stiffness(reader, "critical_stiffness");
       study_.specification.any_user = read_stiffness(reader, "any_user");
-      if (study_.specification.any_user && !device_.has_bodies()) {
+      if (study_.specification.any_user && !device_.is_mechanical()) {
         reader.refuse("any_user", {.code = ProblemCode::asked_of_transfer_function});
       }
     }
@@ -121,7 +122,9 @@ class StudyReader {
     allowed.insert(allowed.end(), keys->second.begin(), keys->second.end());
     reader.refuse_keys_not_in(allowed);
     const std::size_t refused = reading_.count();
+    reading_.set_motion(motion_of_key(device_.parameters(), one.key));
     one.distribution = read_distribution(reader, name, one.key);
+    reading_.set_motion(device_.parameters().motion);
     if (reading_.count() > refused) return;  // its numbers are not those of the file
     if (const auto problem = find_problem(one.distribution)) {
       reader.refuse(key_of(problem->member, name), input_problem_of(*problem));
@@ -232,8 +235,7 @@ class StudyReader {
       reader.refuse("file", {.code = ProblemCode::no_file_beside_study});
       return empty;
     }
-    auto samples =
-        read_study_samples((std::filesystem::path(*folder_) / name).string(), measure, device_.parameters().motion);
+    auto samples = read_study_samples((std::filesystem::path(*folder_) / name).string(), measure, reading_.motion());
     if (samples) return *std::move(samples);
     InputProblem told = samples.error();
     const std::string line = told.place.line > 0 ? fmt::format(":{}", told.place.line) : "";

@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "mechanism/refusal.hpp"
 #include "mechanism/transmissions.hpp"
+#include "model/mechanism_coordinates.hpp"
 #include "zwidth/mechanism.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 using internal::dependent_below;
@@ -17,8 +18,7 @@ namespace {
 constexpr double no_weight_below = 1e-14;
 
 [[noreturn]] void refuse_normal(ProblemCode code, const Eigen::Vector3d& normal) {
-  internal::refuse_mechanism("mechanism.normal",
-                             {.code = code, .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
+  refuse_key("mechanism.normal", {.code = code, .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
 }
 
 // g' A of the motion along q that is g' A where T q = 0: along = t' T + g' A.
@@ -70,7 +70,7 @@ std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
 Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameters) {
   Eigen::Index row = 0;
   if (!(mechanism.tip.rowwise().norm().maxCoeff(&row) > 0.0)) {
-    internal::refuse_mechanism("mechanism.pose", {.code = ProblemCode::tip_stands_still});
+    refuse_key("mechanism.pose", {.code = ProblemCode::tip_stands_still});
   }
   const TipMotion motion = tip_motion(mechanism);
   Coordinates coordinates = coordinates_of(mechanism);
@@ -81,15 +81,24 @@ Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameter
   return Device(std::move(parameters));
 }
 
+void put_coordinates(DeviceParameters& parameters) {
+  const MechanismDirection along = *parameters.mechanism;
+  const MechanismAtPose at = at_pose(along.mechanism);
+  if (along.is_point) {
+    parameters = point_device(at, std::move(parameters)).parameters();
+  } else {
+    parameters = device_along(at, Eigen::Vector3d(along.normal.data()), std::move(parameters)).parameters();
+  }
+}
+
+const internal::PutToPoseRegistration registration(put_coordinates);
+
 }  // namespace
 
 Device device_of_mechanism(DeviceParameters parameters) {
-  if (!parameters.mechanism) internal::refuse_mechanism("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
-  const MechanismDirection& along = *parameters.mechanism;
-  const Eigen::Vector3d normal(along.normal.data());
-  const MechanismAtPose at = at_pose(along.mechanism);
-  if (along.is_point) return point_device(at, std::move(parameters));
-  return device_along(at, normal, std::move(parameters));
+  if (!parameters.mechanism) refuse_key("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
+  parameters.coordinates.reset();
+  return Device(std::move(parameters));
 }
 
 TipMotion tip_motion(const MechanismAtPose& mechanism) {

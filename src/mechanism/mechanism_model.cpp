@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mechanism/mujoco_file.hpp"
-#include "mechanism/refusal.hpp"
+#include "zwidth/require_valid.hpp"
 #include "mechanism/tip_reach.hpp"
 #include "mechanism/transmissions.hpp"
 #include "zwidth/mechanism.hpp"
@@ -62,7 +62,7 @@ class MechanismModel::Read {
       const int joint = mujoco_->joint(fmt::format("transmission.{}.joint", i), each.joint);
       internal::add_transmission(at, joint, each, of_.encoders.empty());
     }
-    if (at.motors.rows() == 0) internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
+    if (at.motors.rows() == 0) refuse_key("mechanism.file", {.code = ProblemCode::no_motor});
     if (of_joints.cols() == of_joints.rows()) return internal::without_springs(std::move(at));  // no loops
     const Eigen::Index motors = at.mass.rows() - of_joints.rows();
     Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
@@ -110,7 +110,7 @@ MechanismAtPose MechanismModel::at(const JointPositions& pose) const {
 }
 
 MechanismModel::Reached MechanismModel::reach(const Eigen::Vector3d& point) const {
-  if (!point.allFinite()) internal::refuse_mechanism("mechanism.tip", {.code = ProblemCode::not_finite});
+  if (!point.allFinite()) refuse_key("mechanism.tip", {.code = ProblemCode::not_finite});
   return internal::reached_by(*this, read_->pose_joints(), point);
 }
 

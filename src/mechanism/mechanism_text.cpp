@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "counted.hpp"
-#include "mechanism/refusal.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -83,8 +83,8 @@ class MechanismReader {
     std::optional<std::string> text = file.text;
     if (may_name_files_) text = contents(path);
     if (!text) {
-      refuse_mechanism("mechanism.file",
-                       {.code = ProblemCode::mechanism_file_refused, .subjects = {{"name", path.string()}}});
+      refuse_key("mechanism.file",
+                 {.code = ProblemCode::mechanism_file_refused, .subjects = {{"name", path.string()}}});
     }
     add("mechanism.xml", path.filename().string(), *text);
   }
@@ -106,7 +106,7 @@ class MechanismReader {
                            std::vector<Subject> subjects = {}) const {
     if (!of.file.empty()) subjects.push_back({"file", of.file});
     if (!name.empty()) subjects.push_back({"name", std::string(name.substr(0, 100))});
-    refuse_mechanism(
+    refuse_key(
         may_name_files_ ? "mechanism.file" : "mechanism.text",
         {.code = code, .evidence = {counted("line", static_cast<std::size_t>(line))}, .subjects = std::move(subjects)});
   }
@@ -116,7 +116,7 @@ class MechanismReader {
   }
 
   [[noreturn]] void refuse_size(std::size_t most, const char* what) const {
-    refuse_mechanism(
+    refuse_key(
         may_name_files_ ? "mechanism.file" : "mechanism.text",
         {.code = ProblemCode::mechanism_too_large, .evidence = {counted("most", most)}, .subjects = {{"what", what}}});
   }

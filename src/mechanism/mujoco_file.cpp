@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "mechanism/mechanism_text.hpp"
-#include "mechanism/refusal.hpp"
 #include "mechanism/trial_process.hpp"
+#include "zwidth/require_valid.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
@@ -42,11 +42,11 @@ std::string plain(const char* said) {
 }
 
 [[noreturn]] void refuse_file(const char* why) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
+  refuse_key("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
 }
 
 [[noreturn]] void refuse_part(const char* part) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
+  refuse_key("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
 }
 
 // MuJoCo's fatal errors end the process; here they are errors of the file, as long as there is one of these.
@@ -123,7 +123,7 @@ class Parts {
     }
     std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
     if (!names.empty()) subjects.push_back({"names", names});
-    refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
+    refuse_key(key, {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
   }
 
   [[nodiscard]] std::string name(mjtObj kind, int of) const {
@@ -150,7 +150,7 @@ class Posed {
       if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
         std::vector<Subject> subjects{{"name", joint}};
         if (slides) subjects.push_back({"slides", "slides"});
-        refuse_mechanism(key.c_str(), {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
+        refuse_key(key, {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
       }
       ways.push_back({.joint = of, .from = data_->qpos[of], .to = to});  // of hinges and slides, each has one
       is_given_[static_cast<std::size_t>(of)] = true;
@@ -247,7 +247,7 @@ class Posed {
       open = settle();
     }
     if (!(open <= closed))
-      refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
+      refuse_key("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
   }
 
   // Joints that are not given close the loops; those of them that motors drive follow their cables. How far loops stay open.
@@ -311,7 +311,7 @@ Model read_model(const std::vector<MechanismText>& texts) {
   if (model->njnt == 0) refuse_part("joint");
   for (int joint = 0; joint < model->njnt; ++joint) {
     if (model->jnt_type[joint] == mjJNT_HINGE || model->jnt_type[joint] == mjJNT_SLIDE) continue;
-    refuse_mechanism("mechanism.file", {.code = ProblemCode::joint_of_many_motions,
+    refuse_key("mechanism.file", {.code = ProblemCode::joint_of_many_motions,
                                         .subjects = {{"name", Parts(model.get()).name(mjOBJ_JOINT, joint)}}});
   }
   model->opt.jacobian = mjJAC_DENSE;
@@ -400,7 +400,7 @@ std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
 namespace zwidth::internal {
 
 std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile&) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+  refuse_key("mechanism.file", {.code = ProblemCode::built_without_mujoco});
 }
 
 }  // namespace zwidth::internal

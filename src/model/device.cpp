@@ -11,6 +11,7 @@
 #include "counted.hpp"
 #include "model/coordinates_problem.hpp"
 #include "model/key_members.hpp"
+#include "model/mechanism_coordinates.hpp"
 #include "model/rate_ratio.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
@@ -224,8 +225,7 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
     const std::size_t count = parameters.coordinates ? parameters.coordinates->points.size() : parameters.bodies.size();
     if (body >= count) checks.refuse(fmt::format("loop.{}", member), no_body_number(body, count));
   };
-  const bool has_no_points = parameters.mechanism && !parameters.coordinates;  // it makes them
-  if (!parameters.transfer_function && !has_no_points) {
+  if (!parameters.transfer_function && !lacks_coordinates(parameters)) {  // it makes the points
     is_body("actuated", loop.actuated);
     is_body("sensed", loop.sensed);
     is_body("held", loop.held);
@@ -292,7 +292,8 @@ void check_driver(const DeviceParameters& parameters, Checks& checks) {
 }
 
 void check_mechanism(const DeviceParameters& parameters, Checks& checks) {
-  const auto& [file, normal, is_point] = *parameters.mechanism;
+  const MechanismFile& file = parameters.mechanism->mechanism;
+  const std::array<double, 3>& normal = parameters.mechanism->normal;
   if (parameters.transfer_function || !parameters.bodies.empty() || !parameters.links.empty()) {
     checks.refuse("mechanism", {.code = ProblemCode::beside_mechanism});
   }
@@ -304,7 +305,8 @@ void check_mechanism(const DeviceParameters& parameters, Checks& checks) {
   }
   checks.name("mechanism.tip", file.tip);
   const bool is_finite = std::ranges::all_of(normal, [](double value) { return std::isfinite(value); });
-  if (!is_point && (!is_finite || std::ranges::all_of(normal, [](double value) { return value == 0.0; }))) {
+  if (!parameters.mechanism->is_point &&
+      (!is_finite || std::ranges::all_of(normal, [](double value) { return value == 0.0; }))) {
     checks.refuse("mechanism.normal", {.code = ProblemCode::no_direction,
                                        .evidence = {{"x", normal[0]}, {"y", normal[1]}, {"z", normal[2]}}});
   }
@@ -333,13 +335,30 @@ void check_loop_parts(const DeviceParameters& parameters, Checks& checks) {
   checks.numbers(DeviceTable::user, "operator", parameters.user);
 }
 
+/// Of numbers that make a mechanism: what is wrong where it is put to its pose.
+std::optional<DeviceProblem> find_problem_at_pose(DeviceParameters parameters) {
+  if (put_to_pose() == nullptr) {
+    return device_problem("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
+  }
+  try {
+    put_to_pose()(parameters);
+  } catch (const Error& error) {
+    for (const InputProblem& each : error.problems()) {
+      return DeviceProblem{each.place.key, each.what, each.allowed, each.problem};
+    }
+    return device_problem("mechanism.file",
+                          {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", error.what()}}});
+  }
+  return find_problem(parameters);
+}
+
 }  // namespace
 
 std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameters) {
   Checks checks;
   checks.name("name", parameters.name);
   if (parameters.mechanism) check_mechanism(parameters, checks);
-  if (parameters.mechanism && !parameters.coordinates) {
+  if (lacks_coordinates(parameters)) {
     // what they are is found by the mechanism
   } else if (parameters.coordinates) {
     if (auto problem = find_coordinates_problem(parameters)) return {*std::move(problem)};
@@ -361,9 +380,7 @@ std::vector<DeviceProblem> find_value_problems(const DeviceParameters& parameter
 std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
   std::vector<DeviceProblem> problems = find_value_problems(parameters);
   if (!problems.empty()) return std::move(problems.front());
-  if (parameters.mechanism && !parameters.coordinates) {
-    return device_problem("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
-  }
+  if (lacks_coordinates(parameters)) return find_problem_at_pose(parameters);
   if (!parameters.bodies.empty()) {
     if (auto problem = find_loose_body(parameters)) return problem;
   }
@@ -371,6 +388,11 @@ std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
 }
 
 Device::Device(DeviceParameters parameters) : parameters_(std::move(parameters)) {
+  if (lacks_coordinates(parameters_) && put_to_pose() != nullptr) {
+    const std::vector<DeviceProblem> problems = find_value_problems(parameters_);
+    if (!problems.empty()) refuse_key(problems.front());
+    put_to_pose()(parameters_);
+  }
   require_valid(find_problem(parameters_));
 }
 

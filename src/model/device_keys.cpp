@@ -100,7 +100,9 @@ constexpr auto made_rows() {
        &Transmission::motor_damping},
       {{transmission, "stiffness", number, stiffness, from_0, "0", "0: the motor turns with the joint",
         "Stiffness of the cable, at the joint."},
-       &Transmission::stiffness},
+       &Transmission::stiffness,
+       response,
+       true},
       {{transmission, "damping", number, damping, from_0, "0", "", "Damping of the cable, at the joint."},
        &Transmission::damping},
 
@@ -234,6 +236,10 @@ constexpr auto made_rows() {
   });
 }
 
+// Of a joint, whose name is its key.
+constexpr KeyRow pose_row{
+    {DeviceTable::mechanism_pose, "", KeyType::number, Measure::position, std::nullopt, "", "", ""}};
+
 constexpr auto all_tables = made_tables();
 constexpr auto all_rows = made_rows();
 static_assert(std::ranges::is_sorted(all_rows, {}, [](const KeyRow& row) { return row.key.table; }));
@@ -261,6 +267,7 @@ const DeviceKey& key_of(DeviceTable table, std::string_view name) {
 }
 
 const KeyRow* row_of(std::string_view key) {
+  if (key.starts_with(path_of(DeviceTable::mechanism_pose) + ".")) return &pose_row;
   const std::size_t dot = key.rfind('.');
   const std::string_view table = key.substr(0, dot == key.npos ? 0 : dot);
   const std::string_view name = key.substr(dot + 1);  // npos + 1 is 0

@@ -1,6 +1,6 @@
 #include "model/device_lengths.hpp"
 
-#include "zwidth/error.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -17,8 +17,7 @@ Weights without_zeros(const std::vector<double>& weights) {
 
 Weights weights_of(const Device& device, std::size_t point) {
   if (device.has_bodies()) return {{point, 1.0}};
-  // Its points are no answer: a loop of one direction would be computed from them.
-  if (is_point_wall(device)) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::point_wall_not_known});
+  require_one_direction(device);  // its points are no answer: a loop of one direction would be computed from them
   return without_zeros(device.parameters().coordinates->points[point].weights);
 }
 

@@ -7,6 +7,7 @@
 
 #include "model/key_members.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -32,6 +33,11 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   };
   for (auto& body : parameters.bodies) visit_table(DeviceTable::body, "body." + body.name, body);
   visit_tables(DeviceTable::link, parameters.links);
+  if (parameters.mechanism) {
+    auto& mechanism = parameters.mechanism->mechanism;
+    for (auto& [joint, position] : mechanism.pose) visit(path_of(DeviceTable::mechanism_pose), joint, position);
+    visit_tables(DeviceTable::transmission, mechanism.transmissions);
+  }
   visit_table(DeviceTable::loop, "loop", parameters.loop);
   // A damper that has no numbers of its own is none.
   LoopDamper damper = parameters.loop.damper.value_or(LoopDamper{});
@@ -56,12 +62,14 @@ bool is_key(std::string_view wanted, const std::string& path, std::string_view n
 
 std::string without_alias(std::string_view key) {
   constexpr std::string_view inertia = ".inertia";
-  if (!key.ends_with(inertia)) return std::string(key);
+  if (!key.ends_with(inertia) || is_key_of_mechanism(key)) return std::string(key);
   return std::string(key.substr(0, key.size() - inertia.size())) + ".mass";
 }
 
 std::string full_parameter_key(const DeviceParameters& parameters, std::string_view key) {
+  const std::size_t motors = parameters.mechanism ? parameters.mechanism->mechanism.transmissions.size() : 0;
   for (const auto& [prefix, count] : {std::pair{std::string_view("link."), parameters.links.size()},
+                                      std::pair{std::string_view("transmission."), motors},
                                       std::pair{std::string_view("wall.filter."), parameters.wall.filters.size()}}) {
     if (count == 1 && key.starts_with(prefix) && key.find('.', prefix.size()) == key.npos) {
       return fmt::format("{}0.{}", prefix, key.substr(prefix.size()));
@@ -99,6 +107,7 @@ void set_parameter(DeviceParameters& parameters, std::string_view key, double va
     throw Error(ErrorCode::invalid_argument,
                 Problem{.code = ProblemCode::no_parameter_of_device, .subjects = {{"name", wanted}}});
   }
+  if (is_key_of_mechanism(wanted)) parameters.coordinates.reset();
 }
 
 }  // namespace zwidth

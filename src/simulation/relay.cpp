@@ -9,6 +9,7 @@
 
 #include "counted.hpp"
 #include "doubt_all.hpp"
+#include "model/known_structure.hpp"
 #include "simulation/loop_schedule.hpp"
 #include "simulation/relay_explanation.hpp"
 #include "staged_progress.hpp"
@@ -169,7 +170,7 @@ std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, dou
 }
 
 RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress) {
-  require_no_coordinates(device);
+  require_known_friction(device);
   RelayResult result;
   result.motion = device.parameters().motion;
   result.sampling_period = device.loop().sampling_period;

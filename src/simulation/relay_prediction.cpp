@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "model/known_structure.hpp"
 #include "simulation/check_relay.hpp"
 #include "simulation/loop_schedule.hpp"
 #include "staged_progress.hpp"
@@ -30,7 +31,7 @@ double half_period_samples(const CriticalStiffness& linear, double period) {
 }  // namespace
 
 RelayPrediction relay_prediction(const Device& device, const Relay& relay, const Progress& progress) {
-  require_no_coordinates(device);
+  require_known_friction(device);
   check_relay(relay);
   StagedProgress stages(progress);
   stages.next(0.1);

@@ -204,7 +204,8 @@ void answer_beside_damper_loop(const Device& device, const AnalysisOptions& opti
 /// The same of a mechanism, whose tip is grasped in any direction; of the stiffness.
 void answer_any_grasp(const Device& device, Analysis& analysis) {
   const CriticalStiffness& nobody = analysis.alone ? analysis.alone->critical : analysis.critical;
-  analysis.any_user = any_grasp_absolute_stability(device, virtual_damper(device), nobody);
+  const Wall& wall = device.parameters().wall;
+  analysis.any_user = any_grasp_absolute_stability(device, {wall.damping, wall.velocity_filter_hz}, nobody);
   if (!analysis.any_user) return analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
   analysis.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
   analysis.any_user->trust.inherit(analysis.trust);
@@ -227,7 +228,7 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
   }
   // That limit rests on the critical stiffness of the device that nobody holds.
   if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
-  if (device.parameters().mechanism) return answer_any_grasp(device, analysis);
+  if (is_grasped_in_many_directions(device)) return answer_any_grasp(device, analysis);
   if (has_damper_loop(device.loop())) return answer_beside_damper_loop(device, options, stages, analysis);
   const VirtualDamper damper = virtual_damper(device);
   AbsoluteStabilitySearch search(device, stages.stage());

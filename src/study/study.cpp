@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "model/known_structure.hpp"
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
@@ -192,7 +193,7 @@ Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& pr
 
 Study study(const Device& device, const StudyDistributions& distributions, const StudyOptions& options,
             const Progress& progress) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   if (options.samples > most_samples_in_memory) {
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::too_many_samples_in_memory,
                                               .evidence = {internal::counted("value", options.samples),

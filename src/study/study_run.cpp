@@ -78,7 +78,7 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
   }
   if (auto problem = find_specification_problem("critical_stiffness", wanted.critical_stiffness)) return problem;
   if (auto problem = find_specification_problem("any_user", wanted.any_user)) return problem;
-  if ((options.any_user || wanted.any_user) && !device.has_bodies()) {
+  if ((options.any_user || wanted.any_user) && !device.is_mechanical()) {
     return option_problem(options.any_user ? "any_user" : "specification.any_user",
                           {.code = ProblemCode::asked_of_transfer_function});
   }

@@ -36,7 +36,8 @@ std::string words_of(const DiagnosisChange& change) {
     case no_velocity_filter:
       return "no velocity filter";
     case stiffer_link:
-      return fmt::format("link {} 20 % stiffer", change.link.value_or(0));
+      return fmt::format("{} {} 20 % stiffer", change.key.starts_with("link.") ? "link" : "cable of transmission",
+                         change.link.value_or(0));
     case finer_encoder:
       return "an encoder four times as fine";
     case half_damper:

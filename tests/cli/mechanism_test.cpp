@@ -78,7 +78,9 @@ TEST_F(MechanismOfProgram, APointWallOfEveryPose) {
 
 TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysis) {
   const std::string file = "devices/mechanisms/planar_arm.toml --set mechanism.normal=all";
-  for (const char* command : {"region", "bode", "design", "simulate", "export --format json"}) {
+  for (const char* command : {"region", "bode", "bode --json", "design", "design --json", "design --recommend",
+                              "design --target 2x", "simulate", "diagnose --oscillates-hz 8", "relay --amplitude 1",
+                              "export --format json", "export --format octave", "export --format c", "rig check"}) {
     SCOPED_TRACE(command);
     expect_refusal(fmt::format("zwidth {} {}", command, file), "mechanism.normal");
   }
@@ -86,6 +88,46 @@ TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysis) {
   EXPECT_EQ(text.status, 0) << text.errors;
   EXPECT_NE(text.output.find("at least"), std::string::npos);
   expect_refusal(fmt::format("zwidth analyze {} --report page.html", file), "--report");
+}
+
+TEST_F(MechanismOfProgram, EveryCommandAnswersAlongANormal) {
+  const std::string arm = "devices/mechanisms/planar_arm.toml";
+  const auto answered = [&](const std::string& command) {
+    const Outcome outcome = run("zwidth " + command + " --json");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return json::parse(outcome.output, nullptr, false);
+  };
+  const json slopes = answered("design " + arm);
+  EXPECT_NEAR(slopes["critical_stiffness"].get<double>(), 318.9, 0.1);
+  bool has_elbow = false;
+  for (const json& each : slopes["sensitivities"]) {
+    if (each["parameter"] != "mechanism.pose.elbow") continue;
+    has_elbow = true;
+    EXPECT_EQ(each["unit"], "rad");
+    EXPECT_LT(each["slope"].get<double>(), 0.0);
+    EXPECT_LT(each["any_user_slope"].get<double>(), 0.0);
+    EXPECT_TRUE(each["relative"].is_null());
+  }
+  EXPECT_TRUE(has_elbow);
+  const json targets = answered("design " + arm + " --target \"120 %\"");
+  for (const json& each : targets["targets"]) {
+    if (!each["value_needed"].is_null()) EXPECT_TRUE(each["safe"].is_boolean()) << each;
+  }
+  const json wall = answered("design " + arm + " --recommend");
+  EXPECT_EQ(wall["trust"]["verdict"], "sound");
+  EXPECT_TRUE(has_finding(wall, "any_grasp_scanned"));
+  EXPECT_GT(wall["wall"]["stiffness"].get<double>(), 0.0);
+  const json cause = answered("diagnose " + arm + " --oscillates-hz 8.5 --stiffness 350");
+  EXPECT_EQ(cause["cause"], "device");
+  for (const json& each : cause["changes"]) EXPECT_TRUE(each["safe"].is_boolean()) << each;
+  const json region = answered("region " + arm);
+  EXPECT_TRUE(has_finding(region, "any_grasp_scanned"));
+  EXPECT_FALSE(region["any_user"].is_null());
+  const json sweep = answered("design " + arm + " --sweep \"mechanism.pose.elbow=20 deg:60 deg:3\" --any-user");
+  EXPECT_EQ(sweep["axes"][0]["unit"], "rad");
+  EXPECT_NEAR(sweep["axes"][0]["values"][2].get<double>(), 1.0471975511965976, 1e-12);
+  const json relay = answered("relay " + arm + " --amplitude 1 --duration 2 --trials 1");
+  EXPECT_NEAR(relay["predictions"]["critical"]["stiffness"].get<double>(), 318.9, 0.1);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <complex>
 
-#include "zwidth/design/design.hpp"
+#include "zwidth/design/notch_design.hpp"
 #include "zwidth/design/region.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/mechanism.hpp"
@@ -31,10 +31,11 @@ TEST(MechanismAnswers, ARegionEndsAtTheCriticalStiffness) {
   EXPECT_EQ(found.status, WallRegion::Status::bounded);
   EXPECT_TRUE(found.trust.sound());
   EXPECT_NEAR(found.region.critical_stiffness / 318.881897, 1.0, 1e-8);
-  EXPECT_FALSE(found.any_user);
+  ASSERT_TRUE(found.any_user);
+  EXPECT_NEAR(found.any_user->ranges.front().front().stiffness / 278.845911, 1.0, 1e-5);  // at B = 0
   EXPECT_EQ(std::ranges::count_if(found.remarks,
                                   [](const Remark& each) {
-                                    return each.finding && each.finding->code == FindingCode::any_grasp_not_known;
+                                    return each.finding && each.finding->code == FindingCode::any_grasp_scanned;
                                   }),
             1);
   ASSERT_TRUE(found.region.most_damped);
@@ -50,7 +51,7 @@ TEST(MechanismAnswers, ASimulationGrowsAboveTheLimitAndNotBelow) {
 
 TEST(MechanismAnswers, WhatKnowsBodiesAloneRefusesByCode) {
   try {
-    (void)design(arm(100.0));
+    (void)design_notch(arm(100.0), {});
     ADD_FAILURE() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::needs_bodies);

@@ -105,14 +105,18 @@ TEST(MechanismDeviceFile, ANormalOutOfThePlaneIsSoftenedByItsShare) {
   EXPECT_NEAR(found.any_user.value().stiffness / (278.8459 / 0.36), 1.0, 1e-5);
 }
 
-TEST(MechanismDeviceFile, AnyPassiveUserIsLeftOutByCode) {
-  const std::string text = arm_text + "[[wall.filter]]\ntype = \"low_pass\"\nfrequency_hz = 100\n";
-  const auto device = parse_device(text, source);
-  ASSERT_TRUE(device) << device.error().str();
-  const Analysis found = analyze(*device);
-  EXPECT_FALSE(found.any_user);
-  EXPECT_FALSE(found.limits.any_user);
-  EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_not_known), 1);
+// A lead of ratio 1 is no filter; a low-pass leaves less, and nobody holding no more.
+TEST(MechanismDeviceFile, AnyPassiveUserBehindFilters) {
+  const auto limit_behind = [](const std::string& filter) {
+    const auto device = parse_device(arm_text + "[[wall.filter]]\n" + filter, source);
+    EXPECT_TRUE(device) << device.error().str();
+    const Analysis found = analyze(*device);
+    EXPECT_EQ(remarks_of(found, FindingCode::any_grasp_scanned), 1);
+    EXPECT_LE(found.any_user.value().stiffness, found.limits.nobody.critical_stiffness);
+    return found.any_user.value().stiffness;
+  };
+  EXPECT_NEAR(limit_behind("type = \"lead_lag\"\nfrequency_hz = 100\nratio = 1\n") / 278.845911, 1.0, 1e-6);
+  EXPECT_LT(limit_behind("type = \"low_pass\"\nfrequency_hz = 100\n"), 200.0);
 }
 
 // theory, section 9: closed-loop eigenvalues.

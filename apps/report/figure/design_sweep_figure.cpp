@@ -14,6 +14,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "zwidth/design/parameter_sweep.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -42,15 +43,15 @@ LineStyle branch_style(int mode) {
 }
 
 /// The unit of a parameter's axis: with a prefix where parameter_text() gives one.
-AxisUnit parameter_axis_unit(const SweepAxis& axis, Motion motion) {
-  const std::string unit = results::parameter_unit(axis.key, motion);
+AxisUnit parameter_axis_unit(const SweepAxis& axis, const Device& device) {
+  const std::string unit = results::parameter_unit(axis.key, motion_of_key(device.parameters(), axis.key));
   if (unit != "s" && unit != "Hz" && !axis.key.ends_with(".stiffness")) return {};
   return axis_unit(std::max(std::abs(axis.first), std::abs(axis.last)));
 }
 
-std::string axis_title(const SweepAxis& axis, Motion motion) {
-  const std::string unit = results::parameter_unit(axis.key, motion);
-  return unit.empty() ? axis.key : fmt::format("{} ({}{})", axis.key, parameter_axis_unit(axis, motion).prefix, unit);
+std::string axis_title(const SweepAxis& axis, const Device& device) {
+  const std::string unit = results::parameter_unit(axis.key, motion_of_key(device.parameters(), axis.key));
+  return unit.empty() ? axis.key : fmt::format("{} ({}{})", axis.key, parameter_axis_unit(axis, device).prefix, unit);
 }
 
 bool is_logarithmic(const SweepAxis& axis) { return axis.spacing == SweepAxis::Spacing::logarithmic; }
@@ -73,11 +74,12 @@ bool goes_on(const SweepPoint& here, const SweepPoint& next) {
 class CurveFigure {
  public:
   CurveFigure(const Device& device, const ParameterSweep& sweep)
-      : sweep_(sweep),
+      : device_(device),
+        sweep_(sweep),
         values_(sweep.values[0]),
         motion_(device.parameters().motion),
         title_(fmt::format("Critical stiffness of {}{}", display_name(device), trust_mark(sweep.trust))),
-        parameter_(parameter_axis_unit(sweep_.axes[0], motion_)),
+        parameter_(parameter_axis_unit(sweep_.axes[0], device_)),
         stiffness_(axis_unit(range().second / room_above)) {
     for (const SweepPoint& point : sweep_.points) {
       for (const Crossover& each : point.crossovers) modes_ = std::max(modes_, each.limited_by.mode);
@@ -96,7 +98,7 @@ class CurveFigure {
         .axes = fmt::format("set logscale y\n{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
                             "set format y '%g'\nset format x '%.10g'",
                             is_logarithmic(axis) ? "set logscale x" : "unset logscale x", first, last, low, high),
-        .x_label = axis_title(axis, motion_),
+        .x_label = axis_title(axis, device_),
         .y_label = fmt::format("Stiffness K ({}{})", stiffness_.prefix, units_of(motion_).stiffness)};
     if (high < few_decades * low) panel.axes += "\n" + decade_ticks("y", low, high);
     if (is_logarithmic(axis) && last < few_decades * first) panel.axes += "\n" + decade_ticks("x", first, last);
@@ -208,6 +210,7 @@ class CurveFigure {
     return rows.find_first_not_of('\n') == std::string::npos ? "" : rows;
   }
 
+  const Device& device_;
   const ParameterSweep& sweep_;
   const std::vector<double>& values_;
   Motion motion_;
@@ -220,10 +223,11 @@ class CurveFigure {
 class MapFigure {
  public:
   MapFigure(const Device& device, const ParameterSweep& sweep)
-      : sweep_(sweep),
+      : device_(device),
+        sweep_(sweep),
         motion_(device.parameters().motion),
         title_(fmt::format("Critical stiffness of {}{}", display_name(device), trust_mark(sweep.trust))),
-        units_{parameter_axis_unit(sweep_.axes[0], motion_), parameter_axis_unit(sweep_.axes[1], motion_)} {}
+        units_{parameter_axis_unit(sweep_.axes[0], device_), parameter_axis_unit(sweep_.axes[1], device_)} {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     const std::vector<std::size_t> first = thinned(sweep_.values[0].size());
@@ -262,8 +266,8 @@ class MapFigure {
                              tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first,
                              edges(1).second, even_colours, high > 10.0 * low ? "set logscale cb\n" : "", low,
                              high > low ? high : 1.001 * low),
-         .x_label = axis_title(sweep_.axes[0], motion_),
-         .y_label = axis_title(sweep_.axes[1], motion_),
+         .x_label = axis_title(sweep_.axes[0], device_),
+         .y_label = axis_title(sweep_.axes[1], device_),
          .series = {{rows, "image", "1:2:3"}, {jumps, as_lines({"#ffffff", 3.0, "1"})}, {jumps, as_lines(branch_edge)}},
          .marks = [&](Canvas& canvas, const Box& frame) {
            canvas.colour_box({780.0, 780.0 + 0.02 * canvas_width, frame.top, frame.bottom});
@@ -348,6 +352,7 @@ class MapFigure {
     return fmt::format("set {}tics ({})\n", name, list);
   }
 
+  const Device& device_;
   const ParameterSweep& sweep_;
   Motion motion_;
   std::string title_;

@@ -14,6 +14,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -48,7 +49,8 @@ std::vector<std::size_t> by_weight(const Study& study) {
 
 /// What a parameter's values are drawn in; masses and inertias without a prefix.
 AxisUnit value_axis(const StudyRun& run, const Study& study, std::size_t j) {
-  const std::string unit = results::parameter_unit(study.keys[j], run.device().parameters().motion);
+  const std::string unit =
+      results::parameter_unit(study.keys[j], motion_of_key(run.device().parameters(), study.keys[j]));
   if (unit.empty() || unit.starts_with("k")) return {};
   double largest = 0.0;
   for (const StudyPoint& each : study.points) largest = std::max(largest, std::abs(each.values[j]));
@@ -126,7 +128,6 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
   const std::vector<std::size_t> order = by_weight(study);
   const std::size_t x = order[0];
   const std::size_t y = order[1];
-  const Motion motion = run.device().parameters().motion;
   const AxisUnit x_axis = value_axis(run, study, x);
   const AxisUnit y_axis = value_axis(run, study, y);
   const auto row_of = [&](const std::vector<double>& values) {
@@ -137,7 +138,8 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
     rows[{static_cast<int>(each.status), each.mode}] += row_of(each.values);
   }
   const auto label = [&](std::size_t j, const AxisUnit& axis) {
-    const std::string unit = results::parameter_unit(study.keys[j], motion);
+    const std::string unit =
+        results::parameter_unit(study.keys[j], motion_of_key(run.device().parameters(), study.keys[j]));
     return unit.empty() ? study.keys[j] : fmt::format("{} ({}{})", study.keys[j], axis.prefix, unit);
   };
   Figure figure{.title =

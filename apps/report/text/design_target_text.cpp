@@ -7,6 +7,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/words/finding_text.hpp"
 
@@ -53,7 +54,7 @@ std::string change_text(const DesignTarget& target) {
 /// A table of targets and a note on each, under its heading; nothing without any.
 class TargetTable {
  public:
-  TargetTable(Motion motion, const LimitWords& words, bool judged) : motion_(motion), words_(words) {
+  TargetTable(const Device& device, const LimitWords& words, bool judged) : device_(device), words_(words) {
     if (judged) {
       table_ = {{Align::left, Align::right, Align::right, Align::right, Align::right},
                 {{"one number alone", "now", "needed", "change", "any passive user then"}}};
@@ -62,8 +63,9 @@ class TargetTable {
 
   void add(const DesignTarget& each) {
     const std::string key = shortened(each.key, target_width);
-    std::vector<std::string> row{key, parameter_text(each.key, each.value_now, motion_),
-                                 parameter_text(each.key, *each.value_needed, motion_), change_text(each)};
+    const Motion motion = motion_of_key(device_.parameters(), each.key);
+    std::vector<std::string> row{key, parameter_text(each.key, each.value_now, motion),
+                                 parameter_text(each.key, *each.value_needed, motion), change_text(each)};
     if (table_.alignment.size() > row.size()) {
       row.push_back(words_.any_user(each.absolute_stability_limit_then));
     }
@@ -76,7 +78,7 @@ class TargetTable {
   }
 
  private:
-  Motion motion_;
+  const Device& device_;
   const LimitWords& words_;
   TextTable table_{{Align::left, Align::right, Align::right, Align::right},
                    {{"one number alone", "now", "needed", "change"}}};
@@ -97,8 +99,8 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
     text += fmt::format("  any passive user    {}\n", words.limit(targets.absolute_stability_limit_now));
   }
   for (const Remark& remark : targets.remarks) text += bulleted(remark_line(remark));
-  TargetTable reaching(motion, words, targets.absolute_stability_limit_now.has_value());
-  TargetTable lowering(motion, words, true);
+  TargetTable reaching(device, words, targets.absolute_stability_limit_now.has_value());
+  TargetTable lowering(device, words, true);
   std::string without;
   for (const DesignTarget& each : targets.targets) {
     if (each.value_needed) {

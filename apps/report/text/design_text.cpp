@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -71,7 +73,8 @@ class DesignWriter {
     TextTable table{{Align::left, Align::right, Align::right, Align::right},
                     {{fmt::format("+{:.0f} % of", typical_change), "now", "critical stiffness", "any passive user"}}};
     for (const Sensitivity* each : rows) {
-      table.rows.push_back({shortened(each->key, key_width), parameter_text(each->key, each->value, motion_),
+      table.rows.push_back({shortened(each->key, key_width),
+                            parameter_text(each->key, each->value, motion_of(each->key)),
                             percent(find_sensitivity(design_.sensitivities, each->key)),
                             percent(find_sensitivity(design_.absolute_stability_sensitivities, each->key))});
     }
@@ -79,10 +82,12 @@ class DesignWriter {
     return fmt::format("What +{:.0f} % of each number gives, the strongest first\n", typical_change) + layout(table);
   }
 
-  [[nodiscard]] std::string unit_table() const {
+  /// `heading` stands over the keys. Nothing where there are none.
+  template <typename Row>
+  [[nodiscard]] std::string slope_table(const std::string& title, const std::string& heading, const Row& is_row) const {
     const std::string_view stiffness = units_of(motion_).stiffness;
     TextTable table{{Align::left, Align::right, Align::right, Align::left},
-                    {{"now 0; its first", "critical stiffness", "any passive user", ""}}};
+                    {{heading, "critical stiffness", "any passive user", ""}}};
     const auto cell = [&](const Sensitivity* each) {
       if (each == nullptr) return std::string("-");
       return std::abs(each->slope) <= nothing * design_.analysis.critical.stiffness
@@ -90,14 +95,20 @@ class DesignWriter {
                  : fmt::format("{:+.3g}", each->slope);
     };
     for (const Sensitivity* each : all()) {
-      if (each->relative) continue;
-      const std::string unit = parameter_unit(each->key, motion_);
+      if (each->relative || !is_row(*each)) continue;
+      const std::string unit = parameter_unit(each->key, motion_of(each->key));
       table.rows.push_back({shortened(each->key, key_width), cell(find_sensitivity(design_.sensitivities, each->key)),
                             cell(find_sensitivity(design_.absolute_stability_sensitivities, each->key)),
                             fmt::format("{} per {}", stiffness, unit.empty() ? "1" : unit)});
     }
     if (table.rows.size() < 2) return {};
-    return "\nNumbers that are 0 now, per unit\n" + layout(table);
+    return "\n" + title + "\n" + layout(table);
+  }
+
+  [[nodiscard]] std::string unit_table() const {
+    const auto is_of_joint = [](const Sensitivity& each) { return is_key_of_pose(each.key); };
+    return slope_table("Joints of the pose, per unit", "joint", is_of_joint) +
+           slope_table("Numbers that are 0 now, per unit", "now 0; its first", std::not_fn(is_of_joint));
   }
 
   static void drop_last_column(TextTable& table) {
@@ -112,8 +123,8 @@ class DesignWriter {
   [[nodiscard]] std::string switch_note(const BranchSwitch& each) const {
     const Sensitivity* sensitivity = find_sensitivity(design_.sensitivities, each.key);
     const bool grows = sensitivity == nullptr || each.value > sensitivity->value;
-    std::string note =
-        fmt::format("{} {} {}: ", each.key, grows ? "above" : "below", parameter_text(each.key, each.value, motion_));
+    std::string note = fmt::format("{} {} {}: ", each.key, grows ? "above" : "below",
+                                   parameter_text(each.key, each.value, motion_of(each.key)));
     if (!each.beyond) {
       return note + (each.stiffness_beyond > 0.0 ? "every wall is stable" : "no wall is stable from K = 0");
     }
@@ -135,6 +146,8 @@ class DesignWriter {
     for (const BranchSwitch& each : *design_.branch_switches) text += bulleted(switch_note(each));
     return text;
   }
+
+  [[nodiscard]] Motion motion_of(const std::string& key) const { return motion_of_key(device_.parameters(), key); }
 
   const Design& design_;
   AnalysedDevice analysed_;

@@ -10,6 +10,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/words/finding_text.hpp"
 
@@ -145,8 +146,10 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
     std::string effect = "-";
     if (each.limit_then) effect = limits.text(*each.limit_then);
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
-    table.rows.push_back({words_of(each), value_text(each, each.value_now, motion),
-                          value_text(each, each.value_then, motion), effect, end_text(diagnosis, each)});
+    table.rows.push_back({words_of(each),
+                          value_text(each, each.value_now, motion_of_key(device.parameters(), each.key)),
+                          value_text(each, each.value_then, motion_of_key(device.parameters(), each.key)), effect,
+                          end_text(diagnosis, each)});
     if (judged)
       table.rows.back().push_back(each.absolute_stability_limit_then ? limits.text(*each.absolute_stability_limit_then)
                                                                      : "-");

@@ -142,7 +142,7 @@ class LimitTable {
   void add_walls() {
     if (!analysed_.walls) return;
     const WallSummary& walls = *analysed_.walls;
-    const Holder holder = analysed_.device.has_bodies() ? Holder::any_user : Holder::nobody;
+    const Holder holder = analysed_.device.is_mechanical() ? Holder::any_user : Holder::nobody;
     add("with a damper", holder, damped_text(walls), walls.with_damper ? "" : "zwidth region FILE");
     add("with margins", holder, margins_text(walls), "zwidth design FILE --recommend");
   }

@@ -10,6 +10,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -33,7 +34,8 @@ class SweepWriter {
 
  private:
   [[nodiscard]] std::string value_text(std::size_t axis, double value) const {
-    return parameter_text(sweep_.axes[axis].key, value, motion_);
+    const std::string& key = sweep_.axes[axis].key;
+    return parameter_text(key, value, motion_of_key(device_.parameters(), key));
   }
 
   [[nodiscard]] std::string rows() const {

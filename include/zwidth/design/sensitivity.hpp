@@ -12,10 +12,11 @@ namespace zwidth {
 
 /// How a limit K of the wall's stiffness answers to one number p of the device file.
 struct Sensitivity {
-  std::string key;                 ///< as in model/parameter.hpp: "body.motor.mass", "loop.delay"
-  double value = 0.0;              ///< p, in the unit of its key
-  double slope = 0.0;              ///< dK/dp, N/m or N m/rad per unit of p
-  std::optional<double> relative;  ///< p/K dK/dp: 0.5 says that +1 % of p gives +0.5 % of K; absent where p is 0
+  std::string key;     ///< as in model/parameter.hpp: "body.motor.mass", "loop.delay"
+  double value = 0.0;  ///< p, in the unit of its key
+  double slope = 0.0;  ///< dK/dp, N/m or N m/rad per unit of p
+  std::optional<double>
+      relative;  ///< p/K dK/dp: 0.5 says that +1 % of p gives +0.5 % of K; absent where p is 0 or an angle
 };
 
 /// The derivatives of K_CR with respect to every number that it depends on, by implicit differentiation at its
@@ -34,6 +35,8 @@ struct Sensitivity {
 /// Where the damper runs in a loop of its own (has_damper_loop()) loop.damper.delay is one of them, if the file gives it. The
 /// ratio of the two periods is whole and has no derivative: loop.sampling_period is that of both, which keep their ratio, and
 /// loop.damper.sampling_period is left out. There L_p is a difference, extrapolated until two agree: 1e-7 of K/p.
+/// Of a mechanism also mechanism.pose.* and transmission.*; L_p and L_theta are such differences of its response, for each of which
+/// it is put to its pose again: 1e-6 of K/p.
 /// Empty where K_CR is 0 or unbounded. Throws Error (did_not_converge) as critical_stiffness() does.
 /// Source: implicit function theorem; N. J. Higham, Functions of Matrices, SIAM 2008, section 3.2.
 [[nodiscard]] std::vector<Sensitivity> stiffness_sensitivities(const Device& device);
@@ -51,8 +54,8 @@ struct Sensitivity {
 /// limit does not depend on. Where p is 0, and for the delay of whole samples, the slope is that of growing p: the
 /// limit has a corner there. Empty where the limit is 0 or infinite. With a faster damper in a loop of its own the slopes are
 /// those of differences at the frequency of the least value, its delay among them; a delay or period that leaves the limit unknown
-/// has none, and all are left out where the limit is approached towards zero frequency. Throws Error (needs_bodies) for
-/// a transfer function, (invalid_argument) where that limit is not known.
+/// has none, and all are left out where the limit is approached towards zero frequency. Those of a mechanism are differences
+/// of any_grasp_limit(). Throws Error (needs_bodies) for a transfer function, (invalid_argument) where that limit is not known.
 [[nodiscard]] std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device);
 
 /// The same for a limit already found.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -51,6 +53,34 @@ struct NormalLimitsOptions {
 /// Source: theory, section 9.
 [[nodiscard]] GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop,
                                          const Eigen::Vector3d& normal);
+
+/// The sampled plant along one normal, whoever grasps the tip: at each frequency the disc of any_grasp_limit(), in which neither a
+/// wall nor its filters are.
+///
+/// Throws Error (invalid_argument) for a normal along which the tip cannot move.
+class GraspedPlant {
+ public:
+  /// `loop` gives period, delay and lag; its user is left out.
+  GraspedPlant(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal);
+
+  /// |p - centre| <= radius, m/N.
+  struct Disc {
+    std::complex<double> centre;  ///< m/N
+    double radius = 0.0;          ///< m/N; infinite where nothing dissipates
+  };
+  /// 0 < frequency <= pi/T, rad/s.
+  [[nodiscard]] Disc at(double frequency) const;
+
+  /// rad/s, rising: where a scan looks, from 1e-3/T to pi/T, and beside the poles.
+  [[nodiscard]] const std::vector<double>& frequencies() const;
+
+  /// Nothing dissipates some motion of the tip: some grasp destabilises any wall.
+  [[nodiscard]] bool is_undamped() const;
+
+ private:
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
+};
 
 /// The same for a point wall.
 ///

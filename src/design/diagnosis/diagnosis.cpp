@@ -14,6 +14,7 @@
 #include "design/synthesis/absolute_stability_check.hpp"
 #include "design/synthesis/users_at_frequency.hpp"
 #include "design/synthesis/wall_limits.hpp"
+#include "model/known_structure.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -121,9 +122,14 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
   if (has_two_loops(loop.device)) {
     const bool has_steps = loop.device.parameters().sensor.resolution > 0.0;
     if (has_steps && loop.stiffness) diagnosis.remarks.push_back(left_out_beside_damper_loop("steps"));
-    if (can_be_held(loop.device) && !knows_users_of(loop.device)) {
+    if (can_be_held(loop.device) && !knows_users_of(loop.device) && !loop.device.parameters().mechanism) {
       diagnosis.remarks.push_back(left_out_beside_damper_loop("any_user"));
     }
+  }
+  if (loop.device.parameters().mechanism) {
+    const bool is_known = knows_users_of(loop.device);
+    diagnosis.remarks.push_back(
+        note({.code = is_known ? FindingCode::any_grasp_scanned : FindingCode::any_grasp_not_known}));
   }
   if (!diagnosis.cause && diagnosis.nearest) {
     diagnosis.trust.doubt({.code = FindingCode::no_cause_fits});
@@ -229,7 +235,7 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
 }
 
 Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   require_valid(find_problem(options, device));
   Diagnosis diagnosis;
   diagnosis.frequency = options.frequency;
@@ -262,7 +268,7 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
 }
 
 Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   require_valid(find_problem(options, device, recording));
   Diagnosis diagnosis;
   if (const auto found = recorded_oscillation(recording)) {

@@ -18,6 +18,7 @@
 #include "zwidth/design/drive_damper.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
+#include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -96,6 +97,7 @@ class Changes {
     damp();
     damp_on_drive();
     if (cause_.limited_by && cause_.limited_by->kind == Mechanism::Kind::vibration_mode) stop_mode();
+    stiffen_cables();
     for (std::size_t i = 0; i < std::min(now.links.size(), most_links); ++i) {
       add({.kind = Kind::stiffer_link,
            .link = i,
@@ -176,6 +178,23 @@ class Changes {
     changes_.push_back(std::move(made->change));
   }
 
+  /// Of motors in a mechanism.
+  void stiffen_cables() {
+    const std::optional<MechanismDirection>& mechanism = loop_.device.parameters().mechanism;
+    if (!mechanism) return;
+    const std::vector<Transmission>& motors = mechanism->mechanism.transmissions;
+    for (std::size_t i = 0; i < std::min(motors.size(), most_links); ++i) {
+      if (!(motors[i].stiffness > 0.0)) continue;
+      const std::string key = fmt::format("transmission.{}.stiffness", i);
+      add({.kind = Kind::stiffer_link,
+           .link = i,
+           .key = key,
+           .value_now = motors[i].stiffness,
+           .value_then = more * motors[i].stiffness},
+          [&](DeviceParameters& then) { set_parameter(then, key, more * motors[i].stiffness); });
+    }
+  }
+
   /// What a damper alone has of its own, the loop's numbers do not move.
   void time() {
     const Loop& loop = loop_.device.loop();
@@ -226,7 +245,7 @@ class Changes {
     double unit = loop_.device.parameters().wall.damping;
     if (unit > 0.0) return unit;
     for (const Body& body : loop_.device.bodies()) unit += body.damping;
-    // A device that nothing damps: of a sample of its wall.
+    // A mechanism's are of many joints. A device that nothing damps: of a sample of its wall.
     return unit > 0.0 ? unit : 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
   }
 
@@ -283,7 +302,8 @@ class Changes {
 
   /// The same with the damper in a loop of its own; of a damper alone that damper.
   void damp_on_drive() {
-    if (is_quantisation()) return;  // its cycle is known of one rate alone
+    // The cycle of an encoder is known of one rate alone, and so is what a grasp of a mechanism's tip does.
+    if (is_quantisation() || loop_.device.parameters().mechanism) return;
     const std::optional<Device> on_drive = with_damper_on_drive(loop_.device);
     if (!on_drive) return;
     const auto [period, delay] = damper_timing(on_drive->loop());

@@ -6,6 +6,8 @@
 #include "design/sensitivities/loops_of_wall.hpp"
 #include "design/sensitivities/number_limit.hpp"
 #include "infinity.hpp"
+#include "model/device_lengths.hpp"
+#include "model/poles_at_zero.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -17,6 +19,20 @@ constexpr double growing = 1e-9;  // |z| - 1 of a pole that grows
 
 double excess_of(std::complex<double> delta) {
   return (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0);
+}
+
+// Poles at z = 1 that are no instability: a position that nothing holds; of coordinates also motions that the wall does not see.
+std::size_t free_positions(const Device& device) {
+  const std::size_t held_by_wall = is_position_free(device.parameters()) ? 1 : 0;
+  if (!device.parameters().coordinates) return held_by_wall;
+  const WeightedPath path{weights_of(device, device.loop().actuated), weights_of(device, device.loop().sensed)};
+  const std::size_t seen = poles_at_zero_seen(device, path);
+  // Those that are no states already.
+  const std::size_t lag = device.parameters().actuator.time_constant > 0.0 ? 1 : 0;
+  const auto states = static_cast<std::size_t>(state_space(device).A.rows());
+  const std::size_t left_out = 2 * device.degrees_of_freedom() + lag - states;
+  const std::size_t unseen = poles_at_zero(device) - seen;
+  return unseen - std::min(unseen, left_out) + (seen > 0 ? held_by_wall : 0);
 }
 
 }  // namespace
@@ -32,7 +48,7 @@ LoopPoles::LoopPoles(const Device& device) : stiffness_(*device.parameters().wal
   period_ = seen.loop().sampling_period;
   deltas_ =
       closed_loop_poles_minus_one(sample(state_space(seen), {period_, seen.loop().delay}), seen.parameters().wall);
-  if (is_position_free(seen.parameters())) {
+  for (std::size_t i = free_positions(seen); i-- > 0;) {
     deltas_.erase(std::ranges::min_element(deltas_, {}, [](std::complex<double> delta) { return std::norm(delta); }));
   }
 }

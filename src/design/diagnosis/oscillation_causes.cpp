@@ -12,6 +12,7 @@
 #include "design/sensitivities/number_limit.hpp"
 #include "design/synthesis/users_at_frequency.hpp"
 #include "infinity.hpp"
+#include "model/known_structure.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/device_user.hpp"
@@ -138,24 +139,44 @@ void look_for_nearest_user(const ObservedLoop& loop, const UsersAtFrequency& use
   }
 }
 
-/// Of the sensed position, where the bodies that rub move at V = 4/(pi share): by the ratio of the responses to the
-/// actuator; the geometric mean over the bodies that rub.
-double friction_amplitude(const Device& device, double share, double frequency) {
-  const auto response_of = [&](std::size_t body) {
-    DeviceParameters parameters = device.parameters();
-    parameters.loop.sensed = body;
-    const Device seen(std::move(parameters));
-    return std::abs(response(sample(state_space(seen), {device.loop().sampling_period, 0.0}), frequency));
-  };
-  const double sensed = response_of(device.loop().sensed);
-  double logarithm = 0.0;
-  double rubbing = 0.0;
+/// The lengths that rub: bodies, or joints and cables of a mechanism.
+std::vector<Coordinates::Friction> frictions_of(const Device& device) {
+  if (const auto& coordinates = device.parameters().coordinates) return coordinates->frictions;
+  std::vector<Coordinates::Friction> frictions;
   for (std::size_t i = 0; i < device.bodies().size(); ++i) {
     if (!(device.bodies()[i].coulomb > 0.0)) continue;
-    logarithm += std::log(4.0 / (pi * share) / frequency * sensed / response_of(i));
-    rubbing += 1.0;
+    frictions.push_back({std::vector<double>(device.bodies().size(), 0.0), device.bodies()[i].coulomb});
+    frictions.back().weights[i] = 1.0;
   }
-  return std::exp(logarithm / rubbing);
+  return frictions;
+}
+
+/// With the position of what rubs in place of the sensed one.
+Device with_sensed(const Device& device, const Coordinates::Friction& rubbing) {
+  DeviceParameters parameters = device.parameters();
+  if (parameters.coordinates) {
+    parameters.loop.sensed = parameters.coordinates->points.size();
+    parameters.coordinates->points.push_back({"rubbing", rubbing.weights});
+  } else {
+    parameters.loop.sensed =
+        static_cast<std::size_t>(std::ranges::max_element(rubbing.weights) - rubbing.weights.begin());
+  }
+  return Device(std::move(parameters));
+}
+
+/// Of the sensed position, where what rubs moves at V = 4/(pi share): by the ratio of the responses to the actuator; the
+/// geometric mean over all that rubs.
+double friction_amplitude(const Device& device, double share, double frequency) {
+  const auto response_of = [&](const Device& seen) {
+    return std::abs(response(sample(state_space(seen), {device.loop().sampling_period, 0.0}), frequency));
+  };
+  const double sensed = response_of(device);
+  double logarithm = 0.0;
+  const std::vector<Coordinates::Friction> frictions = frictions_of(device);
+  for (const Coordinates::Friction& each : frictions) {
+    logarithm += std::log(4.0 / (pi * share) / frequency * sensed / response_of(with_sensed(device, each)));
+  }
+  return std::exp(logarithm / static_cast<double>(frictions.size()));
 }
 
 }  // namespace
@@ -184,15 +205,17 @@ bool is_stable(const Device& device) { return LoopPoles(device).is_stable(); }
 Device with_friction_as_damping(const Device& device, double share) {
   DeviceParameters parameters = device.parameters();
   for (Body& body : parameters.bodies) body.damping += share * body.coulomb;
+  if (parameters.coordinates) {
+    for (const Coordinates::Friction& each : parameters.coordinates->frictions) {
+      parameters.coordinates->elements.push_back({each.weights, 0.0, share * each.force});
+    }
+  }
   return Device(std::move(parameters));
 }
 
 std::vector<double> friction_shares(const Device& device) {
   // From hardly any damping to what holds the bodies still at any frequency below Nyquist.
-  double mass = 0.0;
-  double friction = 0.0;
-  for (const Body& body : device.bodies()) mass += body.mass, friction += body.coulomb;
-  const double highest = 1e3 * mass / device.loop().sampling_period / friction;
+  const double highest = 1e3 * moving_mass(device) / device.loop().sampling_period / dry_friction(device);
   std::vector<double> result;
   result.reserve(static_cast<std::size_t>(shares));
   for (int i = 0; i < shares; ++i)
@@ -310,8 +333,7 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& o
   candidate.frequency = nearest->frequency;
   candidate.limited_by = nearest->limited_by;
   candidate.amplitude = 2.0 * step / (pi * nearest->value);
-  double friction = 0.0;
-  for (const Body& body : loop.device.bodies()) friction += body.coulomb;
+  const double friction = dry_friction(loop.device);
   const double relay =
       0.5 * step * std::abs(*loop.stiffness + damper_response(virtual_damper(loop.device), period, nearest->frequency));
   const Units units = units_of(parameters.motion);
@@ -340,8 +362,7 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& o
 }
 
 std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop) {
-  const bool rubs = std::ranges::any_of(loop.device.bodies(), [](const Body& body) { return body.coulomb > 0.0; });
-  if (!rubs || !loop.stiffness) return std::nullopt;
+  if (!(dry_friction(loop.device) > 0.0) || !loop.stiffness) return std::nullopt;
   OscillationCandidate candidate;
   candidate.cause = OscillationCause::friction;
   // A loop that is unstable even while its bodies slide may still have a small cycle on which they hardly do.

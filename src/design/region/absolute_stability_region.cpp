@@ -5,6 +5,7 @@
 #include <string>
 
 #include "infinity.hpp"
+#include "model/known_structure.hpp"
 #include "require_argument.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "staged_progress.hpp"
@@ -126,7 +127,7 @@ std::vector<std::vector<AbsoluteStabilityPoint>> ranges_of(Sampler& sampler,
 AbsoluteStabilityRegion absolute_stability_region(const Device& device, const StableWalls& walls,
                                                   double largest_damping,
                                                   const AbsoluteStabilityRegionOptions& options) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   require_positive({"largest damping", largest_damping});
   require_fraction({"deviation", options.deviation});
   StagedProgress stages(options.progress);

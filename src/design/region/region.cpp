@@ -109,6 +109,14 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
                                 form.suspended_rigid_body};
 }
 
+/// Of coordinates: along a normal of a mechanism whose damper runs with its spring, and not too many.
+bool asks_any_user(const Device& device, const RegionOptions& options) {
+  if (!options.any_user || !device.is_mechanical()) return false;
+  if (device.has_bodies()) return true;
+  return device.parameters().mechanism && !has_damper_loop(device.loop()) &&
+         device.degrees_of_freedom() <= most_bodies_for_absolute_stability;
+}
+
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RegionOptions& options) {
@@ -126,7 +134,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   result.trust = trust_of(device);
   if (result.trust.refused()) return result;
   try {
-    stages.next(options.any_user && device.has_bodies() ? walls_share : 0.95);
+    stages.next(asks_any_user(device, options) ? walls_share : 0.95);
     const bool is_held = device_has_user(device);
     StagedProgress holders(stages.stage());
     holders.next(is_held ? 0.5 : 1.0);
@@ -152,21 +160,22 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     result.force_per_count = force_per_count_rates(device.parameters().wall, period, resolution);
   }
   if (options.any_user && device.parameters().coordinates) {
-    result.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+    const bool is_known = asks_any_user(device, options);
+    result.remarks.push_back(
+        note({.code = is_known ? FindingCode::any_grasp_scanned : FindingCode::any_grasp_not_known}));
   }
-  if (options.any_user && device.has_bodies() && result.region.most_damped &&
-      result.region.most_damped->damping > 0.0) {
+  if (asks_any_user(device, options) && result.region.most_damped && result.region.most_damped->damping > 0.0) {
     if (has_damper_loop(device.loop())) {
       result.remarks.push_back(
           note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user"}}}));
-    } else if (device.bodies().size() <= most_bodies_for_absolute_stability) {
+    } else if (device.degrees_of_freedom() <= most_bodies_for_absolute_stability) {
       stages.next(0.95);
       result.any_user = absolute_stability_region(device, result.nobody ? *result.nobody->walls : *result.walls,
                                                   result.region.most_damped->damping, {.progress = stages.stage()});
       result.trust.inherit(result.any_user->trust);
     } else {
       result.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user_region,
-                                     .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
+                                     .evidence = {{"bodies", static_cast<double>(device.degrees_of_freedom())},
                                                   {"most", static_cast<double>(most_bodies_for_absolute_stability)}}}));
     }
   }

@@ -6,9 +6,11 @@
 #include <string>
 
 #include "design/sensitivities/controller_sensitivity.hpp"
+#include "design/sensitivities/coordinate_sensitivity.hpp"
 #include "design/sensitivities/design_parameter.hpp"
 #include "design/sensitivities/disc_sensitivity.hpp"
 #include "design/sensitivities/two_rate_sensitivity.hpp"
+#include "model/known_structure.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "zwidth/design/sensitivity.hpp"
@@ -230,18 +232,19 @@ double checked_first_slope(const Device& free, const DesignParameter& parameter,
 }  // namespace
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   return absolute_stability_sensitivities(device, known_any_user_limit(device));
 }
 
 std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device, const AbsoluteStabilityLimit& limit) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   if (!(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) return {};
   const bool has_two_loops = has_damper_loop(device.loop());
   if (has_two_loops && device.parameters().wall.damping == 0.0) {
     return absolute_stability_sensitivities(with_one_rate(device), limit);
   }
   if (has_two_loops && !knows_all_users(device.loop())) require_one_rate(device);
+  if (device.parameters().mechanism) return any_grasp_sensitivities(device, limit);
   const Device free = device_without_user(device);
   if (limit.needs_no_user) {
     std::vector<Sensitivity> own = stiffness_sensitivities(free);

@@ -14,6 +14,7 @@
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth {
@@ -136,6 +137,7 @@ class Way {
 std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffness& own, const Sensitivity& each,
                                       double factor, SharedProgress& progress) {
   std::vector<BranchSwitch> switches;
+  if (is_key_of_pose(each.key)) return switches;  // no share of an angle is a step
   const Way way(device, each.key, progress);
   // From the device's own value, by equal factors from `start` to `end`.
   const auto follow = [&](double start, double end) {

@@ -20,6 +20,26 @@ void add_filter(const WallFilter& filter, std::size_t index, std::vector<DesignP
   add(Kind::filter_ratio, "ratio", filter.ratio);
 }
 
+// A cable of no stiffness is none: no number that could grow.
+void add_mechanism(const DeviceParameters& device, std::vector<DesignParameter>& parameters) {
+  const MechanismFile& mechanism = device.mechanism->mechanism;
+  for (const auto& [joint, position] : mechanism.pose) {
+    parameters.push_back({Kind::joint_position, 0, "mechanism.pose." + joint, position});
+  }
+  for (std::size_t i = 0; i < mechanism.transmissions.size(); ++i) {
+    const Transmission& motor = mechanism.transmissions[i];
+    const auto add = [&](const char* name, double value) {
+      parameters.push_back({Kind::transmission, i, fmt::format("transmission.{}.{}", i, name), value});
+    };
+    add("ratio", motor.ratio);
+    add("inertia", motor.inertia);
+    add("motor_damping", motor.motor_damping);
+    if (!(motor.stiffness > 0.0)) continue;
+    add("stiffness", motor.stiffness);
+    add("damping", motor.damping);
+  }
+}
+
 }  // namespace
 
 std::vector<DesignParameter> design_parameters(const Device& device) {
@@ -37,6 +57,7 @@ std::vector<DesignParameter> design_parameters(const Device& device) {
     parameters.push_back({Kind::link_stiffness, i, key + ".stiffness", d.links[i].stiffness});
     parameters.push_back({Kind::link_damping, i, key + ".damping", d.links[i].damping});
   }
+  if (d.mechanism) add_mechanism(d, parameters);
   parameters.push_back({Kind::sampling_period, 0, "loop.sampling_period", d.loop.sampling_period});
   parameters.push_back({Kind::delay, 0, "loop.delay", d.loop.delay});
   parameters.push_back({Kind::time_constant, 0, "actuator.time_constant", d.actuator.time_constant});
@@ -45,7 +66,7 @@ std::vector<DesignParameter> design_parameters(const Device& device) {
     parameters.push_back({Kind::velocity_filter_hz, 0, "wall.velocity_filter_hz", d.wall.velocity_filter_hz});
   }
   for (std::size_t i = 0; i < d.wall.filters.size(); ++i) add_filter(d.wall.filters[i], i, parameters);
-  if (!device.has_bodies()) return parameters;
+  if (!device.is_mechanical()) return parameters;
   parameters.push_back({Kind::user_mass, 0, "operator.mass", d.user.mass});
   parameters.push_back({Kind::user_damping, 0, "operator.damping", d.user.damping});
   parameters.push_back({Kind::user_stiffness, 0, "operator.stiffness", d.user.stiffness});

@@ -28,9 +28,11 @@ struct DesignParameter {
     user_mass,
     user_damping,
     user_stiffness,
+    transmission,    // of a motor in a mechanism
+    joint_position,  // of a mechanism's pose
   };
   Kind kind = Kind::body_mass;
-  std::size_t index = 0;  // of the body, link or filter
+  std::size_t index = 0;  // of the body, link, filter or transmission
   std::string key;        // model/parameter.hpp
   double value = 0.0;
 };

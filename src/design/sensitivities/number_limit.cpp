@@ -45,7 +45,8 @@ NumberLimit unchecked_number_limit(const Device& device, WallNumber number) {
 bool is_position_free(const DeviceParameters& parameters) {
   if (parameters.wall.stiffness.value_or(0.0) > 0.0 || parameters.user.stiffness > 0.0) return false;
   if (parameters.transfer_function) return parameters.transfer_function->denominator.back() == 0.0;
-  return std::ranges::all_of(parameters.bodies, [](const Body& body) { return body.stiffness == 0.0; });
+  return std::ranges::all_of(
+      parameters.bodies, [](const Body& body) { return body.stiffness == 0.0; });  // of coordinates: where one sees it
 }
 
 WallResponse response_of(const Device& device, WallNumber number, double frequency) {

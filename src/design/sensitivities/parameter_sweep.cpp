@@ -11,6 +11,7 @@
 
 #include "counted.hpp"
 #include "model/key_members.hpp"
+#include "model/known_structure.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/batch/batch_stiffness.hpp"
@@ -189,13 +190,13 @@ std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std:
 }
 
 std::optional<OptionProblem> find_problem(const SweepOptions& options, const Device& device) {
-  if (!options.any_user || device.has_bodies()) return std::nullopt;
+  if (!options.any_user || device.is_mechanical()) return std::nullopt;
   return option_problem("any_user", {.code = ProblemCode::asked_of_transfer_function});
 }
 
 ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis>& axes, SweepOptions options,
                                const Progress& progress) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   if (const auto problem = find_sweep_problem(device, axes)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
   }

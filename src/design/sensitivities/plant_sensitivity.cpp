@@ -296,6 +296,8 @@ class PlantDerivatives {
       case Kind::filter_damping_ratio:
       case Kind::filter_depth:
       case Kind::filter_ratio:
+      case Kind::transmission:
+      case Kind::joint_position:
         break;
     }
     return Complex(Real(0.0));

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "design/sensitivities/controller_sensitivity.hpp"
+#include "design/sensitivities/coordinate_sensitivity.hpp"
 #include "design/sensitivities/design_parameter.hpp"
 #include "design/sensitivities/plant_sensitivity.hpp"
 #include "design/sensitivities/two_rate_sensitivity.hpp"
@@ -61,6 +62,7 @@ std::vector<Sensitivity> at_crossover(const Device& device, const SampledPlant& 
 
 std::vector<Sensitivity> stiffness_sensitivities(const Device& device) {
   if (has_damper_loop(device.loop())) return stiffness_sensitivities(device, unguarded_stiffness(device));
+  if (device.parameters().coordinates) return stiffness_sensitivities(device, critical_stiffness(device));
   const Wall& wall = device.parameters().wall;
   const SampledPlant plant = sampled_plant(device);
   const CriticalStiffness critical =
@@ -74,7 +76,9 @@ std::vector<Sensitivity> stiffness_sensitivities(const Device& device, const Cri
     if (device.parameters().wall.damping == 0.0) return stiffness_sensitivities(with_one_rate(device), critical);
     return two_rate_sensitivities(device, *critical.limit);
   }
-  return critical.limit ? at_crossover(device, sampled_plant(device), *critical.limit) : std::vector<Sensitivity>{};
+  if (!critical.limit) return {};
+  if (device.parameters().coordinates) return coordinate_sensitivities(device, *critical.limit);
+  return at_crossover(device, sampled_plant(device), *critical.limit);
 }
 
 }  // namespace zwidth

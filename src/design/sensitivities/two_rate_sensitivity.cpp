@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "design/region/two_rate_curve.hpp"
+#include "design/sensitivities/agreeing_difference.hpp"
 #include "design/sensitivities/design_parameter.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "zwidth/error.hpp"
@@ -21,41 +22,11 @@ namespace {
 
 constexpr double same_crossover_stiffness = 1e-6;  // relative
 constexpr double near_unit_circle_ends = 1e-7;     // rad: a real pole, whose angle stays
-constexpr double widest_difference = 1e-3;         // of a number, or of its unit where it is 0
-constexpr double finer_difference = 0.25;
-constexpr int most_differences = 7;
-constexpr double agreeing_differences = 1e-6;   // of the derivative
-constexpr double agreeing_with_nothing = 1e-8;  // of the value over the step's unit: the derivative is 0
-constexpr double whole_sample = 1e-9;
-
-// The derivative of `value` at 0 by its step; where growing steps alone count, of these.
-template <typename Function>
-std::optional<std::complex<double>> derivative(const Function& value, double unit, bool only_growing) {
-  const std::complex<double> here = value(0.0);
-  const auto difference = [&](double h) {
-    if (only_growing) return (4.0 * value(h) - value(2.0 * h) - 3.0 * here) / (2.0 * h);
-    return (value(h) - value(-h)) / (2.0 * h);
-  };
-  const auto extrapolated = [&](double h) { return (4.0 * difference(0.5 * h) - difference(h)) / 3.0; };
-  double h = widest_difference * unit;
-  std::complex<double> last = extrapolated(h);
-  for (int i = 0; i < most_differences; ++i) {
-    h *= finer_difference;
-    const std::complex<double> next = extrapolated(h);
-    const double apart = std::abs(next - last);
-    if (apart <= agreeing_differences * std::abs(next) || apart <= agreeing_with_nothing * std::abs(here) / unit) {
-      return last;
-    }
-    last = next;
-  }
-  return std::nullopt;
-}
 
 class LimitOfTwoRates {
  public:
   LimitOfTwoRates(const Device& device, TwoRateCurve::Node limit) : parameters_(device.parameters()), limit_(limit) {
     parameters_.uncertainty.reset();
-    fast_period_ = std::min(parameters_.loop.sampling_period, damper_timing(parameters_.loop).sampling_period);
   }
 
   // g + 1/(C_out P) of the device with that number.
@@ -72,53 +43,14 @@ class LimitOfTwoRates {
            std::complex<double>(-curve.gain(angle, curve.inside(wall)), curve.phase(angle, curve.inside(wall)));
   }
 
-  // Where the number is 0, and where a force arrives just with a sample, only growing tells.
-  [[nodiscard]] bool only_grows(const DesignParameter& number) const {
-    if (number.value == 0.0) return true;
-    using Kind = DesignParameter::Kind;
-    if (number.kind == Kind::delay) return is_whole(number.value);
-    return number.kind == Kind::sampling_period &&
-           (is_whole(parameters_.loop.delay) || is_whole(damper_timing(parameters_.loop).delay));
-  }
-
-  // What a step is a share of: the number; of a delay not further than to the next sample; where it is 0, what it adds to.
-  [[nodiscard]] double unit_of(const DesignParameter& number) const {
-    using Kind = DesignParameter::Kind;
-    if (number.kind == Kind::delay && number.value > 0.0 && !is_whole(number.value)) {
-      const double part = std::abs(std::remainder(number.value, fast_period_));
-      return std::min(number.value, part / (2.0 * widest_difference));
-    }
-    if (number.value != 0.0) return number.value;
-    const double stiffness = limit_.wall.stiffness;
-    switch (number.kind) {
-      case Kind::body_mass:
-      case Kind::user_mass: {
-        double mass = 0.0;
-        for (const Body& body : parameters_.bodies) mass += body.mass;
-        return mass;
-      }
-      case Kind::body_stiffness:
-      case Kind::link_stiffness:
-      case Kind::user_stiffness:
-        return stiffness;
-      case Kind::body_damping:
-      case Kind::link_damping:
-      case Kind::user_damping:
-      case Kind::wall_damping:
-        return stiffness * parameters_.loop.sampling_period;
-      default:
-        return fast_period_;
-    }
+  [[nodiscard]] DifferenceStep step_of(const DesignParameter& number) const {
+    const double frequency = limit_.angle / parameters_.loop.sampling_period;
+    return difference_step(number, parameters_, limit_.wall.stiffness, frequency);
   }
 
  private:
-  [[nodiscard]] bool is_whole(double delay) const {
-    return delay > 0.0 && std::abs(std::remainder(delay, fast_period_)) < whole_sample * fast_period_;
-  }
-
   DeviceParameters parameters_;
   TwoRateCurve::Node limit_;
-  double fast_period_ = 0.0;
 };
 
 }  // namespace
@@ -167,20 +99,20 @@ std::vector<Sensitivity> two_rate_sensitivities(const Device& device, const Cros
     node = *polished;
   }
   const LimitOfTwoRates loop(device, node);
-  const auto by_stiffness = derivative(
+  const auto by_stiffness = agreeing_derivative(
       [&](double step) {
         return LimitOfTwoRates::at(curve, node.angle, {node.wall.stiffness + step, damping});
       },
-      node.wall.stiffness, false);
+      {node.wall.stiffness});
   const auto by_angle =
-      is_real ? std::optional(std::complex<double>(0.0, 1.0))
-              : derivative([&](double step) { return LimitOfTwoRates::at(curve, node.angle + step, node.wall); },
-                           std::min(node.angle, std::numbers::pi - node.angle), false);
+      is_real
+          ? std::optional(std::complex<double>(0.0, 1.0))
+          : agreeing_derivative([&](double step) { return LimitOfTwoRates::at(curve, node.angle + step, node.wall); },
+                                {std::min(node.angle, std::numbers::pi - node.angle)});
   if (!by_stiffness || !by_angle) return {};
   std::vector<Sensitivity> result;
   for (const DesignParameter& number : numbers_of_two_rates(device)) {
-    const auto slope =
-        derivative([&](double step) { return loop.with(number, step); }, loop.unit_of(number), loop.only_grows(number));
+    const auto slope = agreeing_derivative([&](double step) { return loop.with(number, step); }, loop.step_of(number));
     if (!slope) continue;
     // Cramer's rule.
     const double determinant = by_stiffness->real() * by_angle->imag() - by_stiffness->imag() * by_angle->real();
@@ -208,11 +140,10 @@ std::vector<Sensitivity> two_rate_users_sensitivities(const Device& device, cons
       set_with_ratio(moved, number.key, number.value + step);
       return moved;
     };
-    const double unit = loop.unit_of(number);
-    if (!knows_all_users(moved_by(widest_difference * unit).loop)) continue;
-    const auto slope =
-        derivative([&](double step) { return std::complex<double>(two_rate_limit_at(Device(moved_by(step)), angle)); },
-                   unit, loop.only_grows(number));
+    const DifferenceStep size = loop.step_of(number);
+    if (!knows_all_users(moved_by(widest_difference * size.unit).loop)) continue;
+    const auto slope = agreeing_derivative(
+        [&](double step) { return std::complex<double>(two_rate_limit_at(Device(moved_by(step)), angle)); }, size);
     if (!slope || !std::isfinite(slope->real())) continue;
     const double value = number.value;
     result.push_back({number.key, value, slope->real(),

@@ -9,6 +9,7 @@
 #include "design/sensitivities/number_limit.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
+#include "model/known_structure.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_user.hpp"
@@ -100,8 +101,7 @@ DamperLimits::Strongest DamperLimits::strongest(double velocity_filter_hz) const
 }
 
 void DamperLimits::check(VirtualDamper damper, Trust& trust) const {
-  double mass = 0.0;
-  for (const Body& body : device_.bodies()) mass += body.mass;
+  const double mass = moving_mass(device_);
   const double grown = options_.gain_margin * damper.damping;
   const Device walled = with_wall(device_, 0.0, {grown, damper.velocity_filter_hz});
   const double spring = grown / device_.loop().sampling_period;

@@ -8,6 +8,7 @@
 #include "design/synthesis/damper_limits.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "design/synthesis/worst_case_screening.hpp"
+#include "model/known_structure.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
@@ -174,7 +175,7 @@ class DamperRecommendation {
 }  // namespace
 
 WallRecommendation recommend_damper(const Device& device, const RecommendationOptions& options) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   require_one_rate(device);
   return DamperRecommendation(device, options).answer();
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "design/sensitivities/agreeing_difference.hpp"
 #include "design/sensitivities/design_parameter.hpp"
 #include "design/sensitivities/number_limit.hpp"
 #include "design/sensitivities/two_rate_sensitivity.hpp"
@@ -19,6 +20,7 @@
 #include "design/synthesis/followed_numbers.hpp"
 #include "design/synthesis/limit_along_parameter.hpp"
 #include "infinity.hpp"
+#include "model/known_structure.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
@@ -44,27 +46,6 @@ struct Point {
   double limit = 0.0;
 };
 
-// The values that a number of 0 could take at all, by what stands beside it in the device: of stiffnesses K, or B/T.
-double natural_size(const Device& device, const DesignParameter& parameter, double target) {
-  using Kind = DesignParameter::Kind;
-  double mass = 0.0;
-  for (const Body& body : device.bodies()) mass += body.mass;
-  const double period = device.loop().sampling_period;
-  switch (parameter.kind) {
-    case Kind::body_mass:
-      return mass;
-    case Kind::body_damping:
-    case Kind::link_damping:
-    case Kind::wall_damping:
-      return target * period;
-    case Kind::body_stiffness:
-    case Kind::link_stiffness:
-      return target;
-    default:
-      return period;
-  }
-}
-
 class Search {
  public:
   Search(const Device& device, const DesignTargetOptions& options, double limit_now,
@@ -84,7 +65,7 @@ class Search {
       walks.push_back({now, parameter.value, parameter.value / options_.factor, 1});
       walks.push_back({now, parameter.value, parameter.value * options_.factor, 1});
     } else {
-      const double size = natural_size(device_, parameter, target_stiffness());
+      const double size = difference_step(parameter, device_.parameters(), target_stiffness(), 0.0).unit;
       walks.push_back({now, first_share * size, options_.factor * size, 0});
     }
     Extremes extremes{limit_now_, limit_now_, {}};
@@ -297,12 +278,12 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
     return option_problem("factor", {.code = ProblemCode::no_factor, .evidence = {{"value", options.factor}}});
   }
   if (options.goal == StiffnessGoal::absolute_stability_limit) {
-    if (!device.has_bodies()) {
+    if (!device.is_mechanical()) {
       return option_problem("goal", {.code = ProblemCode::any_user_goal_of_transfer_function});
     }
-    if (device.bodies().size() > most_bodies_for_absolute_stability) {
+    if (device.degrees_of_freedom() > most_bodies_for_absolute_stability) {
       return option_problem("goal", {.code = ProblemCode::any_user_goal_of_many_bodies,
-                                     .evidence = {counted("bodies", device.bodies().size()),
+                                     .evidence = {counted("bodies", device.degrees_of_freedom()),
                                                   counted("most", most_bodies_for_absolute_stability)}});
     }
   }
@@ -310,7 +291,7 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 }
 
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   require_valid(find_problem(options, device));
   DesignTargets result;
   const NumberLimit own = number_limit(device, options.limit_of);
@@ -318,16 +299,20 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   if (result.trust.refused()) return result;
   const bool has_two_loops = has_damper_loop(device.loop());
   std::vector<DesignParameter> parameters = has_two_loops ? numbers_of_two_rates(device) : design_parameters(device);
-  // Who holds the device is no part of it.
+  // Who holds the device is no part of it, nor is where it stands.
   std::erase_if(parameters, [&](const DesignParameter& each) {
     const bool is_the_limit =
         each.kind == DesignParameter::Kind::wall_damping && options.limit_of == WallNumber::damping;
-    return is_the_limit || each.key.starts_with("operator.");
+    const bool is_pose = each.kind == DesignParameter::Kind::joint_position;
+    return is_the_limit || is_pose || each.key.starts_with("operator.");
   });
   SharedProgress progress(options.progress, parameters.size());
   const Progress while_judging = [&progress](double) { progress.go_on(); };
   const AbsoluteStabilityCheck users(device, options.limit_of, while_judging);
   result.absolute_stability_limit_now = users.now();
+  if (device.parameters().mechanism && users.now()) {
+    result.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
+  }
   double limit = own.value;
   if (options.goal == StiffnessGoal::absolute_stability_limit) {
     auto any_user = users.limit_now();
@@ -364,7 +349,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
                                      .evidence = {{"followed", static_cast<double>(parameters.size())},
                                                   {"all", static_cast<double>(all)},
                                                   {"factor", asked.factor},
-                                                  {"bodies", static_cast<double>(device.bodies().size())}}}));
+                                                  {"bodies", static_cast<double>(device.degrees_of_freedom())}}}));
     }
   }
   progress.add(left_out.size());
@@ -382,7 +367,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     result.targets.push_back(std::move(target));
   }
   std::ranges::stable_sort(result.targets, {}, cost);
-  if (options.limit_of == WallNumber::stiffness) {
+  if (options.limit_of == WallNumber::stiffness && !device.parameters().mechanism) {
     const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
     result.drive_damper = drive_damper(device, any_user, while_judging);
   }

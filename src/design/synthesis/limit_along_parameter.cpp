@@ -14,6 +14,7 @@
 #include "stability/loop/damper_response.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/two_rate_users.hpp"
+#include "stability/users/user_discs.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/critical_damping.hpp"
@@ -96,7 +97,7 @@ double LimitAlongParameter::of_any_user(const Device& device, double enough, Lim
   const bool is_of_damper = parameter_.kind == DesignParameter::Kind::wall_damping ||
                             parameter_.kind == DesignParameter::Kind::velocity_filter_hz;
   if (!is_of_damper && enough > 0.0 && !angles_.empty()) {
-    const TerminationDiscs discs(device);
+    const UserDiscs discs(device);
     for (std::size_t i = angles_.size(); i-- > 0;) {
       for (const double factor : beside) {
         const double frequency = std::min(angles_[i] * factor, std::numbers::pi) / period;

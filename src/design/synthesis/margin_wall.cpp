@@ -9,9 +9,11 @@
 #include <utility>
 
 #include "infinity.hpp"
+#include "model/known_structure.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "stability/margins/loops_of_stiffness.hpp"
 #include "stability/users/disc_stiffness.hpp"
+#include "stability/users/user_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
@@ -165,7 +167,7 @@ std::optional<OptionProblem> find_problem(const RequiredMargins& margins) {
 }
 
 double stiffest_wall(const Device& device, const RequiredMargins& margins) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   require_one_rate(device);
   const VirtualDamper damper = virtual_damper(device);
   StiffnessRange range;
@@ -209,7 +211,7 @@ double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const Req
 }
 
 bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   require_one_rate(device);
   const FilteredPlant plant = filtered_plant(device);
   const VirtualDamper damper = virtual_damper(device);
@@ -222,7 +224,7 @@ bool keeps_margins(const Device& device, double stiffness, const RequiredMargins
 LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progress)
     : period_(device.loop().sampling_period), angles_(grid_of(device)) {
   const FilteredPlant plant = filtered_plant(device);
-  std::optional<TerminationDiscs> users;
+  std::optional<UserDiscs> users;
   if (with_users) users.emplace(device, progress);
   plant_.reserve(angles_.size());
   damper_.reserve(angles_.size());
@@ -237,7 +239,7 @@ LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progre
     damper_.push_back(damper_response(virtual_damper(device), period_, frequency));
     clear_.push_back(SeenCrossings::is_clear_of_rounding(plant, angle));
     if (!users) continue;
-    // The discs are those behind the wall's own filters (TerminationDiscs closes them).
+    // The discs are those behind the wall's own filters (UserDiscs closes them).
     discs_.push_back(users->at(frequency));
   }
 }

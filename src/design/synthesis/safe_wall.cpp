@@ -10,6 +10,7 @@
 #include "design/synthesis/known_holders.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
+#include "model/known_structure.hpp"
 #include "stability/device_draws.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
@@ -281,7 +282,7 @@ std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
 }
 
 SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   // Two rates are known with the damper as it is, of a device whose numbers are certain.
   const bool knows_two_rates =
       options.damping == SafeWallOptions::Damping::own && !is_uncertain(device) && knows_all_users(device.loop());

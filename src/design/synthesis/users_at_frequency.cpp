@@ -10,7 +10,8 @@
 namespace zwidth::internal {
 
 bool knows_users_of(const Device& device) {
-  return can_be_held(device) && (!has_two_loops(device) || knows_all_users(device.loop()));
+  if (!has_two_loops(device)) return can_be_held(device);
+  return can_be_held(device) && knows_all_users(device.loop()) && !device.parameters().mechanism;
 }
 
 UsersAtFrequency::UsersAtFrequency(const Device& device, WallNumber number, const Progress& progress)

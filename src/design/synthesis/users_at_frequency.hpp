@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "stability/users/termination_discs.hpp"
 #include "stability/users/two_rate_users.hpp"
+#include "stability/users/user_discs.hpp"
 #include "zwidth/design/wall_number.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
@@ -29,7 +29,7 @@ class UsersAtFrequency {
  private:
   Device device_;  // in one loop, where it has one
   WallNumber number_;
-  std::optional<TerminationDiscs> discs_;
+  std::optional<UserDiscs> discs_;
   std::optional<TwoRateUsers> of_two_loops_;
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "design/synthesis/wall_limits.hpp"
+#include "model/known_structure.hpp"
 #include "model/rate_ratio.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
@@ -65,8 +66,7 @@ bool is_unstable_as_it_runs(const Device& device, double stiffness) {
 
 /// With users on a grid of masses and springs: poles outside the circle contradict; those too near it to tell do not.
 void check_users(const Device& walled, const Progress& progress, Trust& trust) {
-  double mass = 0.0;
-  for (const Body& body : walled.bodies()) mass += body.mass;
+  const double mass = moving_mass(walled);
   const double stiffness = *walled.parameters().wall.stiffness;
   for (const double heavy : masses_of_users) {
     for (const double stiff : springs_of_users) {

@@ -65,7 +65,7 @@ Device with_filter(const Device& device, const WallFilter& filter) {
 }
 
 bool can_be_held(const Device& device) {
-  return device.has_bodies() && device.bodies().size() <= most_bodies_for_absolute_stability;
+  return device.is_mechanical() && device.degrees_of_freedom() <= most_bodies_for_absolute_stability;
 }
 
 WallLimits::WallLimits(const Device& device, const RecommendationOptions& options)

@@ -13,6 +13,7 @@
 #include "design/synthesis/wall_limits.hpp"
 #include "design/synthesis/wall_lowering.hpp"
 #include "design/synthesis/wall_search.hpp"
+#include "model/known_structure.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -298,6 +299,9 @@ class Recommendation {
     if (!limits_.has_users()) {
       result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
     }
+    if (device_.parameters().mechanism && limits_.has_users()) {
+      result.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
+    }
     if (!device_.parameters().wall.filters.empty()) {
       result.remarks.push_back(note({.code = FindingCode::filters_stay, .key = "wall.filter"}));
     }
@@ -330,7 +334,7 @@ WallRecommendation recommended(const Device& device, const RecommendationOptions
   if (is_damper) return recommend_damper(unwalled, options);
   WallRecommendation result = Recommendation(device, options).answer();
   const bool is_like = options.goal == WallGoal::stiffness || options.goal == WallGoal::width;
-  if (options.drive_damper && is_like && result.wall) {
+  if (options.drive_damper && is_like && result.wall && !device.parameters().mechanism) {
     result.drive_damper = recommend_drive_damper(unwalled, options, *result.wall);
   }
   return result;
@@ -346,8 +350,9 @@ WallRecommendation refused(Trust trust) {
 }  // namespace
 
 WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
-  require_no_coordinates(device);
-  if (!knows_all_users(device.loop())) require_one_rate(device);
+  require_known_structure(device);
+  // What a grasp of a mechanism's tip does is known of one rate alone.
+  if (!knows_all_users(device.loop()) || device.parameters().mechanism) require_one_rate(device);
   require_valid(find_problem(options, device));
   Trust trust = trust_of(device);
   if (trust.refused()) return refused(std::move(trust));

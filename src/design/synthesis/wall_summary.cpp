@@ -12,6 +12,7 @@
 
 #include "counted.hpp"
 #include "infinity.hpp"
+#include "model/known_structure.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -34,7 +35,7 @@ class LimitOverDamping {
   LimitOverDamping(const Device& device, const Progress& progress)
       : velocity_filter_hz_(device.parameters().wall.velocity_filter_hz),
         plant_(filtered_plant(device)),
-        users_(device.has_bodies() ? std::make_unique<AbsoluteStabilitySearch>(device, progress) : nullptr),
+        users_(device.is_mechanical() ? std::make_unique<AbsoluteStabilitySearch>(device, progress) : nullptr),
         progress_(progress) {}
 
   [[nodiscard]] Holder holder() const { return users_ ? Holder::any_user : Holder::nobody; }
@@ -87,7 +88,7 @@ StiffestDampedWall stiffest_up_to(LimitOverDamping& limits, double largest) {
 
 /// The largest damper alone for whoever may hold the device; nothing where that is not known.
 std::optional<double> largest_damper(const Device& device, const Analysis& analysis, const Progress& progress) {
-  if (!device.has_bodies()) {
+  if (!device.is_mechanical()) {
     if (analysis.limits.nobody.critical_damping) return analysis.limits.nobody.critical_damping;
     const CriticalDamping damping = critical_damping(device);
     return damping.trust.sound() ? std::optional(damping.damping) : std::nullopt;
@@ -127,8 +128,12 @@ void add_margins(const Device& device, const Progress& progress, WallSummary& su
 }  // namespace
 
 WallSummary wall_summary(const Device& device, const Analysis& analysis, const WallSummaryOptions& options) {
-  require_no_coordinates(device);
+  require_known_structure(device);
   WallSummary summary;
+  if (device.parameters().mechanism && has_damper_loop(device.loop())) {
+    summary.why_no_damper = summary.why_no_margins = Finding{.code = FindingCode::any_grasp_not_known};
+    return summary;
+  }
   if (analysis.trust.refused()) {
     summary.why_no_damper = summary.why_no_margins = Finding{.code = FindingCode::device_refused};
     return summary;
@@ -138,10 +143,10 @@ WallSummary wall_summary(const Device& device, const Analysis& analysis, const W
         Finding{.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "damper"}}};
     return summary;
   }
-  if (device.bodies().size() > options.most_bodies) {
-    summary.why_no_damper = summary.why_no_margins =
-        Finding{.code = FindingCode::too_many_bodies_for_wall_summary,
-                .evidence = {counted("bodies", device.bodies().size()), counted("threshold", options.most_bodies)}};
+  if (device.degrees_of_freedom() > options.most_bodies) {
+    summary.why_no_damper = summary.why_no_margins = Finding{
+        .code = FindingCode::too_many_bodies_for_wall_summary,
+        .evidence = {counted("bodies", device.degrees_of_freedom()), counted("threshold", options.most_bodies)}};
     return summary;
   }
   StagedProgress stages(options.progress);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/require_valid.hpp"
 
@@ -44,6 +45,7 @@ std::optional<OptionProblem> find_problem(const WallToRunOptions& options, const
 }
 
 WallToRun wall_to_run(const Device& device, const WallToRunOptions& options) {
+  require_one_direction(device);
   require_valid(find_problem(options, device));
   WallToRun result{.device = device};
   if (options.safety_factor) {

@@ -15,6 +15,7 @@
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -96,6 +97,7 @@ FrequencyRange bode_range(const Device& device, const Analysis& analysis, const 
 }
 
 Bode bode(const Device& device, const BodeOptions& options) {
+  require_one_direction(device);
   StagedProgress stages(options.progress);
   stages.next(0.5);
   AnalysisOptions of_analysis = limit_and_wall_only();
@@ -108,6 +110,7 @@ Bode bode(const Device& device, const BodeOptions& options) {
 }
 
 Bode bode(const Device& device, Analysis analysis, const BodeOptions& options) {
+  require_one_direction(device);
   if (const auto problem = find_problem(options, device)) {
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("`{}` {}; {}", problem->member, problem->what, problem->allowed));

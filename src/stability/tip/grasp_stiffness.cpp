@@ -49,11 +49,16 @@ OthersAlong others_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d
   return {(normal.transpose() * sample.shift_of_others * normal).value(), squares.cwiseMax(0.0).sqrt().sum()};
 }
 
+GraspedPlant::Disc disc_along(const GraspDiscs::Sample& sample, const OthersAlong& others,
+                              const Eigen::Vector3d& normal) {
+  const std::complex<double> shift = (normal.transpose() * sample.own.shift * normal).value() + others.shift;
+  return {(normal.transpose() * sample.plant * normal).value() - sample.shared * shift,
+          std::abs(sample.shared) * (radius_along(sample.own, normal) + others.radius)};
+}
+
 double least_stiffness_along(const GraspDiscs::Sample& sample, const OthersAlong& others, const Eigen::Vector3d& normal,
                              VirtualDamper damper, double period) {
-  const std::complex<double> shift = (normal.transpose() * sample.own.shift * normal).value() + others.shift;
-  const std::complex<double> centre = (normal.transpose() * sample.plant * normal).value() - sample.shared * shift;
-  const double radius = std::abs(sample.shared) * (radius_along(sample.own, normal) + others.radius);
+  const auto [centre, radius] = disc_along(sample, others, normal);
   const double power = (std::abs(centre) - radius) * (std::abs(centre) + radius);  // |c|^2 - r^2
   const std::complex<double> closed = damper_response(damper, period, sample.angle / period);
   return least_root(1.0 + 2.0 * (closed * centre).real() + power * std::norm(closed),

@@ -5,6 +5,7 @@
 
 #include "stability/tip/grasp_discs.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/grasp_limit.hpp"
 
 namespace zwidth::internal {
 
@@ -14,6 +15,10 @@ struct OthersAlong {
   double radius = 0.0;
 };
 [[nodiscard]] OthersAlong others_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d& normal);
+
+// What the plant is along the normal in any grasp, at this frequency.
+[[nodiscard]] GraspedPlant::Disc disc_along(const GraspDiscs::Sample& sample, const OthersAlong& others,
+                                            const Eigen::Vector3d& normal);
 
 // The least K > 0 that some grasp destabilises at this frequency; infinity where there is none.
 [[nodiscard]] double least_stiffness_along(const GraspDiscs::Sample& sample, const OthersAlong& others,

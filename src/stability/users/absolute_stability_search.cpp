@@ -17,6 +17,7 @@
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "stability/second_route/pole_count.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/wall_condition.hpp"
 #include "staged_progress.hpp"
@@ -94,6 +95,10 @@ double typical_of(std::vector<double> stiffnesses) {
 
 AbsoluteStabilitySearch::AbsoluteStabilitySearch(const Device& device, const Progress& progress)
     : free_(device_without_user(device)), discs_(device, progress), period_(device.loop().sampling_period) {
+  if (is_grasped_in_many_directions(device)) {
+    grasps_.emplace(free_);
+    return;
+  }
   if (discs_.is_undamped()) return;
   pieces_ = DiscPieces(discs_, device);
   frequencies_ = frequencies_to_scan(discs_, period_, device.loop().delay, device.parameters().wall.filters);
@@ -347,6 +352,10 @@ AbsoluteStabilityLimit AbsoluteStabilitySearch::damping_limit(double velocity_fi
 
 AbsoluteStabilityLimit AbsoluteStabilitySearch::limit_of(VirtualDamper damper, const CriticalStiffness& free,
                                                          const Progress& progress) {
+  if (grasps_) {
+    tell(progress, 0.0);
+    return grasps_->limit(free_gain_, damper, free);
+  }
   AbsoluteStabilityLimit limit;
   if (free.status == StiffnessStatus::none_stable || discs_.is_undamped()) return limit;
   Sample least{{0.0, 0.0}, infinity};

@@ -1,10 +1,13 @@
 #include "stability/users/any_grasp.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "stability/users/grasp_search.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/tip_motion.hpp"
 #include "zwidth/stability/grasp_limit.hpp"
 
@@ -16,13 +19,28 @@ constexpr double lowest_scanned = 1.001e-3;
 
 }  // namespace
 
+bool is_grasped_in_many_directions(const Device& device) {
+  constexpr double no_direction_below = 1e-9;  // relative
+  const std::optional<TipMotion> motion = tip_motion_of(device);
+  if (!motion || !device.parameters().mechanism) return false;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motion->tip);
+  qr.setThreshold(no_direction_below);
+  return qr.rank() > 1;
+}
+
 std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
                                                                    const CriticalStiffness& nobody) {
   const std::optional<TipMotion> motion = tip_motion_of(device);
   if (!motion || !device.parameters().mechanism) return std::nullopt;
   DeviceParameters loop = device.parameters();
   const bool is_apart = has_damper_loop(loop.loop) && damper.damping > 0.0;
-  if (is_apart || !loop.wall.filters.empty()) return std::nullopt;
+  if (is_apart) return std::nullopt;
+  if (!loop.wall.filters.empty() && nobody.stiffness > 0.0) {
+    AbsoluteStabilityLimit limit =
+        GraspSearch(device_without_user(device)).limit(GraspSearch::FreeGain::stiffness, damper, nobody);
+    limit.trust = nobody.trust;
+    return limit;
+  }
   loop.loop.damper.reset();
   loop.wall.damping = damper.damping;
   loop.wall.velocity_filter_hz = damper.velocity_filter_hz;

@@ -204,7 +204,8 @@ bool knows_all_users(const Loop& loop) { return whole_periods_later(loop).has_va
 std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress) {
   if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, virtual_damper(device), progress);
   if (device.parameters().wall.damping == 0.0) return any_user_limit(with_one_rate(device), progress);
-  if (!knows_all_users(device.loop())) return std::nullopt;
+  // What a grasp does is known of one rate alone.
+  if (!knows_all_users(device.loop()) || device.parameters().mechanism) return std::nullopt;
   tell(progress, 0.0);
   const CriticalStiffness nobody = critical_stiffness(device_without_user(device));
   if (nobody.trust.refused()) {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// Whether the key is of a number of a mechanism or of a motor in it: "mechanism.pose.elbow", "transmission.0.ratio".
+[[nodiscard]] bool is_key_of_mechanism(std::string_view key);
+
+/// Whether the key is of a joint's position.
+[[nodiscard]] bool is_key_of_pose(std::string_view key);
+
+/// The motion that the number's unit is of: the device's, but for motors and joints of a mechanism.
+[[nodiscard]] Motion motion_of_key(const DeviceParameters& parameters, std::string_view key);
+
+/// Throws Error (invalid_argument, of the key mechanism.normal) where is_point_wall(): for what is of one direction.
+void require_one_direction(const Device& device);
+
+}  // namespace zwidth
