@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "mechanism/transmissions.hpp"
 #include "mechanism/trial_process.hpp"
 #include "zwidth/mechanism.hpp"
+#include "zwidth/model/device_key.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
@@ -28,10 +30,11 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int most_steps = 100;
-constexpr double short_way = 0.1;        // m or rad, of a joint that is given: loops stay put together as they are
-constexpr double most_of_a_way = 100.0;  // steps
-constexpr double settled = 1e-13;        // m or rad, of a step
-constexpr double closed = 1e-9;          // m or rad, of a loop
+constexpr double short_way = 0.1;          // m or rad, of a joint that is given: loops stay put together as they are
+constexpr double most_of_a_way = 100.0;    // steps
+constexpr double farthest_position = 1e6;  // m or rad: angles beyond keep too few digits
+constexpr double settled = 1e-13;          // m or rad, of a step
+constexpr double closed = 1e-9;            // m or rad, of a loop
 constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
 
 // On one line, whatever names the file gives.
@@ -43,18 +46,22 @@ std::string plain(const char* said) {
   return text;
 }
 
+// The key that what is read came by; of the caller, of whom there is one at a time.
+const char* source_key = "mechanism.file";
+
 [[noreturn]] void refuse_file(const char* why) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
+  refuse_mechanism(source_key, {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
 }
 
 [[noreturn]] void refuse_part(const char* part) {
-  refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
+  refuse_mechanism(source_key, {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
 }
 
 // MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
 class Handlers {
  public:
-  Handlers() : lock_(mutex()), error_(mju_user_error), warning_(mju_user_warning) {
+  explicit Handlers(const MechanismFile& file) : lock_(mutex()), error_(mju_user_error), warning_(mju_user_warning) {
+    source_key = file.text.empty() ? "mechanism.file" : "mechanism.text";
     mju_user_error = refuse_file;
     mju_user_warning = [](const char*) {};
   }
@@ -110,7 +117,7 @@ class Posed {
     if (model_->njnt == 0) refuse_part("joint");
     for (int joint = 0; joint < model_->njnt; ++joint) {
       if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
-      refuse_mechanism("mechanism.file",
+      refuse_mechanism(source_key,
                        {.code = ProblemCode::joint_of_many_motions, .subjects = {{"name", name(mjOBJ_JOINT, joint)}}});
     }
     model_->opt.jacobian = mjJAC_DENSE;
@@ -163,6 +170,8 @@ class Posed {
     Rows mass(n, n);
     mj_fullM(model_.get(), mass.data(), data_->qM);
     at.mass = mass;
+    const bool is_mass_matrix = mass.allFinite() && Eigen::LLT<Eigen::MatrixXd>(at.mass).info() == Eigen::Success;
+    if (!is_mass_matrix || !not_negative_numbers.contains(mass.diagonal().maxCoeff())) refuse_part("mass");
     at.tip = tip(file.tip);
     add_elements(at);
     at.motors = Eigen::Map<const Rows>(data_->actuator_moment, model_->nu, n);
@@ -175,6 +184,9 @@ class Posed {
     }
     at.encoders = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(read.size()), n);
     for (std::size_t i = 0; i < read.size(); ++i) at.encoders(static_cast<Eigen::Index>(i), read[i]) = 1.0;
+    for (const Eigen::MatrixXd* each : {&at.tip, &at.motors, &at.cables}) {
+      if (!each->allFinite()) refuse_part("numbers");
+    }
     return at;
   }
 
@@ -195,23 +207,42 @@ class Posed {
     return jacobian;
   }
 
+  void check_number(mjtObj kind, int of, const char* what, double value) const {
+    if (not_negative_numbers.contains(value)) return;
+    refuse_number(kind, of, what, value);
+  }
+
+  [[noreturn]] void refuse_number(mjtObj kind, int of, const char* what, double value) const {
+    refuse_mechanism(source_key, {.code = ProblemCode::mechanism_file_refused,
+                                  .evidence = {{"value", value}},
+                                  .subjects = {{"part", kind == mjOBJ_JOINT ? "joint's" : "tendon's"},
+                                               {"of", plain(name(kind, of).c_str())},
+                                               {"attribute", what}}});
+  }
+
   void add_elements(MechanismAtPose& at) const {
     const int n = model_->nv;
-    const auto add = [&at](const Eigen::VectorXd& along, double stiffness, double damping, double friction) {
+    // What does not move, as a tendon between points of the world, is neither stiff nor damped.
+    const auto add = [&](mjtObj kind, int of, const Eigen::VectorXd& along, double stiffness, double damping,
+                         double friction) {
+      check_number(kind, of, "stiffness", stiffness);
+      check_number(kind, of, "damping", damping);
+      check_number(kind, of, "frictionloss", friction);
+      if (along.isZero(0.0)) return;
       if (stiffness != 0.0 || damping != 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
       if (friction != 0.0) at.frictions.push_back({{along.begin(), along.end()}, friction});
     };
     for (int joint = 0; joint < n; ++joint) {
-      add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint],
+      add(mjOBJ_JOINT, joint, Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint],
           model_->dof_frictionloss[joint]);
     }
     const Rows lengths = Eigen::Map<const Rows>(data_->ten_J, model_->ntendon, n);
     std::vector<int> cables;  // the stiffest last
     for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
       const double stiffness = model_->tendon_stiffness[tendon];
-      add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
+      add(mjOBJ_TENDON, tendon, lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
           model_->tendon_frictionloss[tendon]);
-      if (stiffness != 0.0) cables.push_back(tendon);
+      if (stiffness != 0.0 && !lengths.row(tendon).isZero(0.0)) cables.push_back(tendon);
     }
     std::ranges::stable_sort(cables, {}, [this](int tendon) { return model_->tendon_stiffness[tendon]; });
     at.cables = lengths(cables, Eigen::all);
@@ -234,6 +265,10 @@ class Posed {
         data_->qpos[each.joint] = step == steps ? each.to : each.from + (each.to - each.from) * step / steps;
       }
       open = settle();
+    }
+    for (int joint = 0; joint < model_->njnt; ++joint) {
+      const double at = data_->qpos[joint];
+      if (!(std::abs(at) <= farthest_position)) refuse_number(mjOBJ_JOINT, joint, "position", at);
     }
     if (!(open <= closed))
       refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
@@ -298,7 +333,7 @@ MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<Mechan
     const int joint = posed.index(fmt::format("transmission.{}.joint", i), mjOBJ_JOINT, each.joint);
     add_transmission(at, joint, each, file.encoders.empty());
   }
-  if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
+  if (at.motors.rows() == 0) refuse_mechanism(source_key, {.code = ProblemCode::no_motor});
   const Eigen::MatrixXd of_joints = posed.free_motions();
   if (of_joints.cols() == of_joints.rows()) return without_springs(std::move(at));  // no loops
   const Eigen::Index motors = at.mass.rows() - of_joints.rows();
@@ -315,7 +350,7 @@ MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<Mechan
 MechanismAtPose at_pose(const MechanismFile& file) {
   using namespace internal;
   const std::vector<MechanismText> texts = mechanism_texts(file);
-  const Handlers handlers;
+  const Handlers handlers(file);
   static std::vector<MechanismText> read_before;  // its own only while the handlers are ours
   if (texts != read_before) {
     if (!ends_in_trial([&] { static_cast<void>(read_at_pose(file, texts)); })) refuse_part("reader");
