@@ -227,7 +227,7 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
   }
   // That limit rests on the critical stiffness of the device that nobody holds.
   if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
-  if (device.parameters().mechanism) return answer_any_grasp(device, analysis);
+  if (is_grasped_in_many_directions(device)) return answer_any_grasp(device, analysis);
   if (has_damper_loop(device.loop())) return answer_beside_damper_loop(device, options, stages, analysis);
   const VirtualDamper damper = virtual_damper(device);
   AbsoluteStabilitySearch search(device, stages.stage());

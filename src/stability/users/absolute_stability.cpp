@@ -24,7 +24,7 @@ AbsoluteStabilityLimit of_mechanism(const Device& device, VirtualDamper damper) 
 }  // namespace
 
 AbsoluteStabilityLimit absolute_stability_limit(const Device& device, VirtualDamper damper, const Progress& progress) {
-  if (device.parameters().mechanism) return of_mechanism(device, damper);
+  if (is_grasped_in_many_directions(device)) return of_mechanism(device, damper);
   return AbsoluteStabilitySearch(device, progress).limit(damper, progress);
 }
 

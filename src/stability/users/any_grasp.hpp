@@ -8,6 +8,10 @@
 
 namespace zwidth::internal {
 
+// A device of a mechanism whose tip moves along several directions. Along one alone, however he grasps it, the user holds it as
+// that of bodies.
+[[nodiscard]] bool is_grasped_in_many_directions(const Device& device);
+
 // The limit over all passive users of a device along a normal of a mechanism: they grasp its tip in any direction, not along
 // the normal alone. `damper` is closed in place of the wall's. Nothing of other devices, and where it is not known: filters
 // on the wall's force, a damper in a loop of its own. A scan, as any_grasp_limit() says, capped at what nobody leaves.
