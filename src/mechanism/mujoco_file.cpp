@@ -268,7 +268,9 @@ class Posed {
     }
     for (int joint = 0; joint < model_->njnt; ++joint) {
       const double at = data_->qpos[joint];
+      const double from = model_->qpos0[joint];
       if (!(std::abs(at) <= farthest_position)) refuse_number(mjOBJ_JOINT, joint, "position", at);
+      if (!(std::abs(from) <= farthest_position)) refuse_number(mjOBJ_JOINT, joint, "position", from);
     }
     if (!(open <= closed))
       refuse_mechanism("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});

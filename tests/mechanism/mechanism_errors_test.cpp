@@ -148,7 +148,10 @@ TEST(MechanismErrors, ANumberThatIsNoneIsNamed) {
   for (const std::string value : {"-10", "nan", "1e300"}) {
     EXPECT_EQ(code_of(of_joint("armature", value)), mechanism_file_refused) << value;
   }
-  EXPECT_EQ(code_of(of_joint("ref", "1e300")), mechanism_file_refused);
+  MechanismFile turned_far = of_joint("ref", "1e300");
+  EXPECT_EQ(code_of(turned_far), mechanism_file_refused);
+  turned_far.pose["a"] = 0.1;
+  EXPECT_EQ(code_of(turned_far), mechanism_file_refused);
   EXPECT_EQ(code_of(mechanism(paddle(mass + tip, "", "<actuator><motor joint='a' gear='nan'/></actuator>"))),
             mechanism_file_refused);
   MechanismFile far = mechanism(paddle(mass + tip));
