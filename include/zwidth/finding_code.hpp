@@ -421,6 +421,10 @@ enum class FindingCode : std::uint16_t {
   friction_below_zero,              ///< friction below 0 by more than its interval
   force_unexplained,                ///< one rigid body leaves a share of the force unexplained
   device_not_rigid,                 ///< a mode of a device that was taken for one rigid body
+
+  // simulation of mechanisms
+  motion_linearised,  ///< the motion is that of the mechanism linearised at its pose
+  friction_left_out,  ///< the same, without the friction of joints and cables
 };
 
 }  // namespace zwidth

@@ -24,6 +24,7 @@ constexpr double no_weight_below = 1e-14;
 // g' A of the motion along q that is g' A where T q = 0: along = t' T + g' A.
 Eigen::VectorXd through_cables(const Eigen::VectorXd& along, const Eigen::MatrixXd& cables, const Eigen::MatrixXd& rows,
                                ProblemCode not_determined, const Eigen::Vector3d& normal) {
+  if (rows.rows() == 0) refuse_normal(not_determined, normal);
   Eigen::MatrixXd all(cables.rows() + rows.rows(), along.size());
   all << cables, rows;
   if (rank_of(all) < rank_of(cables) + rows.rows()) refuse_normal(ProblemCode::motor_or_encoder_depends, normal);

@@ -7,11 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "mechanism/mechanism_text.hpp"
 #include "mechanism/mujoco_file.hpp"
-#include "zwidth/require_valid.hpp"
 #include "mechanism/tip_reach.hpp"
 #include "mechanism/transmissions.hpp"
 #include "zwidth/mechanism.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth {
 namespace {
@@ -62,7 +63,7 @@ class MechanismModel::Read {
       const int joint = mujoco_->joint(fmt::format("transmission.{}.joint", i), each.joint);
       internal::add_transmission(at, joint, each, of_.encoders.empty());
     }
-    if (at.motors.rows() == 0) refuse_key("mechanism.file", {.code = ProblemCode::no_motor});
+    if (at.motors.rows() == 0) refuse_key(internal::source_key(of_), {.code = ProblemCode::no_motor});
     if (of_joints.cols() == of_joints.rows()) return internal::without_springs(std::move(at));  // no loops
     const Eigen::Index motors = at.mass.rows() - of_joints.rows();
     Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);

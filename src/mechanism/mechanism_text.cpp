@@ -50,6 +50,11 @@ std::optional<std::string> contents(const std::filesystem::path& path) {
   return text;
 }
 
+// In the folder or below it, by its name.
+bool is_beside(const std::filesystem::path& name) {
+  return name.is_relative() && *name.lexically_normal().begin() != "..";
+}
+
 std::string_view value(const XMLElement& of, const char* attribute) {
   const char* found = of.Attribute(attribute);
   return found != nullptr ? found : "";
@@ -201,7 +206,7 @@ class MechanismReader {
     const std::string name(value(element, "file"));
     const bool is_new = included_.insert(name).second;
     std::optional<std::string> text;
-    if (is_new && !name.empty()) text = contents(folder_ / name);
+    if (is_new && !name.empty() && is_beside(name)) text = contents(folder_ / name);
     if (!text) {
       refuse(ProblemCode::include_not_read, document, element.GetLineNum(), name,
              is_new ? std::vector<Subject>{} : std::vector<Subject>{{"twice", "twice"}});

@@ -16,6 +16,11 @@ struct MechanismText {
   bool operator==(const MechanismText&) const = default;
 };
 
+// The key that a mechanism's text comes by.
+[[nodiscard]] inline const char* source_key(const MechanismFile& file) {
+  return file.text.empty() ? "mechanism.file" : "mechanism.text";
+}
+
 inline constexpr std::size_t most_mechanism_bytes = std::size_t{1} << 20;
 inline constexpr std::size_t most_mechanism_joints = 300;
 

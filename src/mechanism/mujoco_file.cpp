@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 
 #include "mechanism/mechanism_text.hpp"
 #include "mechanism/trial_process.hpp"
+#include "zwidth/model/device_key.hpp"
 #include "zwidth/require_valid.hpp"
 
 #ifdef ZWIDTH_MUJOCO
@@ -26,10 +28,11 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int most_steps = 100;
-constexpr double short_way = 0.1;        // m or rad, of a joint that is given: loops stay put together as they are
-constexpr double most_of_a_way = 100.0;  // steps
-constexpr double settled = 1e-13;        // m or rad, of a step
-constexpr double closed = 1e-9;          // m or rad, of a loop
+constexpr double short_way = 0.1;          // m or rad, of a joint that is given: loops stay put together as they are
+constexpr double most_of_a_way = 100.0;    // steps
+constexpr double farthest_position = 1e6;  // m or rad: angles beyond keep too few digits
+constexpr double settled = 1e-13;          // m or rad, of a step
+constexpr double closed = 1e-9;            // m or rad, of a loop
 constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
 
 // On one line, whatever names the file gives.
@@ -41,12 +44,27 @@ std::string plain(const char* said) {
   return text;
 }
 
+// What is wrong with what is read, whichever key it came by.
+struct RefusedSource {
+  Problem problem;
+};
+
 [[noreturn]] void refuse_file(const char* why) {
-  refuse_key("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}});
+  throw RefusedSource{{.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", plain(why)}}}};
 }
 
 [[noreturn]] void refuse_part(const char* part) {
-  refuse_key("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
+  throw RefusedSource{{.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}}};
+}
+
+// With its key.
+template <typename Work>
+auto reading(const MechanismFile& file, Work&& work) {
+  try {
+    return work();
+  } catch (RefusedSource& refused) {
+    refuse_key(source_key(file), std::move(refused.problem));
+  }
 }
 
 // MuJoCo's fatal errors end the process; here they are errors of the file, as long as there is one of these.
@@ -174,6 +192,8 @@ class Posed {
     Rows mass(n, n);
     mj_fullM(model_, mass.data(), data_->qM);
     at.mass = mass;
+    const bool is_mass_matrix = mass.allFinite() && Eigen::LLT<Eigen::MatrixXd>(at.mass).info() == Eigen::Success;
+    if (!is_mass_matrix || !not_negative_numbers.contains(mass.diagonal().maxCoeff())) refuse_part("mass");
     add_tip(file.tip, at);
     at.joint_motions = Eigen::MatrixXd::Identity(n, n);
     at.joints = Eigen::Map<const Eigen::VectorXd>(data_->qpos, n);
@@ -188,6 +208,9 @@ class Posed {
     }
     at.encoders = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(read.size()), n);
     for (std::size_t i = 0; i < read.size(); ++i) at.encoders(static_cast<Eigen::Index>(i), read[i]) = 1.0;
+    for (const Eigen::MatrixXd* each : {&at.tip, &at.motors, &at.cables}) {
+      if (!each->allFinite()) refuse_part("numbers");
+    }
     return at;
   }
 
@@ -206,23 +229,42 @@ class Posed {
     at.tip = jacobian;
   }
 
+  void check_number(mjtObj kind, int of, const char* what, double value) const {
+    if (not_negative_numbers.contains(value)) return;
+    refuse_number(kind, of, what, value);
+  }
+
+  [[noreturn]] void refuse_number(mjtObj kind, int of, const char* what, double value) const {
+    throw RefusedSource{{.code = ProblemCode::mechanism_file_refused,
+                         .evidence = {{"value", value}},
+                         .subjects = {{"part", kind == mjOBJ_JOINT ? "joint's" : "tendon's"},
+                                      {"of", plain(parts_.name(kind, of).c_str())},
+                                      {"attribute", what}}}};
+  }
+
   void add_elements(MechanismAtPose& at) const {
     const int n = model_->nv;
-    const auto add = [&at](const Eigen::VectorXd& along, double stiffness, double damping, double friction) {
+    // What does not move, as a tendon between points of the world, is neither stiff nor damped.
+    const auto add = [&](mjtObj kind, int of, const Eigen::VectorXd& along, double stiffness, double damping,
+                         double friction) {
+      check_number(kind, of, "stiffness", stiffness);
+      check_number(kind, of, "damping", damping);
+      check_number(kind, of, "frictionloss", friction);
+      if (along.isZero(0.0)) return;
       if (stiffness != 0.0 || damping != 0.0) at.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
       if (friction != 0.0) at.frictions.push_back({{along.begin(), along.end()}, friction});
     };
     for (int joint = 0; joint < n; ++joint) {
-      add(Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint],
+      add(mjOBJ_JOINT, joint, Eigen::VectorXd::Unit(n, joint), model_->jnt_stiffness[joint], model_->dof_damping[joint],
           model_->dof_frictionloss[joint]);
     }
     const Rows lengths = Eigen::Map<const Rows>(data_->ten_J, model_->ntendon, n);
     std::vector<int> cables;  // the stiffest last
     for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
       const double stiffness = model_->tendon_stiffness[tendon];
-      add(lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
+      add(mjOBJ_TENDON, tendon, lengths.row(tendon).transpose(), stiffness, model_->tendon_damping[tendon],
           model_->tendon_frictionloss[tendon]);
-      if (stiffness != 0.0) cables.push_back(tendon);
+      if (stiffness != 0.0 && !lengths.row(tendon).isZero(0.0)) cables.push_back(tendon);
     }
     std::ranges::stable_sort(cables, {}, [this](int tendon) { return model_->tendon_stiffness[tendon]; });
     at.cables = lengths(cables, Eigen::all);
@@ -245,6 +287,12 @@ class Posed {
         data_->qpos[each.joint] = step == steps ? each.to : each.from + (each.to - each.from) * step / steps;
       }
       open = settle();
+    }
+    for (int joint = 0; joint < model_->njnt; ++joint) {
+      const double at = data_->qpos[joint];
+      const double from = model_->qpos0[joint];
+      if (!(std::abs(at) <= farthest_position)) refuse_number(mjOBJ_JOINT, joint, "position", at);
+      if (!(std::abs(from) <= farthest_position)) refuse_number(mjOBJ_JOINT, joint, "position", from);
     }
     if (!(open <= closed))
       refuse_key("mechanism.pose", {.code = ProblemCode::loop_does_not_close, .evidence = {{"open", open}}});
@@ -311,8 +359,8 @@ Model read_model(const std::vector<MechanismText>& texts) {
   if (model->njnt == 0) refuse_part("joint");
   for (int joint = 0; joint < model->njnt; ++joint) {
     if (model->jnt_type[joint] == mjJNT_HINGE || model->jnt_type[joint] == mjJNT_SLIDE) continue;
-    refuse_key("mechanism.file", {.code = ProblemCode::joint_of_many_motions,
-                                        .subjects = {{"name", Parts(model.get()).name(mjOBJ_JOINT, joint)}}});
+    throw RefusedSource{{.code = ProblemCode::joint_of_many_motions,
+                         .subjects = {{"name", Parts(model.get()).name(mjOBJ_JOINT, joint)}}}};
   }
   model->opt.jacobian = mjJAC_DENSE;
   model->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
@@ -352,7 +400,7 @@ class OpenFile final : public MujocoFile {
   [[nodiscard]] At at(const JointPositions& pose) const override {
     const Handlers handlers;
     Data data = idle_data();
-    At at = at_pose_of(model_.get(), data.get(), file_, pose);
+    At at = reading(file_, [&] { return at_pose_of(model_.get(), data.get(), file_, pose); });
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(data));
     return at;
@@ -382,7 +430,8 @@ std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
   static std::vector<MechanismText> read_before;
   const std::lock_guard lock(one_at_a_time);
   const Handlers handlers;
-  if (texts != read_before) {
+  return reading(file, [&]() -> std::unique_ptr<const MujocoFile> {
+    if (texts == read_before) return std::make_unique<const OpenFile>(file, texts);
     const bool ends = ends_in_trial([&] {
       const Model model = read_model(texts);
       const Data data(mj_makeData(model.get()));
@@ -390,8 +439,8 @@ std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
     });
     if (!ends) refuse_part("reader");
     read_before = texts;
-  }
-  return std::make_unique<const OpenFile>(file, texts);
+    return std::make_unique<const OpenFile>(file, texts);
+  });
 }
 
 }  // namespace internal

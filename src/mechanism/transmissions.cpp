@@ -13,7 +13,7 @@ void add_row(Eigen::MatrixXd& rows, const Eigen::VectorXd& row) {
 }
 
 void add_element(MechanismAtPose& mechanism, const Eigen::VectorXd& along, double stiffness, double damping) {
-  if (stiffness == 0.0 && damping == 0.0) return;
+  if ((stiffness == 0.0 && damping == 0.0) || along.isZero(0.0)) return;
   mechanism.elements.push_back({{along.begin(), along.end()}, stiffness, damping});
 }
 
@@ -71,6 +71,7 @@ MechanismAtPose with_loops(const MechanismAtPose& mechanism, const Eigen::Matrix
   }
   for (const auto& [weights, force] : mechanism.frictions) {
     const Eigen::VectorXd along = in_free_motions(weights);
+    if (along.isZero(0.0)) continue;
     result.frictions.push_back({{along.begin(), along.end()}, force});
   }
   result.cables = mechanism.cables * free_motions;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,18 +24,24 @@ struct Span {
   Eigen::Index beyond = 0;
 };
 
-// However stiff or weak each is: by direction alone.
-Span span_of(const Columns& columns, Eigen::Index size) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = columns[i].normalized();
-  if (columns.empty()) return {Eigen::MatrixXd::Identity(size, size), size};
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(all);
-  qr.setThreshold(dependent_below);
-  const Eigen::Index rank = qr.rank();
+// Of columns alike in size, some of which may be what rounding leaves of 0.
+Span span_beyond(const Eigen::MatrixXd& columns, double rounding) {
+  const Eigen::Index size = columns.rows();
+  if (columns.size() == 0) return {Eigen::MatrixXd::Identity(size, size), size};
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(std::max(dependent_below, rounding / std::max(qr.maxPivot(), rounding)));
+  const Eigen::Index rank = qr.maxPivot() > rounding ? qr.rank() : 0;
   const Eigen::MatrixXd q = qr.householderQ();
   Span span{Eigen::MatrixXd(size, size), size - rank};
   span.basis << q.rightCols(size - rank), q.leftCols(rank);
   return span;
+}
+
+// However stiff or weak each is: by direction alone.
+Span span_of(const Columns& columns, Eigen::Index size) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = columns[i].normalized();
+  return span_beyond(all, 0.0);
 }
 
 void add(Eigen::MatrixXd& sum, double factor, const Eigen::VectorXd& weights) {
@@ -79,7 +86,21 @@ NormalCoordinates normal_coordinates(const Device& device) {
     const Eigen::VectorXd free = along.head(result.free);
     if (each.damping > 0.0 && free.norm() > dependent_below * along.norm()) dampers.push_back(free);
   }
-  result.loose = span_of(dampers, result.free).beyond;
+  const Span damped = span_of(dampers, result.free);
+  result.loose = damped.beyond;
+  result.damped = damped.basis.rightCols(result.free - damped.beyond);
+  return result;
+}
+
+UnseenFirst unseen_first(const NormalCoordinates& of, const Eigen::MatrixXd& positions) {
+  const Eigen::Index n = of.shapes.cols();
+  UnseenFirst result{.turn = Eigen::MatrixXd::Identity(n, n)};
+  const Span seen = span_beyond(positions.leftCols(of.free).transpose(), unseen_below * positions.norm());
+  result.unseen = seen.beyond;
+  const Eigen::MatrixXd unseen = seen.basis.leftCols(seen.beyond);
+  const Span damped = span_beyond(unseen.transpose() * of.damped, dependent_below);
+  result.adrift = damped.beyond;
+  result.turn.topLeftCorner(of.free, of.free) << unseen * damped.basis, seen.basis.rightCols(of.free - seen.beyond);
   return result;
 }
 

@@ -40,17 +40,24 @@ ContinuousStateSpace of_bodies(const Device& device) {
   return system;
 }
 
-// In normal coordinates, in which what no spring holds has no stiffness at all.
+// In normal coordinates, in which what no spring holds has no stiffness at all. Where the position tells nothing of such a
+// motion, its own position is no state, and where no damper holds it its velocity is none: a wall leaves it free.
 ContinuousStateSpace of_coordinates(const Device& device) {
   const NormalCoordinates normal = normal_coordinates(device);
-  const Eigen::Index n = normal.stiffness.rows();
-  ContinuousStateSpace system{Eigen::MatrixXd::Zero(2 * n, 2 * n), Eigen::VectorXd::Zero(2 * n),
-                              Eigen::RowVectorXd::Zero(2 * n)};
-  system.A.topRightCorner(n, n).setIdentity();
-  system.A.bottomLeftCorner(n, n) = -normal.stiffness;
-  system.A.bottomRightCorner(n, n) = -normal.damping;
-  system.B.tail(n) = normal.of(weights_of(device, device.loop().actuated));
-  system.C.head(n) = normal.of(weights_of(device, device.loop().sensed)).transpose();
+  const Eigen::RowVectorXd sensed = normal.of(weights_of(device, device.loop().sensed)).transpose();
+  const auto [turn, unseen, adrift] = unseen_first(normal, sensed);
+  const Eigen::Index positions = sensed.size() - unseen;
+  const Eigen::Index velocities = sensed.size() - adrift;
+  const Eigen::Index n = positions + velocities;
+  ContinuousStateSpace system{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::RowVectorXd::Zero(n)};
+  system.A.topRightCorner(positions, positions).setIdentity();
+  system.A.bottomLeftCorner(velocities, positions) =
+      -(turn.transpose() * normal.stiffness * turn).bottomRightCorner(velocities, positions);
+  system.A.bottomRightCorner(velocities, velocities) =
+      -(turn.transpose() * normal.damping * turn).bottomRightCorner(velocities, velocities);
+  system.B.tail(velocities) =
+      (turn.transpose() * normal.of(weights_of(device, device.loop().actuated))).tail(velocities);
+  system.C.head(positions) = (sensed * turn).tail(positions);
   return system;
 }
 

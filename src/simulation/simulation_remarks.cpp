@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -43,8 +44,8 @@ std::vector<NonlinearPart> nonlinear_parts(const Simulation& result, const Devic
 /// encoder's step does not.
 bool must_grow(const Simulation& result) {
   const auto is_encoder = [](NonlinearPart part) { return part == NonlinearPart::quantisation_step; };
-  return has_wall(result) && result.loop.controller.stiffness > 0.0 && result.linear.spectral_radius &&
-         *result.linear.spectral_radius > 1.0 &&
+  return has_wall(result) && result.loop.controller.stiffness > 0.0 && !result.linear.wall_stable.value_or(true) &&
+         result.linear.spectral_radius.value_or(0.0) > 1.0 &&
          std::all_of(result.nonlinear_parts.begin(), result.nonlinear_parts.end(), is_encoder);
 }
 
@@ -73,6 +74,20 @@ void remark_wall(std::vector<Remark>& remarks, const Simulation& result, const D
     const Units units = units_of(device.parameters().motion);
     remarks.push_back(note({.code = FindingCode::starts_inside_wall, .evidence = {{"depth", depth, units.length}}}));
   }
+}
+
+void remark_linearised(std::vector<Remark>& remarks, const Device& device) {
+  const std::optional<Coordinates>& of = device.parameters().coordinates;
+  if (!of) return;
+  if (of->frictions.empty()) {
+    remarks.push_back(note({.code = FindingCode::motion_linearised}));
+    return;
+  }
+  double largest = 0.0;
+  for (const Coordinates::Friction& each : of->frictions) largest = std::max(largest, each.force);
+  remarks.push_back(
+      warning({.code = FindingCode::friction_left_out,
+               .evidence = {{"rubbing", static_cast<double>(of->frictions.size())}, {"largest", largest}}}));
 }
 
 bool never_moves(std::span<const double> sensed) {
@@ -176,6 +191,7 @@ std::vector<Remark> simulation_remarks(const Simulation& result, const Device& d
                                        std::span<const double> sensed) {
   std::vector<Remark> remarks;
   remark_wall(remarks, result, device);
+  remark_linearised(remarks, device);
   remark_run(remarks, result, device, options);
   remark_stiction(remarks, result, device, sensed);
   remark_idle_wall(remarks, result, device, sensed);

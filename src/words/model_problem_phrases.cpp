@@ -69,11 +69,15 @@ std::span<const ProblemPhrase> model_problem_phrases() {
       ProblemPhrase{motor_or_encoder_depends, "motor_or_encoder_depends",
                     "one of the motors or encoders turns as the others and the cables say",
                     "leave it out, or give another pose"},
-      ProblemPhrase{mechanism_file_refused, "mechanism_file_refused",
-                    "{?why|{why}}{?name|\"{name}\" cannot be read}{?part=reader|MuJoCo cannot read it}{?part=joint|has "
-                    "no joint}{?part=loops|has too many "
-                    "loops}{?part=files|includes too many files}",
-                    "must be a file in MJCF or URDF"},
+      ProblemPhrase{
+          mechanism_file_refused, "mechanism_file_refused",
+          "{?why|{why}}{?name|\"{name}\" cannot be read}{?part=reader|MuJoCo cannot read it}{?part=joint|has "
+          "no joint}{?part=loops|has too many "
+          "loops}{?part=files|includes too many files}{?part=mass|has masses, inertias or armatures that make "
+          "no mass matrix}{?part=numbers|has numbers that are none}{?part=joint's|{attribute} of joint \"{of}\" "
+          "is {value:exact}}{?part=tendon's|{attribute} of tendon \"{of}\" is {value:exact}}",
+          "{!value|must be a file in MJCF or URDF}{?value|must be a finite number{?attribute=position| from "
+          "-1e+06 to 1e+06}{!attribute=position|, 0 or from 1e-30 to 1e+30}}"},
       ProblemPhrase{no_such_part, "no_such_part",
                     "the mechanism has no {?kind=joint|joint}{?kind=tip|site or body} \"{name}\"",
                     "{?names|must be one of {names}}"},

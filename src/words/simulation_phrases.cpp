@@ -62,6 +62,12 @@ std::span<const Phrase> simulation_phrases() {
              "simulate for longer"},
       Phrase{stick_slip_not_followed, "stick_slip_not_followed", warning,
              "{steps:n} steps had too many stick-slip instants to follow", "the motion is approximate there"},
+      Phrase{motion_linearised, "motion_linearised", note, "the motion is that of the mechanism linearised at its pose",
+             "it holds near the pose"},
+      Phrase{friction_left_out, "friction_left_out", warning,
+             "the motion is that of the mechanism linearised at its pose, without friction: {rubbing:n} of its joints "
+             "and cables rub, the strongest by {largest:g} N m (of a slide: N)",
+             "friction holds small motions, and lets larger ones die out sooner"},
       Phrase{swing_not_steady, "swing_not_steady", warning,
              "the swing still {does} by {share:%} % over the last half of the record", "not steady: record for longer"},
       Phrase{swing_varies, "swing_varies", warning, "the swing varies by {scatter:%} % and never becomes steady",

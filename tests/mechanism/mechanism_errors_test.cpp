@@ -124,6 +124,91 @@ TEST(MechanismErrors, NumbersThatAreNoneAreRefused) {
   }
 }
 
+// Numbers that no joint, tendon or body has are named, with where they stand.
+TEST(MechanismErrors, ANumberThatIsNoneIsNamed) {
+  const auto of_joint = [](const std::string& attribute, const std::string& value) {
+    std::string text = paddle(mass + tip);
+    const std::string joint = "<joint name='a' axis='0 0 1'";
+    return mechanism(text.replace(text.find(joint), joint.size(), joint + " " + attribute + "='" + value + "'"));
+  };
+  for (const std::string attribute : {"damping", "stiffness", "frictionloss"}) {
+    for (const std::string value : {"-1", "nan", "inf", "1e300"}) {
+      SCOPED_TRACE(attribute + " " + value);
+      try {
+        (void)at_pose(of_joint(attribute, value));
+        ADD_FAILURE() << "it was read";
+      } catch (const Error& error) {
+        ASSERT_EQ(error.problems().size(), 1U);
+        const Problem& problem = *error.problems().front().problem;
+        EXPECT_EQ(problem.code, mechanism_file_refused);
+        EXPECT_EQ(problem.subjects, (std::vector<Subject>{{"part", "joint's"}, {"of", "a"}, {"attribute", attribute}}));
+      }
+    }
+  }
+  for (const std::string value : {"-10", "nan", "1e300"}) {
+    EXPECT_EQ(code_of(of_joint("armature", value)), mechanism_file_refused) << value;
+  }
+  MechanismFile turned_far = of_joint("ref", "1e300");
+  EXPECT_EQ(code_of(turned_far), mechanism_file_refused);
+  turned_far.pose["a"] = 0.1;
+  EXPECT_EQ(code_of(turned_far), mechanism_file_refused);
+  EXPECT_EQ(code_of(mechanism(paddle(mass + tip, "", "<actuator><motor joint='a' gear='nan'/></actuator>"))),
+            mechanism_file_refused);
+  MechanismFile far = mechanism(paddle(mass + tip));
+  far.pose["a"] = 1e18;
+  EXPECT_EQ(code_of(far), mechanism_file_refused);
+}
+
+TEST(MechanismErrors, WhatIsWrongInATextStandsAtTheText) {
+  const auto key_of = [](const MechanismFile& file) {
+    try {
+      (void)at_pose(file);
+    } catch (const Error& error) {
+      return error.problems().empty() ? "" : error.problems().front().place.key;
+    }
+    return std::string("nothing");
+  };
+  const std::string no_mass = paddle(tip);
+  EXPECT_EQ(key_of(mechanism(no_mass)), "mechanism.text");
+  const std::string path = testing::TempDir() + "no_mass.xml";
+  std::ofstream(path) << no_mass;
+  MechanismFile file;
+  file.path = path;
+  EXPECT_EQ(key_of(file), "mechanism.file");
+}
+
+// A motor that pulls at the tip drives no joint, and so no encoder is known.
+TEST(MechanismErrors, AMotorAtASiteNeedsItsEncoders) {
+  MechanismFile file = mechanism(paddle(mass + tip, "", "<actuator><motor site='tip' gear='0 1 0 0 0 0'/></actuator>"));
+  EXPECT_EQ(code_of(file), tip_not_determined_by_encoders);
+  file.encoders = {"a"};
+  EXPECT_EQ(code_of(file), std::nullopt);
+}
+
+// A tendon between points of the world neither moves nor rubs.
+TEST(MechanismErrors, ATendonThatNothingMovesIsNone) {
+  const std::string still =
+      "<tendon><spatial stiffness='10' damping='1' frictionloss='1'><site site='e'/><site site='f'/>"
+      "</spatial></tendon>";
+  const std::string ends = "</body><site name='e'/><site name='f' pos='1 0 0'/><body>";
+  EXPECT_EQ(code_of(mechanism(paddle(mass + tip + ends, still))), std::nullopt);
+}
+
+TEST(MechanismErrors, IncludesStayBesideTheFile) {
+  const std::string path = testing::TempDir() + "including.xml";
+  MechanismFile file;
+  file.path = path;
+  file.tip = "tip";
+  std::ofstream(testing::TempDir() + "paddle.xml") << paddle(mass + tip);
+  for (const std::string& name : {std::string("../paddle.xml"), std::string("a/../../paddle.xml"),
+                                  testing::TempDir() + "paddle.xml", std::string("/dev/zero"), std::string(".")}) {
+    std::ofstream(path) << "<mujoco><include file='" << name << "'/></mujoco>";
+    EXPECT_EQ(code_of(file), include_not_read) << name;
+  }
+  std::ofstream(path) << "<mujoco><include file='./paddle.xml'/></mujoco>";
+  EXPECT_EQ(code_of(file), std::nullopt);
+}
+
 // Meshes that are not there, a size that would take all memory: what does not count is not read.
 TEST(MechanismErrors, WhatDoesNotCountChangesNothing) {
   const double plain = critical_stiffness(device(mechanism(paddle(mass + tip)))).stiffness;

@@ -92,9 +92,12 @@ TEST(GraspLimit, OfOneDirectionIsThatOfOneAxis) {
   }
 }
 
-// Property: no random network of masses, springs, dampers and bodies on springs beats the limit. Nobody is one.
+// Property: no random network of masses, springs, dampers and bodies on springs beats the limit. Nobody is one. Below a limit of
+// 0 there is no wall. A heavy grasp on soft springs leaves poles so near the circle that eigenvalues round them across: of
+// mechanism 28, network 3, |z| - 1 is -1.9e-16 in 50 digits and 1.6e-14 here.
 TEST(GraspLimit, NoRandomNetworkBeatsIt) {
   constexpr double below = 1.0 - 1e-6;
+  constexpr double rounded = 1.0 + 1e-12;
   const unsigned mechanisms = test::by_tier(8U, 100U);
   const int networks = test::by_tier(25, 100);
   for (unsigned seed = 0; seed < mechanisms; ++seed) {
@@ -110,11 +113,33 @@ TEST(GraspLimit, NoRandomNetworkBeatsIt) {
     EXPECT_LE(point.at_least, point.at_most * (1.0 + 1e-9));
     for (int i = 0; i < networks; ++i) {
       SCOPED_TRACE(i);
-      const TipMotion held = test::randomly_held(motion, limit.frequency, draws);
-      EXPECT_LT(test::SecondRoute(held, loop, normal).radius(below * limit.stiffness), 1.0);
-      EXPECT_LT(test::SecondRoute(held, loop, Eigen::Matrix3d::Identity()).radius(below * point.at_least), 1.0);
+      const double frequency = std::max(limit.frequency, 1e-3 / loop.loop.sampling_period);
+      const TipMotion held = test::randomly_held(motion, frequency, draws);
+      if (limit.stiffness > 0.0) {
+        EXPECT_LT(test::SecondRoute(held, loop, normal).radius(below * limit.stiffness), rounded);
+      }
+      if (point.at_least > 0.0) {
+        EXPECT_LT(test::SecondRoute(held, loop, Eigen::Matrix3d::Identity()).radius(below * point.at_least), rounded);
+      }
     }
   }
+}
+
+// The damper alone, late and filtered, is beaten by a grasp: no wall is stable with everyone, as the second route says of one.
+TEST(GraspLimit, ADamperThatAGraspBeatsLeavesNoWall) {
+  const auto [motion, loop] = test::random_mechanism(64);
+  test::Draws draws(1064);
+  const Eigen::Vector3d normal = random_normal(draws, motion);
+  EXPECT_EQ(any_grasp_limit(motion, loop, normal).stiffness, 0.0);
+  const PointGraspLimit point = any_grasp_limit_of_point(motion, loop);
+  EXPECT_EQ(point.at_least, 0.0);
+  EXPECT_EQ(point.at_most, 0.0);
+  double largest = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    const TipMotion held = test::randomly_held(motion, 0.0, draws);
+    largest = std::max(largest, test::SecondRoute(held, loop, normal).radius(0.0));
+  }
+  EXPECT_GT(largest, 1.0);
 }
 
 TEST(GraspLimit, NothingDampedIsNoWallForAnyone) {

@@ -26,4 +26,7 @@ struct TipMotion {
 /// That of a device of a mechanism, in the directions in which its wall acts; nothing of any other device.
 [[nodiscard]] std::optional<TipMotion> tip_motion_of(const Device& device);
 
+/// The directions in which the tip can move: orthonormal columns in the world's frame; none where it stands still.
+[[nodiscard]] Eigen::MatrixXd tip_directions(const TipMotion& motion);
+
 }  // namespace zwidth

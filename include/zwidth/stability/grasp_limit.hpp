@@ -16,7 +16,7 @@ namespace zwidth {
 /// The stiffest wall along a normal that is stable whoever grasps the tip, in whatever direction he holds it.
 struct GraspLimit {
   double stiffness = 0.0;  ///< N/m; 0 where some grasp destabilises any wall
-  double frequency = 0.0;  ///< rad/s, where the worst grasp destabilises it; 0 where the limit is 0
+  double frequency = 0.0;  ///< rad/s, where the worst grasp destabilises it; 0: towards w = 0, or a limit of 0
 };
 
 /// The same of a point wall, between two bounds.
@@ -48,8 +48,8 @@ struct NormalLimitsOptions {
 ///
 /// and sampled over the sum of the discs of its aliases, as absolute_stability_limit() for one axis, of which the user is
 /// held to the normal: he is one of these. The least over frequency is found by a scan that is refined where it is low, from
-/// w = 1e-3/T to pi/T: it is not shown to be the least in between (FindingCode::any_user_limit_scanned). The user of `loop`
-/// is left out. Throws Error (invalid_argument) as point_wall_limit(), and for a normal along which the tip cannot move.
+/// w = 1e-3/T, 3e-4/T where the motion has slower corners, to pi/T: it is not shown to be the least in between
+/// (FindingCode::any_user_limit_scanned). The user of `loop` is left out. Throws Error (invalid_argument) as point_wall_limit(), and for a normal along which the tip cannot move.
 /// Source: theory, section 9.
 [[nodiscard]] GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop,
                                          const Eigen::Vector3d& normal);

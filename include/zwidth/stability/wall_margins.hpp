@@ -28,9 +28,11 @@ struct LoopMargins {
 
 /// The verdict on a given wall.
 struct WallMargins : LoopMargins {
-  double stiffness = 0.0;        ///< K
-  double damping = 0.0;          ///< B
-  double spectral_radius = 0.0;  ///< largest closed-loop |z|; with K = 0 but the pole at z = 1 of a free position
+  double stiffness = 0.0;  ///< K
+  double damping = 0.0;    ///< B
+  /// Largest closed-loop |z|; with K = 0 but the pole at z = 1 of a free position, and but those of motions of a
+  /// mechanism that the wall leaves free
+  double spectral_radius = 0.0;
   /// With a damper in a loop of its own, s: the least delay of the spring's force alone that destabilises
   std::optional<double> spring_delay_margin = {};
   std::optional<double> damper_delay_margin = {};  ///< the same of the damper's force alone

@@ -1,6 +1,7 @@
 #include "stability/tip/grasp_discs.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -123,6 +124,21 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
     alias.right *= std::norm(lagged);
   }
   return alias;
+}
+
+std::vector<ComplexNumber> GraspDiscs::held_poles() const {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
+  const Eigen::Index n = of_.tip.cols() - tip.rank();
+  const Eigen::MatrixXd q = tip.householderQ();
+  const Eigen::MatrixXd still = q.rightCols(n);
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  motion.topRightCorner(n, n).diagonal().setConstant(1.0 / period_);
+  motion.bottomLeftCorner(n, n) = -period_ * still.transpose() * of_.stiffness * still;
+  motion.bottomRightCorner(n, n) = -still.transpose() * of_.damping * still;
+  std::vector<ComplexNumber> poles;
+  if (n == 0) return poles;
+  for (const ComplexNumber& s : eigenvalues(motion)) poles.push_back(std::exp(s * period_));
+  return poles;
 }
 
 GraspDiscs::Sample GraspDiscs::own_at(double angle) const {

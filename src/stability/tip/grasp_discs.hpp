@@ -46,6 +46,9 @@ class GraspDiscs {
   // Without the others.
   [[nodiscard]] Sample own_at(double angle) const;
 
+  // e^{sT} of the motions that are left where the tip stands still: a grasp that holds it so makes them the loop's own.
+  [[nodiscard]] std::vector<std::complex<double>> held_poles() const;
+
   // Nothing dissipates some motion of the tip: some grasp destabilises any wall.
   [[nodiscard]] bool is_undamped() const { return undamped_; }
 

@@ -19,9 +19,21 @@ double radius_along(const GraspDiscs::Alias& alias, const Eigen::Vector3d& norma
   return alias.weight * std::sqrt(std::max(left * right, 0.0));
 }
 
-// [1 + (K + d) c] x = (K + d) LL^H y,  [1 + (K + conj d) c^H] y = (K + conj d) R^H R x: the least real K > 0.
+// Whether d [c + L U R] leaves the loop without a spring at the verge for some |U| <= 1: |R (1 + d c)^-1 d L| >= 1.
+bool is_beaten_without_spring(const Eigen::MatrixXcd& centre, const Eigen::MatrixXcd& left,
+                              const Eigen::MatrixXcd& right, std::complex<double> damper) {
+  if (damper == 0.0) return false;
+  Eigen::MatrixXcd closed = damper * centre;
+  closed.diagonal().array() += 1.0;
+  const Eigen::MatrixXcd far = closed.adjoint().partialPivLu().solve(right);
+  const Eigen::MatrixXcd gain = std::norm(damper) * closed.partialPivLu().solve(left) * far;
+  return !(complex_eigenvalues(gain).cwiseAbs().maxCoeff() < 1.0);
+}
+
+// [1 + (K + d) c] x = (K + d) LL^H y,  [1 + (K + conj d) c^H] y = (K + conj d) R^H R x: the least real K > 0, or 0.
 double least_of_block(const Eigen::MatrixXcd& centre, const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right,
                       std::complex<double> damper) {
+  if (is_beaten_without_spring(centre, left, right, damper)) return 0.0;
   const Eigen::Index m = centre.rows();
   Eigen::MatrixXcd n(2 * m, 2 * m);
   n << centre, -left, -right, centre.adjoint();

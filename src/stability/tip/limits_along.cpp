@@ -29,8 +29,14 @@ using internal::TipResponse;
 using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double lowest_angle = 1e-3;  // of the scan over grasps, rad per sample
-constexpr int grasp_angles = 90;       // spaced evenly in their logarithm
+// Of the scan over grasps, rad per sample: below the corners of the motion where digits are left, for K loses a share of some
+// 1e-14 over its square.
+constexpr double lowest_angle = 1e-3;
+constexpr double least_lowest_angle = 3e-4;
+constexpr double below_corners = 0.01;
+constexpr double at_low_end = 1.001;          // times the lowest
+constexpr double at_rest_below = 1e-9;        // |z - 1| of a pole that is at 1
+constexpr double grasp_angles_a_decade = 26;  // spaced evenly in their logarithm
 constexpr double lowest_crossover = 1e-5;
 constexpr int crossover_angles = 120;
 constexpr double same_angle = 1e-6;    // relative
@@ -52,6 +58,15 @@ std::vector<double> scan_angles(double lowest, int count, std::vector<double> an
   return angles;
 }
 
+double lowest_of(const std::vector<std::complex<double>>& poles) {
+  double lowest = lowest_angle;
+  for (const std::complex<double>& z : poles) {
+    const double corner = std::abs(z - 1.0);
+    if (corner > at_rest_below) lowest = std::min(lowest, below_corners * corner);
+  }
+  return std::max(lowest, least_lowest_angle);
+}
+
 VirtualDamper damper_of(const DeviceParameters& loop) { return {loop.wall.damping, loop.wall.velocity_filter_hz}; }
 
 DeviceParameters without_user(DeviceParameters loop) {
@@ -64,7 +79,7 @@ struct Posed {
   Posed(const TipMotion& of, const DeviceParameters& with)
       : motion(of),
         loop(without_user(with)),
-        directions(internal::directions_of(of)),
+        directions(tip_directions(of)),
         plant(internal::sampled_tip(internal::tip_coordinates(of, checked(directions)), loop)) {
     internal::require_plain_wall(loop);
   }
@@ -123,9 +138,13 @@ class GraspScan {
   explicit GraspScan(const Posed& posed)
       : period_(posed.plant.period),
         damper_(damper_of(posed.loop)),
-        discs_(posed.motion, posed.loop, posed.directions, posed.plant),
-        angles_(scan_angles(lowest_angle, grasp_angles, TipResponse(posed.plant).angles_of_poles())) {
+        discs_(posed.motion, posed.loop, posed.directions, posed.plant) {
     if (discs_.is_undamped()) return;
+    std::vector<std::complex<double>> poles = TipResponse(posed.plant).poles();
+    for (const std::complex<double>& each : discs_.held_poles()) poles.push_back(each);
+    lowest_ = lowest_of(poles);
+    const double count = std::ceil(grasp_angles_a_decade * std::log10(pi / lowest_));
+    angles_ = scan_angles(lowest_, static_cast<int>(count), internal::angles_around(poles));
     for (const double angle : angles_) samples_.push_back(discs_.at(angle));
   }
 
@@ -160,7 +179,7 @@ class GraspScan {
                                           [&](std::size_t, double angle) { return at(discs_.at(angle)).at_least; });
     const Minimum most = refined_minimum(angles_, upper, exact_bits,
                                          [&](std::size_t, double angle) { return at(discs_.at(angle)).at_most; });
-    return {least.value, most.value, least.angle / period_};
+    return {least.value, most.value, frequency_of(least)};
   }
 
  private:
@@ -175,7 +194,12 @@ class GraspScan {
     }
     const Minimum least =
         refined_minimum(angles_, values, bits, [&](std::size_t i, double angle) { return function(i, angle, others); });
-    return {least.value, least.value > 0.0 && std::isfinite(least.value) ? least.angle / period_ : 0.0};
+    return {least.value, least.value > 0.0 && std::isfinite(least.value) ? frequency_of(least) : 0.0};
+  }
+
+  // 0 where the scan is least at its low end.
+  [[nodiscard]] double frequency_of(const Minimum& least) const {
+    return least.angle > at_low_end * lowest_ ? least.angle / period_ : 0.0;
   }
 
   [[nodiscard]] OthersAlong interpolated(const std::vector<OthersAlong>& others, std::size_t near, double angle) const {
@@ -196,6 +220,7 @@ class GraspScan {
   double period_;
   VirtualDamper damper_;
   GraspDiscs discs_;
+  double lowest_ = lowest_angle;
   std::vector<double> angles_;
   std::vector<GraspDiscs::Sample> samples_;
 };
@@ -207,7 +232,7 @@ class CrossoverScan {
       : damper_(damper_of(posed.loop)),
         period_(posed.plant.period),
         response_(posed.plant),
-        angles_(scan_angles(lowest_crossover, crossover_angles, response_.angles_of_poles())) {
+        angles_(scan_angles(lowest_crossover, crossover_angles, internal::angles_around(response_.poles()))) {
     for (const double angle : angles_) samples_.push_back(response_.at(angle));
   }
 

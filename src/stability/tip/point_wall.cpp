@@ -14,7 +14,7 @@ namespace {
 using internal::GainLimit;
 
 Eigen::MatrixXd all_directions(const TipMotion& motion) {
-  Eigen::MatrixXd directions = internal::directions_of(motion);
+  Eigen::MatrixXd directions = tip_directions(motion);
   if (directions.cols() == 0) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_stands_still});
   return directions;
 }

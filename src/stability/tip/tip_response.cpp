@@ -49,11 +49,16 @@ Eigen::MatrixXcd TipResponse::at(double angle) const {
   return std::polar(1.0, -angle * delay_samples_) * (output_ * x);
 }
 
-std::vector<double> TipResponse::angles_of_poles() const {
+std::vector<std::complex<double>> TipResponse::poles() const {
+  std::vector<std::complex<double>> poles;
+  for (const std::complex<double>& delta : eigenvalues(hessenberg_)) poles.push_back(1.0 + delta);
+  return poles;
+}
+
+std::vector<double> angles_around(const std::vector<std::complex<double>>& poles) {
   constexpr double widths[] = {0.0, 0.3, 1.0, 2.5, 6.0};  // of a pole's distance from the circle
   std::vector<double> angles;
-  for (const std::complex<double>& delta : eigenvalues(hessenberg_)) {
-    const std::complex<double> z = 1.0 + delta;
+  for (const std::complex<double>& z : poles) {
     if (std::arg(z) < 0.0 || std::abs(z) == 0.0) continue;
     for (const double width : widths) {
       for (const double side : {-1.0, 1.0}) {

@@ -15,8 +15,8 @@ class TipResponse {
   explicit TipResponse(const SampledTip& plant);
   // At an angle w T in (0, pi]; m x m.
   [[nodiscard]] Eigen::MatrixXcd at(double angle) const;
-  // Angles where the response changes fast: at and beside its poles.
-  [[nodiscard]] std::vector<double> angles_of_poles() const;
+  // z of its poles.
+  [[nodiscard]] std::vector<std::complex<double>> poles() const;
 
  private:
   Eigen::MatrixXd hessenberg_;
@@ -25,5 +25,8 @@ class TipResponse {
   Eigen::MatrixXd late_input_;
   double delay_samples_ = 0.0;
 };
+
+// Angles where what has these poles changes fast: at and beside them.
+[[nodiscard]] std::vector<double> angles_around(const std::vector<std::complex<double>>& poles);
 
 }  // namespace zwidth::internal

@@ -1,6 +1,5 @@
 #include "stability/tip/tip_states.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,21 +12,6 @@
 
 namespace zwidth::internal {
 namespace {
-
-// Relative: directions that depend on others to this are sums of them.
-constexpr double dependent_directions_below = 1e-9;
-
-struct Ranked {
-  Eigen::MatrixXd basis;  // orthonormal and square: first what the columns span
-  Eigen::Index rank = 0;
-};
-
-Ranked ranked(const Eigen::MatrixXd& columns) {
-  if (columns.size() == 0) return {Eigen::MatrixXd::Identity(columns.rows(), columns.rows()), 0};
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(dependent_directions_below);
-  return {qr.householderQ(), columns.cwiseAbs().maxCoeff() > 0.0 ? qr.rank() : 0};
-}
 
 // Masses and elements as a device, whose checks and coordinates are known.
 Device device_of(const TipMotion& motion, const User& user, const Eigen::MatrixXd& directions) {
@@ -65,22 +49,14 @@ Step step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double t) {
 
 }  // namespace
 
-Eigen::MatrixXd directions_of(const TipMotion& motion) {
-  const Ranked span = ranked(motion.tip);
-  return span.basis.leftCols(span.rank);
-}
-
 TipCoordinates tip_coordinates(const TipMotion& motion, const Eigen::MatrixXd& directions, const User& user) {
   const NormalCoordinates normal = normal_coordinates(device_of(motion, user, directions));
-  const Eigen::Index n = normal.shapes.rows();
   TipCoordinates of{normal.stiffness, normal.damping, directions.transpose() * motion.sensed * normal.shapes,
                     directions.transpose() * motion.pushed * normal.shapes,
                     directions.transpose() * motion.tip * normal.shapes};
-  // Of the free motions first what the wall does not see.
-  const Ranked seen = ranked(of.sensed.leftCols(normal.free).transpose());
-  of.unseen = normal.free - seen.rank;
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(n, n);
-  turn.topLeftCorner(normal.free, normal.free) << seen.basis.rightCols(of.unseen), seen.basis.leftCols(seen.rank);
+  const UnseenFirst unseen = unseen_first(normal, of.sensed);
+  const Eigen::MatrixXd& turn = unseen.turn;
+  of.unseen = unseen.unseen;
   of.stiffness = turn.transpose() * of.stiffness * turn;
   of.damping = turn.transpose() * of.damping * turn;
   of.sensed = of.sensed * turn;

@@ -10,9 +10,6 @@
 
 namespace zwidth::internal {
 
-// Orthonormal columns: the directions in which the tip can move. None where it cannot.
-[[nodiscard]] Eigen::MatrixXd directions_of(const TipMotion& motion);
-
 // In coordinates in which M is 1: z'' + D z' + K z = pushed' f + tip' f_h, along m directions.
 struct TipCoordinates {
   Eigen::MatrixXd stiffness;  // K, n x n

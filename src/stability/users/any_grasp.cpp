@@ -1,7 +1,6 @@
 #include "stability/users/any_grasp.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -12,20 +11,10 @@
 #include "zwidth/stability/grasp_limit.hpp"
 
 namespace zwidth::internal {
-namespace {
-
-// rad per sample: of the scan's lowest frequency, below which the limit is taken for constant.
-constexpr double lowest_scanned = 1.001e-3;
-
-}  // namespace
 
 bool is_grasped_in_many_directions(const Device& device) {
-  constexpr double no_direction_below = 1e-9;  // relative
   const std::optional<TipMotion> motion = tip_motion_of(device);
-  if (!motion || !device.parameters().mechanism) return false;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motion->tip);
-  qr.setThreshold(no_direction_below);
-  return qr.rank() > 1;
+  return motion && device.parameters().mechanism && tip_directions(*motion).cols() > 1;
 }
 
 std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
@@ -54,7 +43,7 @@ std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device&
   limit.stiffness = std::min(nobody.stiffness, grasp.stiffness);
   if (limit.stiffness == 0.0 || std::isinf(limit.stiffness)) return limit;
   if (!limit.needs_no_user) {
-    limit.frequency = grasp.frequency * loop.loop.sampling_period > lowest_scanned ? grasp.frequency : 0.0;
+    limit.frequency = grasp.frequency;
   } else if (nobody.limit) {
     limit.frequency = nobody.limit->frequency;
   }
