@@ -5,11 +5,23 @@
 #include <vector>
 
 #include "stability/device_draws.hpp"
+#include "stability/users/any_user_limits.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth {
+namespace {
+
+// Of a damper that became slower than its spring, none.
+double any_user_stiffness(const Device& device, VirtualDamper damper) {
+  if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, damper).stiffness;
+  if (!internal::bounds_all_users(device)) return 0.0;
+  return internal::AnyUserLimits(device).limit(damper).stiffness;
+}
+
+}  // namespace
 
 StiffnessInterval absolute_stability_interval(const Device& device, VirtualDamper damper, std::size_t draws,
                                               std::uint64_t seed, const Progress& progress) {
@@ -18,14 +30,15 @@ StiffnessInterval absolute_stability_interval(const Device& device, VirtualDampe
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_uncertainty});
   if (draws == 0)
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::none_asked, .subjects = {{"name", "draws"}}});
-  const double own = absolute_stability_limit(device, damper).stiffness;
+  if (!internal::bounds_all_users(device)) require_one_rate(device);
+  const double own = any_user_stiffness(device, damper);
   internal::DeviceDraws drawn(device, seed);
   std::vector<Device> devices;
   for (std::size_t i = 0; i < draws; ++i) devices.push_back(drawn.next());
   std::vector<double> limits(draws);
   internal::SharedProgress shared(progress, draws);
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t i) {
-    limits[i] = absolute_stability_limit(devices[i], damper).stiffness;
+    limits[i] = any_user_stiffness(devices[i], damper);
     shared.add();
   });
   const auto others =

@@ -150,13 +150,16 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
                                std::move(alone.wall)};
 }
 
-/// Whether any passive user leaves the wall stable, with the damper alone where it has no spring.
-void judge_absolute_stability(Analysis& analysis) {
+/// Whether any passive user leaves the wall stable, with the damper alone where it has no spring. Above a lower bound it is
+/// not known.
+void judge_absolute_stability(const Device& device, Analysis& analysis) {
   if (!analysis.wall_stable_for || !analysis.limits.any_user) return;
   const HolderLimit& limit = *analysis.limits.any_user;
   StableFor& wall = *analysis.wall_stable_for;
   if (analysis.wall->stiffness > 0.0) {
-    wall.any_user = wall.nobody && analysis.wall->stiffness < limit.critical_stiffness;
+    const bool is_below = analysis.wall->stiffness < limit.critical_stiffness;
+    const bool is_bound = !knows_all_users(device) && analysis.wall->damping > 0.0;
+    if (is_below || !is_bound || !wall.nobody) wall.any_user = wall.nobody && is_below;
   } else if (limit.critical_damping) {
     wall.any_user = wall.nobody && (analysis.wall->damping == 0.0 || analysis.wall->damping < *limit.critical_damping);
   }
@@ -186,7 +189,7 @@ void answer_beside_damper_loop(const Device& device, const AnalysisOptions& opti
     const CriticalStiffness& nobody = analysis.alone ? analysis.alone->critical : analysis.critical;
     analysis.any_user = two_rate_absolute_stability(device, nobody);
     if (!analysis.any_user) return analysis.remarks.push_back(left_out_beside_damper_loop("any_user"));
-    analysis.remarks.push_back(note({.code = FindingCode::any_user_limit_scanned}));
+    analysis.remarks.push_back(any_user_limit_scanned(device.loop()));
     analysis.trust.inherit(analysis.any_user->trust);
     HolderLimit& limit = analysis.limits.any_user.emplace();
     limit.critical_stiffness = analysis.any_user->stiffness;
@@ -258,7 +261,7 @@ void answer_absolute_stability(const Device& device, const AnalysisOptions& opti
 void answer_about_users(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                         Analysis& analysis) {
   if (options.any_user && device.is_mechanical()) answer_absolute_stability(device, options, stages, analysis);
-  judge_absolute_stability(analysis);
+  judge_absolute_stability(device, analysis);
   if (!options.family) return;
   stages.next(1.0);
   const UserFamily family = user_family(*options.family, device.parameters().user);

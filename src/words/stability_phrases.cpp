@@ -53,14 +53,20 @@ std::span<const Phrase> stability_phrases() {
              "the damper runs slower than the spring, and the loop over the damper's period has {states:n} states: no "
              "more than {most:n} are followed, so no limit is given",
              "", "shorten the delay of the spring, or run it less often"},
-      Phrase{left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
-             "{?what=disk|the disk margin}{?what=gain|the gain margin of stiffness and damping "
-             "together}{?what=long_delays|a delay margin that its search of 16 periods and 80 states did not "
-             "reach}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
-             "limit over all passive users}{?what=any_user_slopes|how the limit over all passive users "
-             "changes}{?what=relay|a relay's exact oscillation}{?what=steps|a cycle of the encoder's steps} is left "
-             "out: it is known where spring and damper run in one loop, and [loop.damper] runs the damper "
-             "apart"},
+      Phrase{
+          left_out_beside_damper_loop, "left_out_beside_damper_loop", note,
+          "{?what=disk|the disk margin}{?what=gain|the gain margin of stiffness and damping "
+          "together}{?what=long_delays|a delay margin that its search of 16 periods and 80 states did not "
+          "reach}{?what=q|Q of eq. 24}{?what=damper|a damper beside it}{?what=any_user|the "
+          "limit over all passive users}{?what=any_user_slopes|how the limit over all passive users "
+          "changes}{?what=relay|a relay's exact oscillation}{?what=steps|a cycle of the encoder's steps}{?what=notch|a "
+          "notch} is left out: {?what=any_user|it is known where the damper runs as fast as the spring or faster, and "
+          "their delays differ by whole periods of the damper}{?what=damper|any passive user is known where the damper "
+          "runs as fast as the spring or faster, and their delays differ by whole periods of the "
+          "damper}{?what=notch|it "
+          "would filter spring and damper together, and [loop.damper] runs the damper "
+          "apart}{!what=any_user|{!what=damper|{!what=notch|it is known where spring and damper run in one loop, and "
+          "[loop.damper] runs the damper apart}}}"},
       Phrase{
           damper_closed_at_own_rate, "damper_closed_at_own_rate", note,
           "the sampled plant is the one that the spring sees: the damper of {damping} is closed at its own {rate_hz}",
@@ -114,10 +120,13 @@ std::span<const Phrase> stability_phrases() {
       Phrase{too_many_bodies_for_any_user, "too_many_bodies_for_any_user", note,
              "the limit over all passive users is not computed for {bodies:n} bodies; at most {most:n}",
              "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"},
-      Phrase{
-          any_user_limit_scanned, "any_user_limit_scanned", note,
-          "the limit for any passive user is the least at the frequencies looked at, and not shown to be the least in "
-          "between, as it is where spring and damper run in one loop"},
+      Phrase{any_user_limit_scanned, "any_user_limit_scanned", note,
+             "the limit for any passive user is {?what=bound|a lower bound: every softer wall is safe and some stiffer "
+             "ones may "
+             "be, as the delays of spring and damper differ by no whole periods of the damper; it is }the least at the "
+             "frequencies looked at, and not shown to be the least in between, as it is where spring and damper run in "
+             "one "
+             "loop"},
       Phrase{any_user_limit_may_miss_frequency, "any_user_limit_may_miss_frequency", doubt,
              "the limit for any passive user may be missed at a frequency at which the damped bodies hardly move: give "
              "the other bodies some damping, or join bodies that move as one"},

@@ -15,6 +15,7 @@
 #include "stability/device_draws.hpp"
 #include "zwidth/design/stable_walls.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -209,6 +210,47 @@ TEST(SafeWall, TakesTheLowerEndOfTheLimitThatItIsAShareOf) {
       failed += absolute_stability_limit(drawn.next(), {wall.damping, 0.0}).stiffness < wall.stiffness;
     }
     EXPECT_LE(failed, draws / 20) << "2.5 % of 300, and what chance adds";
+  }
+}
+
+// The rectangle of a damper on the drive, whoever holds it; a draw of an uncertain device keeps it but for 2.5 %.
+TEST(SafeWall, CeilingsOfAFasterDamperHoldForAnyUser) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.loop.damper = LoopDamper{1e-4, 0.0};
+  const auto limit_with = [&](double damping) {
+    DeviceParameters damped = parameters;
+    damped.wall.damping = damping;
+    return analyze(Device(damped), {.critical_damping = false, .draws = 0}).any_user->stiffness;
+  };
+  const SafeWallOptions ceilings{.damping = SafeWallOptions::Damping::ceiling, .draws = 50, .any_user_draws = 20};
+  const SafeWall wall = safe_wall(Device(parameters), ceilings);
+  ASSERT_EQ(wall.status, SafeWall::Status::chosen);
+  EXPECT_TRUE(wall.trust.sound());
+  EXPECT_EQ(wall.basis, SafeWall::Basis::any_user);
+  EXPECT_NEAR(wall.limit / absolute_stability_limit(with_one_rate(Device(parameters))).stiffness, 1.0, 1e-12);
+  EXPECT_EQ(wall.stiffness, 0.5 * wall.limit);
+  EXPECT_EQ(wall.damping, 0.5 * *wall.damping_limit);
+  EXPECT_GT(limit_with(*wall.damping_limit * (1.0 - 1e-4)), wall.stiffness);
+  EXPECT_LT(limit_with(*wall.damping_limit * (1.0 + 1e-4)), wall.stiffness);
+  for (const double share : {0.01, 0.2, 0.6, 1.0}) EXPECT_GT(limit_with(share * wall.damping), wall.stiffness);
+  parameters.wall.damping = 50.0;
+  parameters.uncertainty = Uncertainty{.parameters = {"link.0.stiffness"}, .covariance = {{1e6}}};
+  for (const auto damping : {SafeWallOptions::Damping::own, SafeWallOptions::Damping::ceiling}) {
+    SafeWallOptions options = ceilings;
+    options.damping = damping;
+    const SafeWall lower = safe_wall(Device(parameters), options);
+    ASSERT_EQ(lower.status, SafeWall::Status::chosen);
+    ASSERT_TRUE(lower.absolute_stability_interval.has_value());
+    EXPECT_LT(lower.uncertainty_share, 1.0);
+    EXPECT_GT(lower.uncertainty_share, 0.9);
+  }
+}
+
+TEST(SafeWall, WhereNoUserIsKnownAtTwoRatesIsAnError) {
+  for (const LoopDamper& damper : {LoopDamper{2e-3, 0.0}, LoopDamper{1e-4, 0.3e-4}}) {
+    DeviceParameters parameters = test::lhifam_parameters();
+    parameters.loop.damper = damper;
+    EXPECT_THROW((void)safe_wall(Device(parameters), {.damping = SafeWallOptions::Damping::ceiling}), Error);
   }
 }
 

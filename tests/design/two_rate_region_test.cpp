@@ -7,11 +7,16 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "lhifam.hpp"
 #include "reference/two_rate_devices.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "zwidth/design/region.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
+#include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
@@ -221,10 +226,62 @@ TEST(TwoRateRegion, EndsAtALineThatNoSpringMoves) {
   }
 }
 
-TEST(TwoRateRegion, LeavesUsersAndFormulasOut) {
-  const WallRegion found = region(Device(lhifam_with_damper_at(1e-3, 1e-4)));
+// Where no user destabilises: the points are the limits of analyze(), and the polygon lies near those between them.
+TEST(TwoRateRegion, OfAnyUserFollowsTheLimitOfAnalyze) {
+  for (const double delay : {0.0, 0.4e-4}) {
+    DeviceParameters parameters = lhifam_with_damper_at(1e-3, 1e-4);
+    parameters.loop.delay = delay;
+    parameters.loop.damper->delay = 0.0;
+    const WallRegion found = region(Device(parameters));
+    EXPECT_TRUE(found.trust.sound());
+    EXPECT_TRUE(found.approximations.empty());
+    ASSERT_TRUE(found.any_user.has_value());
+    EXPECT_EQ(found.any_user->is_bound, delay > 0.0);
+    ASSERT_EQ(found.any_user->ranges.size(), 1U);
+    const std::vector<AbsoluteStabilityPoint>& points = found.any_user->ranges.front();
+    const auto limit_at = [&](double damping) {
+      parameters.wall.damping = damping;
+      return analyze(Device(parameters), {.critical_damping = false}).any_user->stiffness;
+    };
+    const double extent = found.any_user->stiffest->stiffness;
+    for (std::size_t i = 0; i + 2 < points.size(); i += 9) {
+      EXPECT_NEAR(points[i].stiffness / limit_at(points[i].damping), 1.0, 1e-6) << points[i].damping;
+      const double width = (points[i + 1].damping - points[i].damping) / found.any_user->most_damped->damping;
+      if (width <= AbsoluteStabilityRegionOptions{}.deviation) continue;  // near in B
+      const double between = 0.5 * (points[i].stiffness + points[i + 1].stiffness);
+      EXPECT_NEAR(between, limit_at(0.5 * (points[i].damping + points[i + 1].damping)), 1.1e-3 * extent);
+    }
+    // A spring without a damper runs at its own rate; a damper without a spring at its own.
+    EXPECT_EQ(points.front().stiffness, absolute_stability_limit(with_one_rate(Device(parameters))).stiffness);
+    const double largest = absolute_stability_damping(with_loop_of_damper(Device(parameters))).damping;
+    EXPECT_NEAR(found.any_user->most_damped->damping, largest, 1e-5 * largest);
+  }
+}
+
+// Springs, masses and dampers at the handle, random but for their seed, leave every wall of that region stable.
+TEST(TwoRateRegion, NoUserDestabilisesAWallOfAnyUser) {
+  const DeviceParameters parameters = lhifam_with_damper_at(1e-3, 1e-4);
+  const WallRegion found = region(Device(parameters));
+  std::mt19937_64 random(11);
+  const auto value = [&](double low, double high) {
+    return std::pow(10.0, std::uniform_real_distribution(low, high)(random));
+  };
+  for (const auto& range : found.any_user->ranges) {
+    for (std::size_t i = 1; i + 1 < range.size(); i += 5) {
+      DeviceParameters held = parameters;
+      held.wall.damping = range[i].damping;
+      held.user = {value(-3.0, 2.0), value(-3.0, 3.0), value(1.0, 7.0)};
+      EXPECT_GE(critical_stiffness(Device(held)).stiffness, range[i].stiffness * (1.0 - 1e-6)) << range[i].damping;
+    }
+  }
+}
+
+TEST(TwoRateRegion, OfASlowDamperLeavesUsersOutAndSaysSo) {
+  const WallRegion found = region(Device(lhifam_with_damper_at(1e-4, 1e-3)));
   EXPECT_FALSE(found.any_user.has_value());
   EXPECT_TRUE(found.approximations.empty());
+  const Device device(lhifam_with_damper_at(1e-4, 1e-3));
+  EXPECT_THROW((void)absolute_stability_region(device, *found.walls, 100.0), Error);
   EXPECT_TRUE(std::ranges::any_of(found.remarks, [](const Remark& remark) {
     return remark.finding && remark.finding->code == FindingCode::left_out_beside_damper_loop;
   }));

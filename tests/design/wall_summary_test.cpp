@@ -44,6 +44,33 @@ TEST(WallSummary, ARigidDeviceIsStiffestWithoutADamper) {
   EXPECT_EQ(summary.with_damper->damping, 0.0);
 }
 
+// With a damper on the drive: the stiffest of its own region, and the wall recommended there.
+TEST(WallSummary, OfAFasterDamperIsThatOfTwoRates) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.loop.damper = LoopDamper{1e-4, 0.0};
+  const Device device(parameters);
+  const WallSummary summary = summary_of(device);
+  ASSERT_TRUE(summary.with_damper && summary.with_margins);
+  parameters.wall.damping = summary.with_damper->damping;
+  EXPECT_NEAR(analyze(Device(parameters)).any_user->stiffness / summary.with_damper->stiffness, 1.0, 1e-9);
+  const auto region = absolute_stability_region(device, StableWalls(device), critical_damping(device).damping);
+  EXPECT_GE(summary.with_damper->stiffness, region.stiffest->stiffness * (1.0 - 1e-4));
+  EXPECT_LE(summary.with_damper->stiffness, region.stiffest->stiffness * 1.005);
+  EXPECT_EQ(summary.with_margins->wall.stiffness, recommend_wall(device).wall->wall.stiffness);
+}
+
+TEST(WallSummary, OfOtherTwoRatesIsLeftOut) {
+  for (const LoopDamper& damper : {LoopDamper{2e-3, 0.0}, LoopDamper{1e-4, 0.3e-4}}) {
+    DeviceParameters parameters = test::lhifam_parameters();
+    parameters.loop.damper = damper;
+    const WallSummary summary = summary_of(Device(parameters));
+    EXPECT_FALSE(summary.with_damper || summary.with_margins);
+    ASSERT_TRUE(summary.why_no_damper && summary.why_no_margins);
+    EXPECT_EQ(summary.why_no_damper->code, FindingCode::left_out_beside_damper_loop);
+    EXPECT_EQ(summary.why_no_margins->code, FindingCode::left_out_beside_damper_loop);
+  }
+}
+
 TEST(WallSummary, TheWallWithMarginsIsTheRecommended) {
   const Device device(test::lhifam_parameters());
   const WallSummary summary = summary_of(device);

@@ -157,15 +157,61 @@ TEST(TwoRates, NoUserDestabilisesBelowTheLimitAndSomeSpringDoesAbove) {
   EXPECT_LT(least, limit * (1.0 + 1e-3));
 }
 
-TEST(TwoRates, ASlowDamperAndDelaysOfAFractionLeaveTheUsersOut) {
-  for (const Device& device : {lhifam(1e-4, 1e-3, 100.0), with_delays(lhifam(1e-3, 1e-4, 100.0), 0.5e-4, 0.0)}) {
-    const Analysis analysis = analyze(device);
-    EXPECT_FALSE(analysis.any_user.has_value());
-    EXPECT_TRUE(std::ranges::any_of(analysis.remarks, [](const Remark& remark) {
-      return remark.finding && remark.finding->code == FindingCode::left_out_beside_damper_loop &&
-             remark.finding->subjects.front().text == "any_user";
-    }));
+TEST(TwoRates, ASlowDamperLeavesTheUsersOut) {
+  const Analysis analysis = analyze(lhifam(1e-4, 1e-3, 100.0));
+  EXPECT_FALSE(analysis.any_user.has_value());
+  EXPECT_TRUE(std::ranges::any_of(analysis.remarks, [](const Remark& remark) {
+    return remark.finding && remark.finding->code == FindingCode::left_out_beside_damper_loop &&
+           remark.finding->subjects.front().text == "any_user";
+  }));
+}
+
+bool has_bound(const std::vector<Remark>& remarks) {
+  return std::ranges::any_of(remarks, [](const Remark& remark) {
+    return remark.finding && remark.finding->code == FindingCode::any_user_limit_scanned &&
+           remark.finding->key == "loop.damper.delay";
+  });
+}
+
+// Between the limits of the whole periods beside it, near to the exact ones that it joins, and no user destabilises below it.
+TEST(TwoRates, ADelayOfAFractionLeavesABoundWithAnyUser) {
+  const Device device = lhifam(1e-3, 1e-4, 100.0);
+  const auto limit_at = [&](double later) {
+    const Analysis analysis = analyze(with_delays(device, later * 1e-4, 0.0));
+    EXPECT_EQ(has_bound(analysis.remarks), later != std::round(later)) << later;
+    return analysis.any_user->stiffness;
+  };
+  const double none = limit_at(0.0);
+  const double one = limit_at(1.0);
+  const double half = limit_at(0.5);
+  EXPECT_LT(half, none);
+  EXPECT_GT(half, one);
+  EXPECT_NEAR(limit_at(1e-3), none, 1e-3 * none);
+  EXPECT_NEAR(limit_at(1.0 - 1e-3), one, 1e-3 * one);
+  const Device delayed = with_delays(device, 0.5e-4, 0.0);
+  double least = std::numeric_limits<double>::infinity();
+  for (double stiffness = 1e4; stiffness < 1e9; stiffness *= 1.02) {
+    DeviceParameters held = delayed.parameters();
+    held.user = {0.0, 0.0, stiffness};
+    least = std::min(least, critical_stiffness(Device(held)).stiffness);
   }
+  EXPECT_GE(least, half);
+  EXPECT_LT(least, half * 1.01);
+}
+
+// Above a bound it is not known.
+TEST(TwoRates, AWallAboveABoundIsNotJudgedForAnyUser) {
+  const Device device = with_delays(lhifam(1e-3, 1e-4, 100.0, 1e5), 0.5e-4, 0.0);
+  const Analysis below = analyze(device);
+  EXPECT_EQ(below.wall_stable_for->any_user, std::optional(true));
+  DeviceParameters stiffer = device.parameters();
+  stiffer.wall.stiffness = 1.01 * below.any_user->stiffness;
+  const Analysis above = analyze(Device(stiffer));
+  ASSERT_TRUE(above.wall_stable_for->nobody);
+  EXPECT_FALSE(above.wall_stable_for->any_user.has_value());
+  EXPECT_FALSE(std::ranges::any_of(above.remarks, [](const Remark& remark) {
+    return remark.finding && remark.finding->code == FindingCode::stiffer_than_any_user_limit;
+  }));
 }
 
 // The margins beside the walls and delays that they name.

@@ -167,8 +167,8 @@ class RegionFigure {
         entries.push_back({up_to(words_of(Holder::user), *walls_.region.stiffest), held_style, {}});
       }
     } else if (walls_.region.stiffest) {
-      // Which of them a passive user destabilises is not known at two rates.
-      const bool users_unknown = has_damper_loop(device_.loop()) && !walls_.any_user;
+      // Which of them a passive user destabilises is not always known at two rates.
+      const bool users_unknown = has_damper_loop(device_.loop()) && (!walls_.any_user || walls_.any_user->is_bound);
       entries.push_back({up_to(users_unknown ? words_of(Holder::nobody) : alone, *walls_.region.stiffest),
                          boundary_style, region_colour});
     } else {

@@ -198,6 +198,14 @@ std::optional<std::string> interval_note(const AnalysedDevice& analysed) {
   return uncertainty && !uncertainty->warning.empty() ? note + ". NOT TO BE TRUSTED: " + uncertainty->warning : note;
 }
 
+/// Whether the limit over all passive users is a lower bound.
+static bool is_lower_bound(const Analysis& analysis) {
+  return std::ranges::any_of(analysis.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::any_user_limit_scanned &&
+           std::ranges::find(each.finding->subjects, Subject{"what", "bound"}) != each.finding->subjects.end();
+  });
+}
+
 std::optional<std::string> absolute_stability_note(const AnalysedDevice& analysed) {
   if (!analysed.analysis.any_user) {
     if (parameters_of(analysed).bodies.size() <= most_bodies_for_absolute_stability) return std::nullopt;
@@ -207,7 +215,7 @@ std::optional<std::string> absolute_stability_note(const AnalysedDevice& analyse
   if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
   if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
   const std::string_view unit = device_units(analysed).stiffness;
-  std::string stiffness = quantity(limit.stiffness, unit);
+  std::string stiffness = (is_lower_bound(analysed.analysis) ? "at least " : "") + quantity(limit.stiffness, unit);
   if (limit.interval) {
     stiffness +=
         fmt::format(" (95 % interval {} to {})", quantity(limit.interval->lower, unit),

@@ -163,11 +163,12 @@ class RegionWriter {
     const std::string undamped =
         first.damping == 0.0 ? fmt::format("; {} without a damper", stiffness(first.stiffness)) : std::string();
     const double of_area = walls_.shared ? walls_.shared->area : walls_.region.area;
-    std::string text = fmt::format(
-        "{}: up to {} with a damper of {}{}, and up to a damper of {}: {:.3g} % of the area above. The other walls are "
-        "{}.",
-        anyone, stiffness(region.stiffest->stiffness), damping(region.stiffest->damping), undamped,
-        damping(region.most_damped->damping), 100.0 * region.area / of_area, words_of(WallStability::alone_only));
+    std::string text =
+        fmt::format("{}: up to {} with a damper of {}{}, and up to a damper of {}: {:.3g} % of the area above. {}.",
+                    anyone, stiffness(region.stiffest->stiffness), damping(region.stiffest->damping), undamped,
+                    damping(region.most_damped->damping), 100.0 * region.area / of_area,
+                    region.is_bound ? std::string("That is a lower bound: others may be too")
+                                    : fmt::format("The other walls are {}", words_of(WallStability::alone_only)));
     text.front() = 'S';
     return wrap(text, line_width, 0);
   }

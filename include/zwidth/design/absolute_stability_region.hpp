@@ -23,6 +23,8 @@ struct AbsoluteStabilityRegion {
   std::optional<AbsoluteStabilityPoint> stiffest;           ///< among the points
   std::optional<AbsoluteStabilityPoint> most_damped;        ///< end of the last range
   double area = 0.0;                                        ///< in (K, B), of the polygons
+  /// The limit is a lower bound: some walls above it may be stable with every passive user too.
+  bool is_bound = false;
   Trust trust = {};  ///< of the limit of which most was taken off, where that is above the deviation
 };
 
@@ -33,9 +35,11 @@ struct AbsoluteStabilityRegionOptions {
 };
 
 /// Samples absolute_stability_limit() over 0 <= B <= largest_damping, more densely where it bends, and never above the stable walls
-/// of the device by itself, which `walls` are. A range of B narrower than a factor of 1.5 may be missed between samples.
+/// of the device by itself, which `walls` are. A range of B narrower than a factor of 1.5 may be missed between samples; not where
+/// a faster damper runs in a loop of its own, whose ranges begin and end where the damper alone does, frequency by frequency. Its
+/// limit is that of analyze(): a lower bound where the delays differ by no whole periods of the damper.
 /// Throws Error (needs_bodies) for a transfer function, (invalid_argument) for a largest_damping <= 0 or infinite, a
-/// deviation outside (0, 1).
+/// deviation outside (0, 1), and for a damper slower than its spring.
 [[nodiscard]] AbsoluteStabilityRegion absolute_stability_region(const Device& device, const StableWalls& walls,
                                                                 double largest_damping,
                                                                 const AbsoluteStabilityRegionOptions& options = {});

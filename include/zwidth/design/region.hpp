@@ -61,7 +61,7 @@ struct WallRegion {
   std::optional<NobodysRegion> nobody;  ///< with nobody holding; absent without an [operator]: `region` is that
   /// The walls to build on: those of both. Absent without an [operator], where `region` is that.
   std::optional<SharedWalls> shared;
-  /// Absent unless asked for; for a transfer function, with a damper in a loop of its own, above most_bodies_for_absolute_stability, or where no wall is stable.
+  /// Absent unless asked for; for a transfer function, with a damper slower than its spring, above most_bodies_for_absolute_stability, or where no wall is stable.
   std::optional<AbsoluteStabilityRegion> any_user;
   std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for
   std::optional<ForcePerCountRates> force_per_count;  ///< of any wall here; absent without an encoder resolution

@@ -77,8 +77,8 @@ struct SafeWall {
 ///
 /// The wall chosen, or walls over the whole rectangle, with nobody and with the own user, are asked of a second route, closed-loop poles by matrix
 /// exponential: where one is not stable the answer is `refused`, and so it is for a refused device.
-/// A device with a faster damper in a loop of its own is known with Damping::own and without uncertainty, where analyze() gives
-/// the limit over all passive users; Error (invalid_argument) else.
+/// Where the damper runs in a loop of its own, it must be as fast as the spring or faster, and their delays differ by whole
+/// periods of it, so that the limit over all passive users is known; Error (invalid_argument) else.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] SafeWall safe_wall(const Device& device, const SafeWallOptions& options = {});
 

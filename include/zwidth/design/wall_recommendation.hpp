@@ -38,7 +38,7 @@ struct RecommendationOptions {
   /// The vibration modes may lie anywhere from (1 - uncertainty) to (1 + uncertainty) times their frequency, see with_modal_shift(); from 0
   /// to 0.9; above 0 the device needs a link.
   double modal_frequency_uncertainty = 0.0;
-  bool notch = true;          ///< a notch near a mode may be added to the wall's filters
+  bool notch = true;          ///< a notch near a mode may be added to the wall's filters; none beside [loop.damper]
   bool alternatives = true;   ///< WallRecommendation::alternatives are searched, and what bounds the wall
   bool drive_damper = false;  ///< WallRecommendation::drive_damper is searched
   std::size_t draws = 100;    ///< of the device's uncertainty, where it has one

@@ -44,7 +44,9 @@ struct WallSummaryOptions {
 ///     max over 0 <= B < B_CR of absolute_stability_limit(K; B),   B_CR = limits.any_user.critical_damping
 ///
 /// by a search over B (a local maximum beside 24 samples; absolute_stability_region() follows the whole of it), with the velocity
-/// filter and the filters of the file; and recommend_wall() with its usual margins. `analysis` is that of the device.
+/// filter and the filters of the file; and recommend_wall() with its usual margins. `analysis` is that of the device. Where the
+/// damper runs in a loop of its own both are left out unless it is as fast as the spring or faster, with delays that differ by
+/// whole periods of it.
 /// Throws as these do.
 [[nodiscard]] WallSummary wall_summary(const Device& device, const Analysis& analysis,
                                        const WallSummaryOptions& options = {});

@@ -339,7 +339,7 @@ class Changes {
   [[nodiscard]] std::vector<double> most_promising_first(const Device& on_drive, std::vector<double> tried) const {
     if (tried.size() < 2) return tried;
     std::optional<TwoRateUsers> users;
-    if (users_.now() && knows_all_users(on_drive.loop())) users.emplace(on_drive);
+    if (users_.now() && knows_all_users(on_drive)) users.emplace(on_drive);
     std::vector<std::pair<double, double>> limits;
     for (const double damping : tried) {
       const VirtualDamper damper{damping, on_drive.parameters().wall.velocity_filter_hz};

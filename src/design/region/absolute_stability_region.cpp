@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <cstddef>
+#include <vector>
 
+#include "design/region/region_structure.hpp"
 #include "infinity.hpp"
 #include "model/known_structure.hpp"
 #include "require_argument.hpp"
-#include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/any_user_limits.hpp"
 #include "staged_progress.hpp"
 
 namespace zwidth {
@@ -24,11 +26,11 @@ constexpr double rounding = 1e-6;  // relative, of limits
 class Sampler {
  public:
   Sampler(const Device& device, const StableWalls& walls, double deviation, const Progress& progress)
-      : search_(device, progress), walls_(walls), deviation_(deviation), progress_(progress) {}
+      : limits_(device, progress), walls_(walls), deviation_(deviation), progress_(progress) {}
 
   [[nodiscard]] AbsoluteStabilityPoint at(double damping) {
     tell(progress_, 0.0);
-    const AbsoluteStabilityLimit limit = search_.limit({damping, walls_.velocity_filter_hz()}, progress_);
+    const AbsoluteStabilityLimit limit = limits_.limit({damping, walls_.velocity_filter_hz()}, progress_);
     const double taken_off = limit.stiffness > 0.0 ? limit.stiffness / (1.0 - limit.truncation) - limit.stiffness : 0.0;
     if (!limit.trust.sound() && taken_off > most_taken_off_) {
       most_taken_off_ = taken_off;
@@ -78,6 +80,16 @@ class Sampler {
     points.push_back(to);
   }
 
+  // The B, rising, between which a range may be narrow: where a damper alone, or a weak spring beside it, gains or loses
+  // stability, with some user or with nobody.
+  [[nodiscard]] std::vector<double> ends() const {
+    std::vector<double> ends = limits_.ends_of_damper(walls_.velocity_filter_hz());
+    if (ends.empty()) return ends;
+    for (const RegionSlab& slab : walls_.structure().slabs) ends.push_back(slab.lower);
+    std::ranges::sort(ends);
+    return ends;
+  }
+
   double stiffness_extent = 0.0;
   double damping_extent = 0.0;
   double largest = infinity;  // B of all ranges
@@ -88,7 +100,7 @@ class Sampler {
     return intervals.empty() || intervals.front().lower > 0.0 ? 0.0 : intervals.front().upper.value_or(infinity);
   }
 
-  AbsoluteStabilitySearch search_;
+  AnyUserLimits limits_;
   const StableWalls& walls_;
   double deviation_;
   const Progress& progress_;
@@ -97,11 +109,17 @@ class Sampler {
 };
 
 std::vector<AbsoluteStabilityPoint> scan(Sampler& sampler, double largest) {
-  std::vector<AbsoluteStabilityPoint> points{sampler.at(0.0)};
-  for (double damping = first_ratio * largest; damping < largest; damping *= scan_ratio) {
-    points.push_back(sampler.at(damping));
+  std::vector<double> dampings{0.0};
+  for (double damping = first_ratio * largest; damping < largest; damping *= scan_ratio) dampings.push_back(damping);
+  const std::vector<double> ends = sampler.ends();
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    const double between = 0.5 * (ends[i - 1] + ends[i]);
+    if (between > ends[i - 1] && between < largest) dampings.push_back(between);
   }
-  points.push_back(sampler.at(largest));
+  dampings.push_back(largest);
+  std::ranges::sort(dampings);
+  std::vector<AbsoluteStabilityPoint> points;
+  for (const double each : dampings) points.push_back(sampler.at(each));
   return points;
 }
 
@@ -156,6 +174,7 @@ AbsoluteStabilityRegion absolute_stability_region(const Device& device, const St
     region.most_damped = points.back();
     region.ranges.push_back(std::move(points));
   }
+  region.is_bound = !knows_all_users(device);
   region.trust = sampler.trust();
   stages.done();
   return region;

@@ -9,6 +9,8 @@
 
 #include "design/region/region_check.hpp"
 #include "design/region/region_structure.hpp"
+#include "stability/users/two_rate_users.hpp"
+#include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -165,14 +167,14 @@ WallRegion region(const Device& device, const RegionOptions& options) {
         note({.code = is_known ? FindingCode::any_grasp_scanned : FindingCode::any_grasp_not_known}));
   }
   if (asks_any_user(device, options) && result.region.most_damped && result.region.most_damped->damping > 0.0) {
-    if (has_damper_loop(device.loop())) {
-      result.remarks.push_back(
-          note({.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "any_user"}}}));
+    if (!bounds_all_users(device)) {
+      result.remarks.push_back(left_out_beside_damper_loop("any_user"));
     } else if (device.degrees_of_freedom() <= most_bodies_for_absolute_stability) {
       stages.next(0.95);
       result.any_user = absolute_stability_region(device, result.nobody ? *result.nobody->walls : *result.walls,
                                                   result.region.most_damped->damping, {.progress = stages.stage()});
       result.trust.inherit(result.any_user->trust);
+      if (has_damper_loop(device.loop())) result.remarks.push_back(any_user_limit_scanned(device.loop()));
     } else {
       result.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user_region,
                                      .evidence = {{"bodies", static_cast<double>(device.degrees_of_freedom())},

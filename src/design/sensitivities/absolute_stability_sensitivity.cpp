@@ -243,7 +243,7 @@ std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device, 
   if (has_two_loops && device.parameters().wall.damping == 0.0) {
     return absolute_stability_sensitivities(with_one_rate(device), limit);
   }
-  if (has_two_loops && !knows_all_users(device.loop())) require_one_rate(device);
+  if (has_two_loops && !knows_all_users(device)) require_one_rate(device);
   if (device.parameters().mechanism) return any_grasp_sensitivities(device, limit);
   const Device free = device_without_user(device);
   if (limit.needs_no_user) {

@@ -15,7 +15,7 @@
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/second_route/pole_count.hpp"
-#include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/any_user_limits.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "zwidth/design/absolute_stability_region.hpp"
 #include "zwidth/design/stable_region.hpp"
@@ -88,9 +88,9 @@ double absolute_stability_damping(const Device& device, const AbsoluteStabilityR
       std::ranges::find_if(limit, [&](const AbsoluteStabilityPoint& p) { return p.stiffness <= stiffness; });
   if (first_below == limit.begin()) return 0.0;
   if (first_below == limit.end()) return limit.back().damping;
-  AbsoluteStabilitySearch search(device);
+  AnyUserLimits limits(device);
   return last_that_holds(std::prev(first_below)->damping, first_below->damping, [&](double damping) {
-    return search.limit({damping, filter}).stiffness > stiffness;
+    return limits.limit({damping, filter}).stiffness > stiffness;
   });
 }
 
@@ -144,9 +144,13 @@ bool is_uncertain(const Device& device) {
 bool most_keep(const std::vector<Device>& devices, double stiffness, VirtualDamper damper) {
   std::size_t failed = 0;
   for (const Device& each : devices) {
-    AbsoluteStabilitySearch search(each);
+    if (!bounds_all_users(each)) {
+      ++failed;
+      continue;
+    }
+    AnyUserLimits limits(each);
     const bool fails = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double share) {
-      return search.limit({share * damper.damping, damper.velocity_filter_hz}).stiffness < stiffness;
+      return limits.limit({share * damper.damping, damper.velocity_filter_hz}).stiffness < stiffness;
     });
     failed += fails;
   }
@@ -184,8 +188,9 @@ void take_lower_bounds(const std::vector<KnownHolderLimit>& held, const KnownHol
     if (&each == &least) wall.interval = interval;
   }
   if (wall.basis == SafeWall::Basis::any_user) {
+    const Wall& own = held.back().device.parameters().wall;
     wall.absolute_stability_interval =
-        absolute_stability_interval(held.back().device, virtual_damper(held.back().device), options.any_user_draws);
+        absolute_stability_interval(held.back().device, {own.damping, own.velocity_filter_hz}, options.any_user_draws);
     wall.uncertainty_share = std::min(wall.uncertainty_share, wall.absolute_stability_interval->lower / wall.limit);
   }
   wall.remarks.push_back(
@@ -212,10 +217,10 @@ std::vector<KnownHolderLimit> limits_of_holders(const std::vector<Device>& holde
 }
 
 /// Least B at which a wall up to the stiffness chosen is not stable.
-double damping_limit(const std::vector<Device>& holders, double filter, SafeWall& wall) {
+double damping_limit(const std::vector<Device>& holders, SafeWall& wall) {
   double least = infinity;
   for (const Device& each : holders) {
-    const StableWalls walls(filtered_plant(each), filter);
+    const StableWalls walls(each);
     const StableRegion region = stable_region(walls);
     if (!region.bounded) continue;
     if (!region.most_damped) {
@@ -242,8 +247,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
       *std::ranges::min_element(held, {}, [](const KnownHolderLimit& each) { return each.critical.stiffness; });
   wall.limit = least.critical.stiffness;
   if (can_be_held(device)) {
-    const double any_user = own ? known_any_user_limit(device).stiffness
-                                : absolute_stability_limit(device, {wall.damping, filter}).stiffness;
+    const double any_user = known_any_user_limit(own ? device : with_damping(device, 0.0)).stiffness;
     if (any_user > 0.0 && std::isfinite(any_user)) {
       wall.basis = SafeWall::Basis::any_user;
       wall.limit = any_user;
@@ -256,7 +260,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
   const double share = options.safety_factor * wall.uncertainty_share;
   wall.stiffness = share * wall.limit;
   if (!own && wall.stiffness > 0.0) {
-    wall.damping_limit = damping_limit(holders, filter, wall);
+    wall.damping_limit = damping_limit(holders, wall);
     if (wall.trust.refused()) return;
     wall.damping = share * *wall.damping_limit;
     if (wall.absolute_stability_interval) lower_damping(device, options.any_user_draws, filter, wall);
@@ -283,10 +287,7 @@ std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
 
 SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
   require_known_structure(device);
-  // Two rates are known with the damper as it is, of a device whose numbers are certain.
-  const bool knows_two_rates =
-      options.damping == SafeWallOptions::Damping::own && !is_uncertain(device) && knows_all_users(device.loop());
-  if (!knows_two_rates) require_one_rate(device);
+  if (!knows_all_users(device)) require_one_rate(device);
   require_valid(find_problem(options));
   SafeWall wall;
   wall.trust = trust_of(device);

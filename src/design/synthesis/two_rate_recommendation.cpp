@@ -15,12 +15,14 @@
 #include "design/synthesis/damper_limits.hpp"
 #include "design/synthesis/described_wall.hpp"
 #include "design/synthesis/drive_damper.hpp"
+#include "design/synthesis/notch_search.hpp"
 #include "design/synthesis/two_rate_limits.hpp"
 #include "design/synthesis/wall_check.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "design/synthesis/wall_search.hpp"
 #include "design/synthesis/worst_case_screening.hpp"
 #include "stability/users/two_rate_users.hpp"
+#include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -154,7 +156,7 @@ class TwoRateRecommendation {
       tbb::parallel_for(std::size_t{0}, devices.size(), work);
     };
     each_of_them([&](std::size_t i) {
-      if (!knows_all_users(devices[i].loop())) return;
+      if (!knows_all_users(devices[i])) return;
       limits[i] = std::make_unique<TwoRateLimits>(devices[i], asked);
       limits[i]->search(true);
     });
@@ -212,8 +214,9 @@ class TwoRateRecommendation {
   void remark_on(WallRecommendation& result) const {
     remark_on_resolution(device_, options_, result);
     result.remarks.push_back(limits_.has_users()
-                                 ? note({.code = FindingCode::any_user_limit_scanned})
+                                 ? any_user_limit_scanned(device_.loop())
                                  : warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
+    if (options_.notch && !seen_modes(device_).empty()) result.remarks.push_back(left_out_beside_damper_loop("notch"));
   }
 
   const Device& device_;

@@ -10,8 +10,7 @@
 namespace zwidth::internal {
 
 bool knows_users_of(const Device& device) {
-  if (!has_two_loops(device)) return can_be_held(device);
-  return can_be_held(device) && knows_all_users(device.loop()) && !device.parameters().mechanism;
+  return can_be_held(device) && (!has_two_loops(device) || knows_all_users(device));
 }
 
 UsersAtFrequency::UsersAtFrequency(const Device& device, WallNumber number, const Progress& progress)

@@ -351,8 +351,7 @@ WallRecommendation refused(Trust trust) {
 
 WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
   require_known_structure(device);
-  // What a grasp of a mechanism's tip does is known of one rate alone.
-  if (!knows_all_users(device.loop()) || device.parameters().mechanism) require_one_rate(device);
+  if (!knows_all_users(device)) require_one_rate(device);
   require_valid(find_problem(options, device));
   Trust trust = trust_of(device);
   if (trust.refused()) return refused(std::move(trust));

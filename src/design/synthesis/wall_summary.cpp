@@ -11,9 +11,12 @@
 #include <vector>
 
 #include "counted.hpp"
+#include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
 #include "model/known_structure.hpp"
-#include "stability/users/absolute_stability_search.hpp"
+#include "stability/limit/two_rate_stiffness.hpp"
+#include "stability/users/any_user_limits.hpp"
+#include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/critical_damping.hpp"
@@ -33,9 +36,9 @@ constexpr double share_of_damper = 0.3;  // of the progress
 class LimitOverDamping {
  public:
   LimitOverDamping(const Device& device, const Progress& progress)
-      : velocity_filter_hz_(device.parameters().wall.velocity_filter_hz),
-        plant_(filtered_plant(device)),
-        users_(device.is_mechanical() ? std::make_unique<AbsoluteStabilitySearch>(device, progress) : nullptr),
+      : device_(device),
+        velocity_filter_hz_(device.parameters().wall.velocity_filter_hz),
+        users_(device.is_mechanical() ? std::make_unique<AnyUserLimits>(device, progress) : nullptr),
         progress_(progress) {}
 
   [[nodiscard]] Holder holder() const { return users_ ? Holder::any_user : Holder::nobody; }
@@ -49,15 +52,15 @@ class LimitOverDamping {
       wall.stiffness = limit.stiffness;
       wall.trust = std::move(limit.trust);
     } else {
-      wall.stiffness = critical_stiffness(plant_, damper).stiffness;
+      wall.stiffness = unguarded_stiffness(with_wall(device_, 0.0, damper)).stiffness;
     }
     return wall;
   }
 
  private:
+  const Device& device_;
   double velocity_filter_hz_;
-  FilteredPlant plant_;
-  std::unique_ptr<AbsoluteStabilitySearch> users_;  // none for a transfer function
+  std::unique_ptr<AnyUserLimits> users_;  // none for a transfer function
   const Progress& progress_;
 };
 
@@ -138,9 +141,8 @@ WallSummary wall_summary(const Device& device, const Analysis& analysis, const W
     summary.why_no_damper = summary.why_no_margins = Finding{.code = FindingCode::device_refused};
     return summary;
   }
-  if (has_damper_loop(device.loop())) {
-    summary.why_no_damper = summary.why_no_margins =
-        Finding{.code = FindingCode::left_out_beside_damper_loop, .subjects = {{"what", "damper"}}};
+  if (!knows_all_users(device)) {
+    summary.why_no_damper = summary.why_no_margins = left_out_beside_damper_loop("damper").finding;
     return summary;
   }
   if (device.degrees_of_freedom() > options.most_bodies) {

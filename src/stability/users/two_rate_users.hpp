@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
+#include "zwidth/remark.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
@@ -16,7 +18,10 @@ namespace zwidth::internal {
 //
 // and the discs of the N aliases of the spring's rate add up: the user may be another at each. Source: theory, section 8.
 //
-// Nothing unless knows_all_users(). The least over all frequencies is that of a grid, refined at its minima; what lies between
+// Where the delays differ by no whole periods of the damper, the spring's plant is apart from z^-m p by what the aliases beyond
+// the damper's rate turn by; a disc of its own holds that, and the limit is a bound: every K below is safe, some above may be.
+//
+// Nothing unless bounds_all_users(). The least over all frequencies is that of a grid, refined at its minima; what lies between
 // is not shown to be higher. Throws as absolute_stability_limit().
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                                 const CriticalStiffness& nobody);
@@ -24,6 +29,12 @@ namespace zwidth::internal {
 // Whether the limit over all passive users is known: the damper is as fast as the spring or faster, and their delays differ by
 // whole periods of the damper. Otherwise the two forces see the aliases with different phases.
 [[nodiscard]] bool knows_all_users(const Loop& loop);
+// The same, and not a mechanism, of whose grasps one rate alone is known.
+[[nodiscard]] bool knows_all_users(const Device& device);
+
+// Whether a lower bound of that limit is known: the damper is as fast as the spring or faster.
+[[nodiscard]] bool bounds_all_users(const Loop& loop);
+[[nodiscard]] bool bounds_all_users(const Device& device);
 
 // absolute_stability_limit() of the device with the damper of its wall, at one rate or two. Nothing where it is not known;
 // refused where the limit of nobody is.
@@ -32,6 +43,9 @@ namespace zwidth::internal {
 // The same; throws Error (invalid_argument) as require_one_rate() where it is not known.
 [[nodiscard]] AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress = {});
 
+// How that limit of two rates was found: over a grid of frequencies, and whether it is a bound.
+[[nodiscard]] Remark any_user_limit_scanned(const Loop& loop);
+
 // The least K that some user does not allow at one frequency, `angle` in rad per period of the spring, 0 < angle <= pi; infinite
 // where there is none. `device`: of a loop that knows_all_users().
 [[nodiscard]] double two_rate_limit_at(const Device& device, double angle);
@@ -39,13 +53,19 @@ namespace zwidth::internal {
 // The limit over all passive users of one device with many dampers, for searches.
 class TwoRateUsers {
  public:
-  // `device`: of a loop that knows_all_users().
+  // `device`: of a loop that bounds_all_users().
   explicit TwoRateUsers(const Device& device);
   TwoRateUsers(TwoRateUsers&&) noexcept;
   TwoRateUsers& operator=(TwoRateUsers&&) noexcept;
   TwoRateUsers(const TwoRateUsers&) = delete;
   TwoRateUsers& operator=(const TwoRateUsers&) = delete;
   ~TwoRateUsers();
+
+  // two_rate_absolute_stability() with this damper; `nobody`: of the device that nobody holds, with it.
+  [[nodiscard]] AbsoluteStabilityLimit limit(VirtualDamper damper, const CriticalStiffness& nobody) const;
+
+  // The B, rising, at which the limit of limit_on_grid() falls to 0 or rises from it: of either, the damper alone.
+  [[nodiscard]] std::vector<double> ends_of_damper(double velocity_filter_hz) const;
 
   // The least K over a grid of frequencies, without the limit of nobody and without refinement between them: at least
   // two_rate_absolute_stability().
