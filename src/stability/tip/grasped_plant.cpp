@@ -6,6 +6,7 @@
 
 #include "stability/tip/grasp_discs.hpp"
 #include "stability/tip/grasp_stiffness.hpp"
+#include "stability/tip/scan_angles.hpp"
 #include "stability/tip/tip_response.hpp"
 #include "stability/tip/tip_states.hpp"
 #include "zwidth/error.hpp"
@@ -14,29 +15,17 @@
 namespace zwidth {
 namespace {
 
-constexpr double lowest_seen_angle = 1e-3;  // rad per sample
-constexpr int seen_angles = 90;             // spaced evenly in their logarithm, and a quarter of them evenly
-constexpr double alike_angles = 1e-6;       // relative
-constexpr double tip_stands_below = 1e-9;   // what the tip moves of a normal
+constexpr double tip_stands_below = 1e-9;  // what the tip moves of a normal
 
 DeviceParameters nobody_holding(DeviceParameters loop) {
   loop.user = {};
   return loop;
 }
 
-std::vector<double> frequencies_seen(double period, std::vector<double> angles) {
-  constexpr double pi = std::numbers::pi;
-  for (int i = 0; i <= seen_angles; ++i) {
-    angles.push_back(lowest_seen_angle * std::pow(pi / lowest_seen_angle, static_cast<double>(i) / seen_angles));
-  }
-  for (int i = 1; i < seen_angles / 4; ++i) angles.push_back(pi * 4.0 * i / seen_angles);
-  std::erase_if(angles, [](double each) { return each < lowest_seen_angle || each > pi * (1.0 - alike_angles); });
-  angles.push_back(pi);
-  std::ranges::sort(angles);
-  const auto are_alike = [](double a, double b) { return b - a < alike_angles * b; };
-  angles.erase(std::unique(angles.begin(), angles.end(), are_alike), angles.end());
-  for (double& each : angles) each /= period;
-  return angles;
+std::vector<double> frequencies_of(const internal::SampledTip& plant, const internal::GraspDiscs& discs) {
+  std::vector<double> frequencies = internal::grasp_angles(plant, discs);
+  for (double& each : frequencies) each /= plant.period;
+  return frequencies;
 }
 
 }  // namespace
@@ -44,10 +33,10 @@ std::vector<double> frequencies_seen(double period, std::vector<double> angles) 
 struct GraspedPlant::Parts {
   Parts(const TipMotion& motion, const DeviceParameters& with, const Eigen::Vector3d& normal)
       : loop(nobody_holding(with)),
-        directions(internal::directions_of(motion)),
+        directions(tip_directions(motion)),
         plant(internal::sampled_tip(internal::tip_coordinates(motion, directions), loop)),
         discs(motion, loop, directions, plant),
-        frequencies(frequencies_seen(plant.period, internal::TipResponse(plant).angles_of_poles())) {
+        frequencies(frequencies_of(plant, discs)) {
     along.head(directions.cols()) = directions.transpose() * normal.normalized();
     if (along.norm() > tip_stands_below) return;
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_does_not_move,

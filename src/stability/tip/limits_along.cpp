@@ -13,6 +13,7 @@
 #include "stability/tip/grasp_discs.hpp"
 #include "stability/tip/grasp_stiffness.hpp"
 #include "stability/tip/limits_at_pose.hpp"
+#include "stability/tip/scan_angles.hpp"
 #include "stability/tip/tip_response.hpp"
 #include "stability/tip/tip_states.hpp"
 #include "zwidth/error.hpp"
@@ -29,43 +30,15 @@ using internal::TipResponse;
 using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Of the scan over grasps, rad per sample: below the corners of the motion where digits are left, for K loses a share of some
-// 1e-14 over its square.
-constexpr double lowest_angle = 1e-3;
-constexpr double least_lowest_angle = 3e-4;
-constexpr double below_corners = 0.01;
-constexpr double at_low_end = 1.001;          // times the lowest
-constexpr double at_rest_below = 1e-9;        // |z - 1| of a pole that is at 1
-constexpr double grasp_angles_a_decade = 26;  // spaced evenly in their logarithm
+constexpr double at_low_end = 1.001;  // times the lowest angle of the scan over grasps
 constexpr double lowest_crossover = 1e-5;
 constexpr int crossover_angles = 120;
-constexpr double same_angle = 1e-6;    // relative
 constexpr double confirmed_to = 1e-6;  // relative, of K
 constexpr double still_normal = 1e-9;  // what the tip moves of it
 constexpr int most_halvings = 80;
 constexpr double worth_refining = 1.3;  // times the least of the scan
 constexpr int exact_bits = 26;
 constexpr int quick_bits = 14;
-
-std::vector<double> scan_angles(double lowest, int count, std::vector<double> angles) {
-  for (int i = 0; i <= count; ++i) angles.push_back(lowest * std::pow(pi / lowest, static_cast<double>(i) / count));
-  for (int i = 1; i < count / 4; ++i) angles.push_back(pi * 4.0 * i / count);
-  std::erase_if(angles, [lowest](double each) { return each < lowest || each > pi * (1.0 - same_angle); });
-  angles.push_back(pi);
-  std::ranges::sort(angles);
-  const auto is_same = [](double a, double b) { return b - a < same_angle * b; };
-  angles.erase(std::unique(angles.begin(), angles.end(), is_same), angles.end());
-  return angles;
-}
-
-double lowest_of(const std::vector<std::complex<double>>& poles) {
-  double lowest = lowest_angle;
-  for (const std::complex<double>& z : poles) {
-    const double corner = std::abs(z - 1.0);
-    if (corner > at_rest_below) lowest = std::min(lowest, below_corners * corner);
-  }
-  return std::max(lowest, least_lowest_angle);
-}
 
 VirtualDamper damper_of(const DeviceParameters& loop) { return {loop.wall.damping, loop.wall.velocity_filter_hz}; }
 
@@ -140,11 +113,7 @@ class GraspScan {
         damper_(damper_of(posed.loop)),
         discs_(posed.motion, posed.loop, posed.directions, posed.plant) {
     if (discs_.is_undamped()) return;
-    std::vector<std::complex<double>> poles = TipResponse(posed.plant).poles();
-    for (const std::complex<double>& each : discs_.held_poles()) poles.push_back(each);
-    lowest_ = lowest_of(poles);
-    const double count = std::ceil(grasp_angles_a_decade * std::log10(pi / lowest_));
-    angles_ = scan_angles(lowest_, static_cast<int>(count), internal::angles_around(poles));
+    angles_ = internal::grasp_angles(posed.plant, discs_);
     for (const double angle : angles_) samples_.push_back(discs_.at(angle));
   }
 
@@ -199,7 +168,7 @@ class GraspScan {
 
   // 0 where the scan is least at its low end.
   [[nodiscard]] double frequency_of(const Minimum& least) const {
-    return least.angle > at_low_end * lowest_ ? least.angle / period_ : 0.0;
+    return least.angle > at_low_end * angles_.front() ? least.angle / period_ : 0.0;
   }
 
   [[nodiscard]] OthersAlong interpolated(const std::vector<OthersAlong>& others, std::size_t near, double angle) const {
@@ -220,7 +189,6 @@ class GraspScan {
   double period_;
   VirtualDamper damper_;
   GraspDiscs discs_;
-  double lowest_ = lowest_angle;
   std::vector<double> angles_;
   std::vector<GraspDiscs::Sample> samples_;
 };
@@ -232,7 +200,7 @@ class CrossoverScan {
       : damper_(damper_of(posed.loop)),
         period_(posed.plant.period),
         response_(posed.plant),
-        angles_(scan_angles(lowest_crossover, crossover_angles, internal::angles_around(response_.poles()))) {
+        angles_(internal::scan_angles(lowest_crossover, crossover_angles, internal::angles_around(response_.poles()))) {
     for (const double angle : angles_) samples_.push_back(response_.at(angle));
   }
 

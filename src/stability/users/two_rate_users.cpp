@@ -322,7 +322,9 @@ bool knows_all_users(const Loop& loop) {
   return later && is_whole(*later);
 }
 
-bool bounds_all_users(const Device& device) { return is_held_along_the_wall(device) && bounds_all_users(device.loop()); }
+bool bounds_all_users(const Device& device) {
+  return is_held_along_the_wall(device) && bounds_all_users(device.loop());
+}
 
 bool knows_all_users(const Device& device) { return is_held_along_the_wall(device) && knows_all_users(device.loop()); }
 
