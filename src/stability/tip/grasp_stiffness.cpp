@@ -57,8 +57,9 @@ OthersAlong others_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d
   Eigen::Matrix<double, 6, 1> products;
   products << normal.x() * normal.x(), normal.y() * normal.y(), normal.z() * normal.z(), normal.x() * normal.y(),
       normal.x() * normal.z(), normal.y() * normal.z();
-  const auto squares = (sample.left_forms * products).array() * (sample.right_forms * products).array();
-  return {(normal.transpose() * sample.shift_of_others * normal).value(), squares.cwiseMax(0.0).sqrt().sum()};
+  const Eigen::ArrayXd left = sample.left_forms * products;
+  const Eigen::ArrayXd right = sample.right_forms * products;
+  return {(normal.transpose() * sample.shift_of_others * normal).value(), (left * right).cwiseMax(0.0).sqrt().sum()};
 }
 
 GraspedPlant::Disc disc_along(const GraspDiscs::Sample& sample, const OthersAlong& others,
