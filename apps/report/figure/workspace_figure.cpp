@@ -38,13 +38,13 @@ constexpr std::string_view unknown_cross = "pt 2 ps 0.5 lw 1.2 lc rgb '#8a8a8a'"
 constexpr std::string_view unstable_cross = "pt 2 ps 0.7 lw 2 lc rgb '#b91c1c'";
 
 /// Two axes of the world.
-struct View {
+struct MapView {
   int across = 0;
   int up = 1;
 };
 
 /// Where the tip is in a pose, and the least limit there.
-struct Place {
+struct TipPlace {
   Eigen::Vector3d tip;
   double limit = 0.0;  // N/m; infinity: unbounded
   std::size_t pose = 0;
@@ -67,7 +67,7 @@ class WorkspaceFigure {
         places_.push_back({pose.tip, *limit, i});
       }
     }
-    for (const Place& each : places_) {
+    for (const TipPlace& each : places_) {
       if (!std::isfinite(each.limit)) continue;
       low_ = std::min(low_, each.limit);
       high_ = std::max(high_, each.limit);
@@ -180,43 +180,43 @@ class WorkspaceFigure {
   }
 
   /// In which two axes the tip moves most.
-  [[nodiscard]] View widest_view() const {
+  [[nodiscard]] MapView widest_view() const {
     int least = 2;
     for (const int axis : {1, 0}) {
       if (extent(axis) < extent(least)) least = axis;
     }
-    return least == 2 ? View{0, 1} : least == 1 ? View{0, 2} : View{1, 2};
+    return least == 2 ? MapView{0, 1} : least == 1 ? MapView{0, 2} : MapView{1, 2};
   }
 
   /// The least place of each cell, the least of all last: it lies on top.
-  [[nodiscard]] std::vector<Place> thinned(const View& view, double cells) const {
+  [[nodiscard]] std::vector<TipPlace> thinned(const MapView& view, double cells) const {
     const double cell = std::max(extent(view.across), extent(view.up)) / cells;
-    std::map<std::pair<long, long>, Place> kept;
-    for (const Place& each : places_) {
+    std::map<std::pair<long, long>, TipPlace> kept;
+    for (const TipPlace& each : places_) {
       const auto index = [&](int axis) {
         return cell > 0.0 ? std::lround((each.tip[axis] - reach(axis).low) / cell) : 0L;
       };
       const auto [found, is_new] = kept.try_emplace({index(view.across), index(view.up)}, each);
       if (!is_new && each.limit < found->second.limit) found->second = each;
     }
-    std::vector<Place> places;
+    std::vector<TipPlace> places;
     for (const auto& [where, each] : kept) places.push_back(each);
-    std::ranges::stable_sort(places, std::ranges::greater{}, &Place::limit);
+    std::ranges::stable_sort(places, std::ranges::greater{}, &TipPlace::limit);
     return places;
   }
 
   /// Places so far apart, the worst first.
-  [[nodiscard]] std::vector<Place> spread(const View& view, double apart) const {
-    std::vector<Place> places;
+  [[nodiscard]] std::vector<TipPlace> spread(const MapView& view, double apart) const {
+    std::vector<TipPlace> places;
     const auto is_free = [&](const Eigen::Vector3d& tip) {
-      return std::ranges::none_of(places, [&](const Place& other) {
+      return std::ranges::none_of(places, [&](const TipPlace& other) {
         return std::hypot(tip[view.across] - other.tip[view.across], tip[view.up] - other.tip[view.up]) < apart;
       });
     };
-    for (const Place& each : places_) {
+    for (const TipPlace& each : places_) {
       if (each.pose == worst_pose()) places.push_back(each);
     }
-    for (const Place& each : places_) {
+    for (const TipPlace& each : places_) {
       if (is_free(each.tip)) places.push_back(each);
     }
     return places;
@@ -226,11 +226,11 @@ class WorkspaceFigure {
     return worst() ? worst()->pose : std::numeric_limits<std::size_t>::max();
   }
 
-  [[nodiscard]] std::string row(const Eigen::Vector3d& at, const View& view) const {
+  [[nodiscard]] std::string row(const Eigen::Vector3d& at, const MapView& view) const {
     return fmt::format("{:.9g} {:.9g}\n", at[view.across] / length_.size, at[view.up] / length_.size);
   }
 
-  [[nodiscard]] std::string rows(const std::vector<Eigen::Vector3d>& places, const View& view) const {
+  [[nodiscard]] std::string rows(const std::vector<Eigen::Vector3d>& places, const MapView& view) const {
     std::string text;
     for (const Eigen::Vector3d& each : places) text += row(each, view);
     return text;
@@ -240,14 +240,14 @@ class WorkspaceFigure {
   [[nodiscard]] double colour(double limit) const { return std::min(limit, high_) / stiffness_.size; }
 
   /// Dots that touch each other, so large that they fill what the tip reaches.
-  [[nodiscard]] Series coloured(const View& view, double per_px) const {
-    const std::vector<Place> places = thinned(view, cells_of_map);
+  [[nodiscard]] Series coloured(const MapView& view, double per_px) const {
+    const std::vector<TipPlace> places = thinned(view, cells_of_map);
     const double wide = extent(view.across);
     const double high = extent(view.up);
     const double area = std::max(wide, 0.02 * high) * std::max(high, 0.02 * wide);
     const double spacing = std::sqrt(area / std::max(4.0, static_cast<double>(places.size())));
     std::string text;
-    for (const Place& each : places) {
+    for (const TipPlace& each : places) {
       text += fmt::format("{:.6g} {:.6g} {:.6g}\n", each.tip[view.across] / length_.size,
                           each.tip[view.up] / length_.size, colour(each.limit));
     }
@@ -259,7 +259,7 @@ class WorkspaceFigure {
   }
 
   /// Around the tip of a pose the limit in every direction of the plane.
-  [[nodiscard]] std::string curve_rows(const Place& place, const View& view, double radius) const {
+  [[nodiscard]] std::string curve_rows(const TipPlace& place, const MapView& view, double radius) const {
     std::vector<std::pair<double, double>> around;  // angle, limit
     double greatest = 0.0;
     const WorkspacePose& pose = workspace_.poses[place.pose];
@@ -289,7 +289,7 @@ class WorkspaceFigure {
     return text + text.substr(0, text.find('\n') + 1) + "\n";
   }
 
-  void add_worst(Panel& panel, const View& view, double arrow) const {
+  void add_worst(Panel& panel, const MapView& view, double arrow) const {
     const auto add = [&](const std::optional<WorkspaceLimit>& limit, std::string_view ring, std::string_view look) {
       if (!limit) return;
       const Eigen::Vector3d& tip = workspace_.poses[limit->pose].tip;
@@ -325,7 +325,7 @@ class WorkspaceFigure {
   }
 
   /// A map in a frame of this size, px, both axes to one scale.
-  [[nodiscard]] Panel map(const View& view, double width, double height) const {
+  [[nodiscard]] Panel map(const MapView& view, double width, double height) const {
     const AxisRange across = reach(view.across);
     const AxisRange up = reach(view.up);
     double per_px = 1.16 * std::max((across.high - across.low) / width, (up.high - up.low) / height);
@@ -349,7 +349,7 @@ class WorkspaceFigure {
   }
 
   [[nodiscard]] Panel whole_map() const {
-    const View view = widest_view();
+    const MapView view = widest_view();
     const double width = map_right - frame_left;
     const double wide = extent(view.across);
     const double shape = wide > 0.0 ? extent(view.up) / wide : 1.0;
@@ -358,7 +358,7 @@ class WorkspaceFigure {
     const double apart = std::max({extent(view.across), extent(view.up), 0.1}) / curves_along_map;
     if (has_curves()) {
       std::string curves;
-      for (const Place& each : spread(view, apart)) curves += curve_rows(each, view, 0.42 * apart);
+      for (const TipPlace& each : spread(view, apart)) curves += curve_rows(each, view, 0.42 * apart);
       panel.series.push_back({curves, as_lines(curve_edge)});
       panel.series.push_back({curves, as_lines(direction_curve)});
     }
@@ -399,7 +399,7 @@ class WorkspaceFigure {
 
   /// Seen along each axis of the world, and every direction at the worst pose.
   void add_views(Figure& figure) const {
-    static constexpr std::array<View, 3> views{View{0, 1}, View{0, 2}, View{1, 2}};
+    static constexpr std::array<MapView, 3> views{MapView{0, 1}, MapView{0, 2}, MapView{1, 2}};
     static constexpr double between = 120.0;
     const auto put = [&](Panel panel, std::string heading, bool has_scale) {
       const bool is_beside = figure.panels.size() % 2 == 1;
@@ -414,7 +414,7 @@ class WorkspaceFigure {
       if (!has_scale) panel.axes += "\nunset colorbox";
       figure.panels.push_back(std::move(panel));
     };
-    for (const View& view : views) {
+    for (const MapView& view : views) {
       Panel panel = map(view, small_side, small_side);
       add_worst(panel, view, 0.18 * std::max(extent(view.across), extent(view.up)));
       const int depth = 3 - view.across - view.up;
@@ -429,7 +429,7 @@ class WorkspaceFigure {
   const Workspace& workspace_;
   FigureFormat format_;
   bool is_any_user_ = false;
-  std::vector<Place> places_;
+  std::vector<TipPlace> places_;
   std::vector<Eigen::Vector3d> reached_;                  // where the tip is, in every pose
   std::vector<Eigen::Vector3d> unknown_;                  // where no limit is known
   std::vector<Eigen::Vector3d> unstable_;                 // where no wall is stable
