@@ -3,7 +3,7 @@
 import { decode, encode, type Decoded } from './address'
 import { written } from './decimal'
 import { History } from './history'
-import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
+import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Joint, type Row } from './keys'
 import { empty, type Settings, type Snapshot } from './snapshot'
 import { confirm } from './parts'
 import { scan, set, unset } from './toml'
@@ -32,7 +32,9 @@ class Workbench {
   pins = $derived(this.state.pins)
   scanned = $derived(scan(this.toml))
   private before: Group[] = []
-  groups: Group[] = $derived((this.before = groupsOf(this.scanned, this.before)))
+  /** Of a mechanism, as the program's newest answer has them. */
+  joints = $state.raw<Joint[]>([])
+  groups: Group[] = $derived((this.before = groupsOf(this.scanned, this.before, this.joints)))
   private rows = $derived(new Map(this.groups.flatMap((group) => group.rows.map((row) => [row.key, row]))))
   shape = $derived(shapeOf(this.scanned))
   rotary = $derived(isRotary(this.scanned))
@@ -120,6 +122,7 @@ class Workbench {
   /** The plain SI number of the file or what holds without it; null where it has a unit of its own or is none. */
   plain(key: string): number | null {
     const row = this.row(key)
+    if (row?.value === undefined && row?.field.travel) return row.field.travel.at
     if (row?.value === undefined) return row?.field.like ? this.plain(row.field.like) : row?.field.mayBeZero ? 0 : null
     const value = written(row.value)
     return value?.unit === null ? value.number : null
