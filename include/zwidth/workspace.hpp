@@ -83,7 +83,6 @@ struct WorkspacePose {
   std::vector<RefusedDirection> refused = {};     ///< the others
   /// Refined between the directions tried; the normals alone where those were given. Absent where there is none.
   std::optional<DirectionLimits> least = {};           ///< with nobody
-  std::optional<Mechanism> limited_by = {};            ///< what oscillates there; absent unless finite
   std::optional<DirectionLimits> greatest = {};        ///< with nobody
   std::optional<DirectionLimits> least_any_user = {};  ///< with any passive user
 };

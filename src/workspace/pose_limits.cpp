@@ -197,10 +197,6 @@ void add_limits(const MechanismAtPose& at, const DeviceParameters& parameters, c
   }
   if (pose.directions.empty()) pose.problem = pose.refused.front().problem;
   add_extremes(any_direction, moved, is_spread, pose);
-  if (pose.least && pose.least->status == StiffnessStatus::finite) {
-    const ExactLimits exact = exact_limits(at, parameters, pose.least->normal, false);
-    if (exact.nobody.limit) pose.limited_by = exact.nobody.limit->limited_by;
-  }
 }
 
 }  // namespace zwidth::internal
