@@ -244,6 +244,22 @@ TEST_F(MechanismWorkspace, RefusesWhatItCannotRead) {
   expect_refusal(of_arm + grid + " --threads 100000", "--threads");
 }
 
+TEST_F(MechanismWorkspace, IsTrustedNoMoreThanItsDevice) {
+  const std::string files = " --csv map.csv --worst-to worst.toml";
+  const std::string doubt = grid + two_normals + " --set uncertainty.verdict=doubtful";
+  EXPECT_EQ(asked(doubt + files)["trust"]["verdict"], "doubtful");
+  EXPECT_THAT(contents("map.csv"), HasSubstr(",doubtful\n"));
+  EXPECT_THAT(contents("worst.toml"), HasSubstr("verdict = \"doubtful\""));
+  const std::string refusal = grid + two_normals + " --set uncertainty.verdict=refused";
+  const json refused = asked(refusal);
+  EXPECT_EQ(refused["trust"]["verdict"], "refused");
+  EXPECT_TRUE(refused["least"].is_null());
+  for (const char* file : {" --csv none.csv", " --worst-to none.csv"}) {
+    EXPECT_EQ(run("zwidth workspace " + arm + refusal + file).status, 1) << file;
+    EXPECT_THAT(contents("none.csv"), IsEmpty());
+  }
+}
+
 TEST_F(MechanismWorkspace, WritesAllFilesOrNone) {
   const Outcome outcome =
       run("zwidth workspace " + arm + grid + two_normals + " --csv no/such/folder.csv --worst-to worst.toml");

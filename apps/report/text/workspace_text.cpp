@@ -180,7 +180,8 @@ class WorkspaceWriter {
     std::string text = "\nWhere no limit is known\n";
     for (const Met& each : all) {
       const ProblemWords words = words_of(*each.problem);
-      text += bulleted(fmt::format("{}{}", words.what, each.count > 1 ? fmt::format(" ({} alike)", each.count) : ""));
+      const std::string alike = each.count > 1 ? fmt::format(" ({} alike)", each.count) : "";
+      text += bulleted(fmt::format("{}{}{}{}", words.what, words.allowed.empty() ? "" : "; ", words.allowed, alike));
     }
     return text;
   }
