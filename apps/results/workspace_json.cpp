@@ -59,7 +59,7 @@ Json least_json(const Workspace& workspace, const std::optional<WorkspaceLimit>&
           {"limited_by", least->limited_by}};
 }
 
-Json quantiles_json(const std::vector<WorkspaceQuantile>& quantiles) {
+Json workspace_quantiles_json(const std::vector<WorkspaceQuantile>& quantiles) {
   Json list = Json::array();
   for (const WorkspaceQuantile& each : quantiles) {
     list.push_back({{"probability", each.probability}, {"nobody", each.nobody}, {"any_user", each.any_user}});
@@ -196,7 +196,7 @@ Json workspace_json(const Device& device, const Workspace& workspace, Directions
   json["tip_directions"] = workspace.tip_directions;
   json["least"] = least_json(workspace, workspace.least);
   json["least_any_user"] = least_json(workspace, workspace.least_any_user);
-  json["quantiles"] = quantiles_json(workspace.quantiles);
+  json["quantiles"] = workspace_quantiles_json(workspace.quantiles);
   json["share_at_least"] = share_json(workspace.share_at_least);
   json["directions"] = workspace.directions;
   json["refused_directions"] = workspace.refused_directions;
