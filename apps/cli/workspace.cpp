@@ -16,6 +16,7 @@
 #include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/workspace_arguments.hpp"
+#include "cli/workspace_series.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/text_medium.hpp"
 #include "report/text/workspace_text.hpp"
@@ -38,7 +39,7 @@ constexpr const char* worst_option = "--worst-to";
 
 /// The library's members as the options that set them.
 constexpr std::pair<std::string_view, std::string_view> options_of_workspace[] = {
-    {"grid", "--poses"},         {"points", "--points"},       {"normals", "--normals"},
+    {"grid", "--poses"},         {"poses", "--poses"},         {"points", "--points"},  {"normals", "--normals"},
     {"directions", "--normals"}, {"stiffness", "--stiffness"}, {"threads", "--threads"}};
 
 /// Of an element, "grid.0.count", the option is that of the list.
@@ -74,7 +75,8 @@ void run_workspace(const WorkspaceArguments& arguments) {
   const Device device = std::move(read_devices(arguments.devices).front());
   if (const auto problem = find_problem(options, device)) refuse(of_whole_option(*problem), options_of_workspace, file);
   outputs.keep(device.parameters().mechanism->mechanism.path, "mechanism's file");
-  const Workspace found = found_workspace(command, device, std::move(options), file);
+  const Workspace found = found_workspace(command, device, options, file);
+  hand_over_limits(command, found, options);
   const std::string answer =
       arguments.output.json
           ? results::line(results::workspace_json(
@@ -110,7 +112,7 @@ void add_workspace(CLI::App& app) {
   command
       ->add_option("--poses", arguments->texts.poses,
                    "JOINT=FIRST:LAST:COUNT or JOINT=VALUE, parted by commas, in rad, m or with\n"
-                   "a unit (default: the ranges in the mechanism's file)")
+                   "a unit; parted by ; a list of poses (default: the ranges in the mechanism's file)")
       ->type_name("GRID")
       ->allow_extra_args(false);
   command

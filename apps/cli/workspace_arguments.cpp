@@ -28,6 +28,9 @@ constexpr const char* point_form = "write X,Y,Z, for instance \"0.3,0.1,0\" or \
 constexpr const char* normal_form =
     "write NX,NY,NZ, for instance \"1,0,0;0,1,0\", or a whole number of directions, for instance 24";
 
+constexpr const char* list_form =
+    "write one value for each joint of a list, for instance \"shoulder=0,elbow=1;shoulder=1,elbow=2\"";
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t";
   const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
@@ -84,6 +87,20 @@ PoseAxis pose_axis(std::string_view text) {
   axis.last = end.value;
   axis.unit = first.unit;
   return axis;
+}
+
+/// One of a list: a value for each joint.
+JointPositions listed_pose(std::string_view text) {
+  JointPositions pose;
+  for (const std::string& part : parts_of(text, ',')) {
+    const PoseAxis axis = pose_axis(trimmed(part));
+    if (axis.count != 1 || axis.first != axis.last) refuse_text(poses_option, text, "is a grid in a list", list_form);
+    if (!pose.emplace(axis.joint, axis.first).second) {
+      refuse_text(poses_option, text, "has a joint twice", list_form);
+    }
+    if (axis.unit) refuse_text(poses_option, text, "has a unit in a list", "write numbers of rad or m alone");
+  }
+  return pose;
 }
 
 /// Texts that a semicolon parts, of all that were given.
@@ -146,6 +163,12 @@ std::optional<std::size_t> count_in(std::string_view text) {
 
 void apply(const WorkspaceOptionTexts& texts, WorkspaceOptions& options) {
   for (const std::string& each : texts.poses) {
+    if (each.find(';') != std::string::npos) {
+      for (const std::string& pose : parts_of(each, ';')) {
+        if (!trimmed(pose).empty()) options.poses.push_back(listed_pose(pose));
+      }
+      continue;
+    }
     for (const std::string& part : parts_of(each, ',')) options.grid.push_back(pose_axis(trimmed(part)));
   }
   for (const std::string& each : items_of(texts.points)) options.points.push_back(point_of(each));
