@@ -3,6 +3,6 @@
 using namespace zwidth;
 
 on_demand::Module zwidth_mechanisms() {
-  static constexpr on_demand::Mechanisms functions{at_pose};
+  static constexpr on_demand::Mechanisms functions{internal::open_mujoco_file};
   return {on_demand::build, &functions};
 }

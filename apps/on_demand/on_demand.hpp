@@ -7,12 +7,12 @@
 #include "batch/kernel/stiffness_kernel.hpp"
 #include "identification/initial_fit/least_squares.hpp"
 #include "io/mat73_file.hpp"
+#include "mechanism/mujoco_file.hpp"
 #include "model/exact_modal_form.hpp"
 #include "sampling/exact_sampling.hpp"
 #include "server/api/digest.hpp"
 #include "stability/second_route/pole_count.hpp"
 #include "study/study_result_file.hpp"
-#include "zwidth/mechanism.hpp"
 
 namespace zwidth::on_demand {
 
@@ -63,7 +63,7 @@ struct Crypto {
 struct Mechanisms {
   static constexpr const char* file = "mechanisms-" ZWIDTH_VERSION ".so";
   static constexpr const char* name = "zwidth_mechanisms";
-  decltype(zwidth::at_pose)* at_pose;
+  decltype(internal::open_mujoco_file)* open_mujoco_file;
 };
 
 }  // namespace zwidth::on_demand

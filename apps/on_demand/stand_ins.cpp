@@ -103,11 +103,13 @@ void solve_group(const KernelGroup& group, const KernelDevices& devices, std::si
   loaded<on_demand::Kernel>().solve_group(group, devices, count, answers, scratch);
 }
 
-}  // namespace internal
-
 #ifdef ZWIDTH_MUJOCO
-MechanismAtPose at_pose(const MechanismFile& file) { return loaded<on_demand::Mechanisms>().at_pose(file); }
+std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
+  return loaded<on_demand::Mechanisms>().open_mujoco_file(file);
+}
 #endif
+
+}  // namespace internal
 
 namespace study_engine {
 

@@ -27,6 +27,7 @@ struct MechanismAtPose {
   Eigen::MatrixXd motors;       ///< A_m: a row a motor
   Eigen::MatrixXd encoders;     ///< A_e: a row an encoder
   Eigen::MatrixXd tip;          ///< J, 3 x n, in the world's frame
+  Eigen::MatrixXd joint_motions = {};  ///< of the file's joints: a row a joint of MechanismModel::joints()
   Eigen::VectorXd joints = {};  ///< where the file's joints are, as MechanismModel::joints()
   Eigen::Vector3d tip_position = Eigen::Vector3d::Zero();  ///< m, in the world's frame
 };
@@ -73,10 +74,10 @@ class MechanismModel {
   ///
   ///     minimise |x(q) - point|,  loops closed, cables not stretched, ranges of joints kept
   ///
-  /// Damped Gauss-Newton steps (Levenberg-Marquardt), at most 200. Where the tip comes no closer than `short_of`, that pose
-  /// is not one that reaches it. Throws Error (invalid_argument) for a point that is not finite.
+  /// Damped Gauss-Newton steps (Levenberg-Marquardt), at most 200, from the file's pose, and where that ends short from some
+  /// around it. Throws Error (invalid_argument) for a point that is not finite.
   struct Reached {
-    JointPositions pose;    ///< of pose_joints()
+    JointPositions pose;    ///< of pose_joints(), the closest that was found
     double short_of = 0.0;  ///< m, from the tip to the point: at most 1e-9 where it is reached
     bool reached = false;   ///< to 1e-9 m
   };

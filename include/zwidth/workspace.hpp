@@ -69,22 +69,22 @@ struct DirectionLimits {
 /// A direction that has no limit, and why: the tip cannot move along it, motors cannot push it.
 struct RefusedDirection {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of length 1
-  Problem problem;                                   ///< what device_along() says
+  Problem problem = {};                              ///< what device_along() says
 };
 
 /// One pose.
 struct WorkspacePose {
-  JointPositions pose;                            ///< that leads there, by joints that were given: mechanism.pose
-  std::vector<double> joints;                     ///< of MechanismModel::joints(), m or rad; empty where not reached
+  JointPositions pose = {};                       ///< that leads there, by joints that were given: mechanism.pose
+  std::vector<double> joints = {};                ///< of MechanismModel::joints(), m or rad; empty where not reached
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m, world's frame
   std::optional<std::size_t> point = {};          ///< which of WorkspaceOptions::points it reaches
   std::optional<Problem> problem = {};            ///< why nothing is known here: a loop stays open, a singular pose
-  std::vector<DirectionLimits> directions;        ///< those tried, in their order, without refused ones
-  std::vector<RefusedDirection> refused;          ///< the others
+  std::vector<DirectionLimits> directions = {};   ///< those tried, in their order, without refused ones
+  std::vector<RefusedDirection> refused = {};     ///< the others
   /// Refined between the directions tried; the normals alone where those were given. Absent where there is none.
-  std::optional<DirectionLimits> least;           ///< with nobody
-  std::optional<DirectionLimits> greatest;        ///< with nobody
-  std::optional<DirectionLimits> least_any_user;  ///< with any passive user
+  std::optional<DirectionLimits> least = {};           ///< with nobody
+  std::optional<DirectionLimits> greatest = {};        ///< with nobody
+  std::optional<DirectionLimits> least_any_user = {};  ///< with any passive user
 };
 
 /// A limit somewhere in the workspace, computed once more as `analyze()` does for the device of that pose and normal.
@@ -117,7 +117,7 @@ struct UnreachedPoint {
   double short_of = 0.0;                         ///< m, how close it comes from the device's pose on
 };
 
-/// The limits over a workspace. Where it is refused (trust), all but trust is empty.
+/// The limits over a workspace. Where it is refused (trust), there is no limit in it.
 struct Workspace {
   std::vector<MechanismJoint> joints;    ///< of the mechanism
   std::vector<std::string> pose_joints;  ///< that were varied, or give the poses of points

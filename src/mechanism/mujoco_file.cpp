@@ -1,4 +1,4 @@
-// Mechanism files by MuJoCo, which no other file knows.
+#include "mechanism/mujoco_file.hpp"
 
 #include <fmt/format.h>
 
@@ -14,9 +14,7 @@
 
 #include "mechanism/mechanism_text.hpp"
 #include "mechanism/refusal.hpp"
-#include "mechanism/transmissions.hpp"
 #include "mechanism/trial_process.hpp"
-#include "zwidth/mechanism.hpp"
 
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
@@ -51,28 +49,35 @@ std::string plain(const char* said) {
   refuse_mechanism("mechanism.file", {.code = ProblemCode::mechanism_file_refused, .subjects = {{"part", part}}});
 }
 
-// MuJoCo's fatal errors end the process; here they are errors of the file. One caller at a time: its handlers are global.
+// MuJoCo's fatal errors end the process; here they are errors of the file, as long as there is one of these.
 class Handlers {
  public:
-  Handlers() : lock_(mutex()), error_(mju_user_error), warning_(mju_user_warning) {
-    mju_user_error = refuse_file;
-    mju_user_warning = [](const char*) {};
+  Handlers() {
+    const std::lock_guard lock(shared().mutex);
+    if (shared().users++ > 0) return;
+    shared().error = std::exchange(mju_user_error, refuse_file);
+    shared().warning = std::exchange(mju_user_warning, [](const char*) {});
   }
   Handlers(const Handlers&) = delete;
   Handlers& operator=(const Handlers&) = delete;
   ~Handlers() {
-    mju_user_error = error_;
-    mju_user_warning = warning_;
+    const std::lock_guard lock(shared().mutex);
+    if (--shared().users > 0) return;
+    mju_user_error = shared().error;
+    mju_user_warning = shared().warning;
   }
 
  private:
-  static std::mutex& mutex() {
-    static std::mutex one;
+  struct Shared {
+    std::mutex mutex;
+    int users = 0;
+    void (*error)(const char*) = nullptr;
+    void (*warning)(const char*) = nullptr;
+  };
+  static Shared& shared() {
+    static Shared one;
     return one;
   }
-  std::lock_guard<std::mutex> lock_;
-  void (*error_)(const char*);
-  void (*warning_)(const char*);
 };
 
 // MuJoCo looks for files among these first, and they name no others.
@@ -99,29 +104,47 @@ class Texts {
   std::unique_ptr<mjVFS, Delete> files_{new mjVFS};
 };
 
-// A model and its state, at a pose.
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using Data = std::unique_ptr<mjData, DeleteData>;
+
+// The parts of a model by name.
+class Parts {
+ public:
+  explicit Parts(const mjModel* model) : model_(model) {}
+
+  [[nodiscard]] int index(const std::string& key, mjtObj kind, const std::string& wanted) const {
+    const int found = mj_name2id(model_, kind, wanted.c_str());
+    if (found >= 0) return found;
+    std::string names;
+    for (int i = 0; i < (kind == mjOBJ_JOINT ? model_->njnt : kind == mjOBJ_SITE ? model_->nsite : 0); ++i) {
+      names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", plain(name(kind, i).c_str()));
+    }
+    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
+    if (!names.empty()) subjects.push_back({"names", names});
+    refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
+  }
+
+  [[nodiscard]] std::string name(mjtObj kind, int of) const {
+    const char* found = mj_id2name(model_, kind, of);
+    return found != nullptr ? found : std::to_string(of);
+  }
+
+ private:
+  const mjModel* model_;
+};
+
+// A state of a model, at a pose.
 class Posed {
  public:
-  Posed(const MechanismFile& file, const std::vector<MechanismText>& texts) {
-    const Texts given(texts);
-    char why[1000] = "";
-    model_.reset(mj_loadXML(texts.front().name.c_str(), given.get(), why, sizeof why));
-    if (!model_) refuse_file(why);
-    if (model_->njnt == 0) refuse_part("joint");
-    for (int joint = 0; joint < model_->njnt; ++joint) {
-      if (model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) continue;
-      refuse_mechanism("mechanism.file",
-                       {.code = ProblemCode::joint_of_many_motions, .subjects = {{"name", name(mjOBJ_JOINT, joint)}}});
-    }
-    model_->opt.jacobian = mjJAC_DENSE;
-    model_->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
-    data_.reset(mj_makeData(model_.get()));
-    mj_resetData(model_.get(), data_.get());
-    is_given_.assign(static_cast<std::size_t>(model_->njnt), false);
+  Posed(const mjModel* model, mjData* data, const MechanismFile& file, const JointPositions& pose)
+      : model_(model), data_(data), parts_(model), is_given_(static_cast<std::size_t>(model->njnt), false) {
+    mj_resetData(model_, data_);
     std::vector<Way> ways;
-    for (const auto& [joint, to] : file.pose) {
+    for (const auto& [joint, to] : pose) {
       const std::string key = fmt::format("mechanism.pose.{}", joint);
-      const int of = index(key, mjOBJ_JOINT, joint);
+      const int of = parts_.index(key, mjOBJ_JOINT, joint);
       const bool slides = model_->jnt_type[of] == mjJNT_SLIDE;
       const auto unit = file.units_of_pose.find(joint);
       if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
@@ -133,18 +156,6 @@ class Posed {
       is_given_[static_cast<std::size_t>(of)] = true;
     }
     go(ways);
-  }
-
-  [[nodiscard]] int index(const std::string& key, mjtObj kind, const std::string& wanted) const {
-    const int found = mj_name2id(model_.get(), kind, wanted.c_str());
-    if (found >= 0) return found;
-    std::string names;
-    for (int i = 0; i < (kind == mjOBJ_JOINT ? model_->njnt : kind == mjOBJ_SITE ? model_->nsite : 0); ++i) {
-      names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", plain(name(kind, i).c_str()));
-    }
-    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
-    if (!names.empty()) subjects.push_back({"names", names});
-    refuse_mechanism(key.c_str(), {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
   }
 
   // Motions that the loops leave free: q' = Z z'.
@@ -161,13 +172,15 @@ class Posed {
     const int n = model_->nv;
     MechanismAtPose at;
     Rows mass(n, n);
-    mj_fullM(model_.get(), mass.data(), data_->qM);
+    mj_fullM(model_, mass.data(), data_->qM);
     at.mass = mass;
-    at.tip = tip(file.tip);
+    add_tip(file.tip, at);
+    at.joint_motions = Eigen::MatrixXd::Identity(n, n);
+    at.joints = Eigen::Map<const Eigen::VectorXd>(data_->qpos, n);
     add_elements(at);
     at.motors = Eigen::Map<const Rows>(data_->actuator_moment, model_->nu, n);
     std::vector<int> read;
-    for (const std::string& each : file.encoders) read.push_back(index("mechanism.encoders", mjOBJ_JOINT, each));
+    for (const std::string& each : file.encoders) read.push_back(parts_.index("mechanism.encoders", mjOBJ_JOINT, each));
     for (int i = 0; file.encoders.empty() && i < model_->nu; ++i) {
       const int joint = model_->actuator_trnid[2 * i];
       const bool is_new = std::ranges::find(read, joint) == read.end();
@@ -179,20 +192,18 @@ class Posed {
   }
 
  private:
-  [[nodiscard]] std::string name(mjtObj kind, int of) const {
-    const char* found = mj_id2name(model_.get(), kind, of);
-    return found != nullptr ? found : std::to_string(of);
-  }
-
-  [[nodiscard]] Eigen::MatrixXd tip(const std::string& wanted) const {
+  void add_tip(const std::string& wanted, MechanismAtPose& at) const {
     Rows jacobian(3, model_->nv);
-    const int body = mj_name2id(model_.get(), mjOBJ_BODY, wanted.c_str());
-    if (mj_name2id(model_.get(), mjOBJ_SITE, wanted.c_str()) < 0 && body >= 0) {
-      mj_jacBody(model_.get(), data_.get(), jacobian.data(), nullptr, body);
+    const int body = mj_name2id(model_, mjOBJ_BODY, wanted.c_str());
+    if (mj_name2id(model_, mjOBJ_SITE, wanted.c_str()) < 0 && body >= 0) {
+      mj_jacBody(model_, data_, jacobian.data(), nullptr, body);
+      at.tip_position = Eigen::Map<const Eigen::Vector3d>(data_->xpos + std::ptrdiff_t{3} * body);
     } else {
-      mj_jacSite(model_.get(), data_.get(), jacobian.data(), nullptr, index("mechanism.tip", mjOBJ_SITE, wanted));
+      const int site = parts_.index("mechanism.tip", mjOBJ_SITE, wanted);
+      mj_jacSite(model_, data_, jacobian.data(), nullptr, site);
+      at.tip_position = Eigen::Map<const Eigen::Vector3d>(data_->site_xpos + std::ptrdiff_t{3} * site);
     }
-    return jacobian;
+    at.tip = jacobian;
   }
 
   void add_elements(MechanismAtPose& at) const {
@@ -249,7 +260,7 @@ class Posed {
     }
     double open = 0.0;
     for (int step = 0; step < most_steps; ++step) {
-      mj_fwdPosition(model_.get(), data_.get());
+      mj_fwdPosition(model_, data_);
       const int loops = data_->ne;
       const int equations = loops + model_->ntendon;
       if (equations == 0) return 0.0;
@@ -274,63 +285,123 @@ class Posed {
       if (!(move.cwiseAbs().maxCoeff() > settled)) break;
       Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
     }
-    mj_fwdPosition(model_.get(), data_.get());
+    mj_fwdPosition(model_, data_);
     if (data_->warning[mjWARN_CNSTRFULL].number > 0) refuse_part("loops");
     return open;
   }
 
   static bool is_unmoved(const Eigen::RowVectorXd& slope) { return slope.cwiseAbs().maxCoeff() == 0.0; }
 
-  struct Delete {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
-    void operator()(mjData* data) const { mj_deleteData(data); }
-  };
-  std::unique_ptr<mjModel, Delete> model_;
-  std::unique_ptr<mjData, Delete> data_;
+  const mjModel* model_;
+  mjData* data_;
+  Parts parts_;
   std::vector<bool> is_given_;  // of the joints
 };
 
-MechanismAtPose read_at_pose(const MechanismFile& file, const std::vector<MechanismText>& texts) {
-  const Posed posed(file, texts);
-  MechanismAtPose at = posed.whole(file);
-  for (std::size_t i = 0; i < file.transmissions.size(); ++i) {
-    const Transmission& each = file.transmissions[i];
-    const int joint = posed.index(fmt::format("transmission.{}.joint", i), mjOBJ_JOINT, each.joint);
-    add_transmission(at, joint, each, file.encoders.empty());
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+using Model = std::unique_ptr<mjModel, DeleteModel>;
+
+Model read_model(const std::vector<MechanismText>& texts) {
+  const Texts given(texts);
+  char why[1000] = "";
+  Model model(mj_loadXML(texts.front().name.c_str(), given.get(), why, sizeof why));
+  if (!model) refuse_file(why);
+  if (model->njnt == 0) refuse_part("joint");
+  for (int joint = 0; joint < model->njnt; ++joint) {
+    if (model->jnt_type[joint] == mjJNT_HINGE || model->jnt_type[joint] == mjJNT_SLIDE) continue;
+    refuse_mechanism("mechanism.file", {.code = ProblemCode::joint_of_many_motions,
+                                        .subjects = {{"name", Parts(model.get()).name(mjOBJ_JOINT, joint)}}});
   }
-  if (at.motors.rows() == 0) refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
-  const Eigen::MatrixXd of_joints = posed.free_motions();
-  if (of_joints.cols() == of_joints.rows()) return without_springs(std::move(at));  // no loops
-  const Eigen::Index motors = at.mass.rows() - of_joints.rows();
-  Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
-  free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
-  free.bottomRightCorner(motors, motors).setIdentity();
-  return without_springs(with_loops(at, free));
+  model->opt.jacobian = mjJAC_DENSE;
+  model->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
+  return model;
 }
+
+MujocoFile::At at_pose_of(const mjModel* model, mjData* data, const MechanismFile& file, const JointPositions& pose) {
+  const Posed posed(model, data, file, pose);
+  return {posed.whole(file), posed.free_motions()};
+}
+
+class OpenFile final : public MujocoFile {
+ public:
+  OpenFile(const MechanismFile& file, const std::vector<MechanismText>& texts)
+      : file_(file), model_(read_model(texts)) {}
+
+  [[nodiscard]] std::vector<MechanismJoint> joints() const override {
+    std::vector<MechanismJoint> joints;
+    for (int i = 0; i < model_->njnt; ++i) {
+      MechanismJoint& joint = joints.emplace_back();
+      joint.name = Parts(model_.get()).name(mjOBJ_JOINT, i);
+      joint.motion = model_->jnt_type[i] == mjJNT_SLIDE ? Motion::linear : Motion::rotary;
+      joint.position = model_->qpos0[i];
+      if (model_->jnt_limited[i] != 0) joint.range = JointRange{model_->jnt_range[2 * i], model_->jnt_range[2 * i + 1]};
+    }
+    for (int i = 0; i < model_->nu; ++i) {
+      if (model_->actuator_trntype[i] != mjTRN_JOINT) continue;
+      joints[static_cast<std::size_t>(model_->actuator_trnid[2 * i])].is_driven = true;
+    }
+    return joints;
+  }
+
+  [[nodiscard]] int joint(const std::string& key, const std::string& name) const override {
+    return Parts(model_.get()).index(key, mjOBJ_JOINT, name);
+  }
+
+  [[nodiscard]] At at(const JointPositions& pose) const override {
+    const Handlers handlers;
+    Data data = idle_data();
+    At at = at_pose_of(model_.get(), data.get(), file_, pose);
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(data));
+    return at;
+  }
+
+ private:
+  [[nodiscard]] Data idle_data() const {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return Data(mj_makeData(model_.get()));
+    Data data = std::move(idle_.back());
+    idle_.pop_back();
+    return data;
+  }
+
+  MechanismFile file_;
+  Model model_;
+  mutable std::mutex mutex_;
+  mutable std::vector<Data> idle_;  // that no thread uses just now
+};
 
 }  // namespace
-}  // namespace internal
 
-// What MuJoCo does not expect may crash it: a text is read in another process first.
-MechanismAtPose at_pose(const MechanismFile& file) {
-  using namespace internal;
+// What MuJoCo does not expect may crash it: a text is read in another process first. One text at a time.
+std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
   const std::vector<MechanismText> texts = mechanism_texts(file);
+  static std::mutex one_at_a_time;
+  static std::vector<MechanismText> read_before;
+  const std::lock_guard lock(one_at_a_time);
   const Handlers handlers;
-  static std::vector<MechanismText> read_before;  // its own only while the handlers are ours
   if (texts != read_before) {
-    if (!ends_in_trial([&] { static_cast<void>(read_at_pose(file, texts)); })) refuse_part("reader");
+    const bool ends = ends_in_trial([&] {
+      const Model model = read_model(texts);
+      const Data data(mj_makeData(model.get()));
+      static_cast<void>(at_pose_of(model.get(), data.get(), file, file.pose));
+    });
+    if (!ends) refuse_part("reader");
     read_before = texts;
   }
-  return read_at_pose(file, texts);
+  return std::make_unique<const OpenFile>(file, texts);
 }
 
+}  // namespace internal
 }  // namespace zwidth
 #else
-namespace zwidth {
+namespace zwidth::internal {
 
-MechanismAtPose at_pose(const MechanismFile&) {
-  internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
+std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile&) {
+  refuse_mechanism("mechanism.file", {.code = ProblemCode::built_without_mujoco});
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal
 #endif

@@ -24,7 +24,8 @@ void add_coordinate(MechanismAtPose& mechanism, double inertia) {
   mechanism.mass(n, n) = inertia;
   for (Coordinates::Element& each : mechanism.elements) each.weights.push_back(0.0);
   for (Coordinates::Friction& each : mechanism.frictions) each.weights.push_back(0.0);
-  for (Eigen::MatrixXd* rows : {&mechanism.cables, &mechanism.motors, &mechanism.encoders, &mechanism.tip}) {
+  for (Eigen::MatrixXd* rows :
+       {&mechanism.cables, &mechanism.motors, &mechanism.encoders, &mechanism.tip, &mechanism.joint_motions}) {
     rows->conservativeResizeLike(Eigen::MatrixXd::Zero(rows->rows(), n + 1));
   }
 }
@@ -76,6 +77,9 @@ MechanismAtPose with_loops(const MechanismAtPose& mechanism, const Eigen::Matrix
   result.motors = mechanism.motors * free_motions;
   result.encoders = mechanism.encoders * free_motions;
   result.tip = mechanism.tip * free_motions;
+  result.joint_motions = mechanism.joint_motions * free_motions;
+  result.joints = mechanism.joints;
+  result.tip_position = mechanism.tip_position;
   return result;
 }
 

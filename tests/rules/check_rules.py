@@ -20,6 +20,7 @@ LIBRARY = {
     "batch/kernel": ["model", "sampling"],
     "stability": ["model", "sampling", "batch/kernel"],
     "io": ["model", "mechanism", "signal", "study"],
+    "workspace": ["words", "model", "mechanism", "stability", "batch"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
     "identification": ["words", "model", "signal", "sampling", "stability", "simulation"],
     "batch": ["model", "sampling", "stability", "batch/kernel"],

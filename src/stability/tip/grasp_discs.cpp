@@ -20,6 +20,17 @@ constexpr std::size_t least_aliases = 12;
 constexpr double most_aliases = 2000.0;
 constexpr double undamped_below = 1e-12;  // relative, of what the tip's motions dissipate
 
+// Quicker than the division, which looks for what overflows.
+ComplexNumber reciprocal(ComplexNumber value) { return std::conj(value) / std::norm(value); }
+
+// The real part of n' form n by the products of n.
+Eigen::Matrix<double, 1, 6> by_products(const Eigen::Matrix3cd& form) {
+  Eigen::Matrix<double, 1, 6> row;
+  row << form(0, 0).real(), form(1, 1).real(), form(2, 2).real(), form(0, 1).real() + form(1, 0).real(),
+      form(0, 2).real() + form(2, 0).real(), form(1, 2).real() + form(2, 1).real();
+  return row;
+}
+
 // (K - w^2 + jw D) x = b by elimination with row pivots, in place; columns of `b` side by side.
 void solve_motion(Eigen::MatrixXcd& rows, Eigen::MatrixXcd& b) {
   const Eigen::Index n = rows.rows();
@@ -32,7 +43,7 @@ void solve_motion(Eigen::MatrixXcd& rows, Eigen::MatrixXcd& b) {
       for (Eigen::Index j = k; j < n; ++j) std::swap(rows(k, j), rows(pivot, j));
       for (Eigen::Index j = 0; j < b.cols(); ++j) std::swap(b(k, j), b(pivot, j));
     }
-    const ComplexNumber one_over = 1.0 / rows(k, k);
+    const ComplexNumber one_over = reciprocal(rows(k, k));
     for (Eigen::Index i = k + 1; i < n; ++i) {
       const ComplexNumber factor = rows(i, k) * one_over;
       for (Eigen::Index j = k + 1; j < n; ++j) rows(i, j) -= factor * rows(k, j);
@@ -145,6 +156,14 @@ GraspDiscs::Sample GraspDiscs::at(double angle) const {
       }
       sample.others.push_back(other);
     }
+  }
+  const auto count = static_cast<Eigen::Index>(sample.others.size());
+  sample.left_forms.resize(count, 6);
+  sample.right_forms.resize(count, 6);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Alias& other = sample.others[static_cast<std::size_t>(i)];
+    sample.left_forms.row(i) = other.weight * other.weight * by_products(other.left);
+    sample.right_forms.row(i) = by_products(other.right);
   }
   return sample;
 }

@@ -37,6 +37,9 @@ class GraspDiscs {
     Alias own;
     Eigen::Matrix3cd shift_of_others;
     std::vector<Alias> others;  // without shift
+    // Of the others, a row each: n' weight^2 left n and n' right n by n_x^2, n_y^2, n_z^2, n_x n_y, n_x n_z, n_y n_z.
+    Eigen::Matrix<double, Eigen::Dynamic, 6> left_forms;
+    Eigen::Matrix<double, Eigen::Dynamic, 6> right_forms;
   };
   // 0 < angle = w T <= pi.
   [[nodiscard]] Sample at(double angle) const;

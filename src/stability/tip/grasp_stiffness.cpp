@@ -42,9 +42,11 @@ double least_of_block(const Eigen::MatrixXcd& centre, const Eigen::MatrixXcd& le
 }  // namespace
 
 OthersAlong others_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d& normal) {
-  OthersAlong sum{(normal.transpose() * sample.shift_of_others * normal).value(), 0.0};
-  for (const GraspDiscs::Alias& each : sample.others) sum.radius += radius_along(each, normal);
-  return sum;
+  Eigen::Matrix<double, 6, 1> products;
+  products << normal.x() * normal.x(), normal.y() * normal.y(), normal.z() * normal.z(), normal.x() * normal.y(),
+      normal.x() * normal.z(), normal.y() * normal.z();
+  const auto squares = (sample.left_forms * products).array() * (sample.right_forms * products).array();
+  return {(normal.transpose() * sample.shift_of_others * normal).value(), squares.cwiseMax(0.0).sqrt().sum()};
 }
 
 double least_stiffness_along(const GraspDiscs::Sample& sample, const OthersAlong& others, const Eigen::Vector3d& normal,

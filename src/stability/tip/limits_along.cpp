@@ -12,6 +12,7 @@
 #include "stability/tip/gain_march.hpp"
 #include "stability/tip/grasp_discs.hpp"
 #include "stability/tip/grasp_stiffness.hpp"
+#include "stability/tip/limits_at_pose.hpp"
 #include "stability/tip/tip_response.hpp"
 #include "stability/tip/tip_states.hpp"
 #include "zwidth/error.hpp"
@@ -288,6 +289,34 @@ NormalLimits nobody_along(const Posed& posed, const CrossoverScan& scan, const E
 
 }  // namespace
 
+namespace internal {
+
+struct LimitsAtPose::Scans {
+  Scans(const TipMotion& of, const DeviceParameters& loop, const NormalLimitsOptions& options)
+      : motion(of), posed(motion, loop), crossovers(posed) {
+    if (options.any_grasp) grasps.emplace(posed);
+  }
+  TipMotion motion;
+  Posed posed;
+  CrossoverScan crossovers;
+  std::optional<GraspScan> grasps;
+};
+
+LimitsAtPose::LimitsAtPose(const TipMotion& motion, const DeviceParameters& loop, const NormalLimitsOptions& options)
+    : scans_(std::make_unique<const Scans>(motion, loop, options)) {}
+
+LimitsAtPose::~LimitsAtPose() = default;
+
+NormalLimits LimitsAtPose::nobody_along(const Eigen::Vector3d& normal) const {
+  return zwidth::nobody_along(scans_->posed, scans_->crossovers, normal);
+}
+
+GraspLimit LimitsAtPose::any_grasp_along(const Eigen::Vector3d& normal) const {
+  return scans_->grasps.value().quickly_along(scans_->posed.along(normal));
+}
+
+}  // namespace internal
+
 GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal) {
   const Posed posed(motion, loop);
   return GraspScan(posed).along(posed.along(normal));
@@ -301,14 +330,11 @@ PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DevicePa
 std::vector<NormalLimits> limits_along(const TipMotion& motion, const DeviceParameters& loop,
                                        const std::vector<Eigen::Vector3d>& normals,
                                        const NormalLimitsOptions& options) {
-  const Posed posed(motion, loop);
-  const CrossoverScan crossovers(posed);
-  std::optional<GraspScan> grasps;
-  if (options.any_grasp) grasps.emplace(posed);
+  const internal::LimitsAtPose at(motion, loop, options);
   std::vector<NormalLimits> limits;
   for (const Eigen::Vector3d& normal : normals) {
-    limits.push_back(nobody_along(posed, crossovers, normal));
-    if (grasps) limits.back().any_grasp = grasps->quickly_along(posed.along(normal));
+    limits.push_back(at.nobody_along(normal));
+    if (options.any_grasp) limits.back().any_grasp = at.any_grasp_along(normal);
   }
   return limits;
 }

@@ -6,6 +6,12 @@
 #include "eigenvalues.hpp"
 
 namespace zwidth::internal {
+namespace {
+
+// Quicker than the division, which looks for what overflows.
+std::complex<double> reciprocal(std::complex<double> value) { return std::conj(value) / std::norm(value); }
+
+}  // namespace
 
 TipResponse::TipResponse(const SampledTip& plant) : delay_samples_(static_cast<double>(plant.delay_samples)) {
   const Hessenberg form = hessenberg(plant.Phi);
@@ -29,14 +35,15 @@ Eigen::MatrixXcd TipResponse::at(double angle) const {
       for (Eigen::Index j = k; j < n; ++j) std::swap(rows(k, j), rows(k + 1, j));
       for (Eigen::Index j = 0; j < x.cols(); ++j) std::swap(x(k, j), x(k + 1, j));
     }
-    const std::complex<double> factor = rows(k + 1, k) / rows(k, k);
+    const std::complex<double> factor = rows(k + 1, k) * reciprocal(rows(k, k));
     for (Eigen::Index j = k + 1; j < n; ++j) rows(k + 1, j) -= factor * rows(k, j);
     for (Eigen::Index j = 0; j < x.cols(); ++j) x(k + 1, j) -= factor * x(k, j);
   }
   for (Eigen::Index k = n; k-- > 0;) {
+    const std::complex<double> one_over = reciprocal(rows(k, k));
     for (Eigen::Index j = 0; j < x.cols(); ++j) {
       for (Eigen::Index i = k + 1; i < n; ++i) x(k, j) -= rows(k, i) * x(i, j);
-      x(k, j) /= rows(k, k);
+      x(k, j) *= one_over;
     }
   }
   return std::polar(1.0, -angle * delay_samples_) * (output_ * x);

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/mujoco_file.hpp"
+#include "mechanism/refusal.hpp"
+#include "mechanism/tip_reach.hpp"
+#include "mechanism/transmissions.hpp"
+#include "zwidth/mechanism.hpp"
+
+namespace zwidth {
+namespace {
+
+JointPositions with(JointPositions pose, const JointPositions& given) {
+  for (const auto& [joint, position] : given) pose[joint] = position;
+  return pose;
+}
+
+// The numbers of joints whose motions are independent of each other where no cable is stretched, in the order given.
+std::vector<std::size_t> independent(const MechanismAtPose& at, const std::vector<std::size_t>& in_order) {
+  std::vector<std::size_t> found;
+  Eigen::MatrixXd rows = at.cables;
+  for (const std::size_t joint : in_order) {
+    Eigen::MatrixXd more(rows.rows() + 1, at.mass.cols());
+    more << rows, at.joint_motions.row(static_cast<Eigen::Index>(joint));
+    if (more.bottomRows(1).isZero(0.0) || internal::rank_of(more) < more.rows()) continue;
+    rows = std::move(more);
+    found.push_back(joint);
+  }
+  return found;
+}
+
+}  // namespace
+
+class MechanismModel::Read {
+ public:
+  explicit Read(const MechanismFile& file)
+      : of_(file),
+        mujoco_(internal::open_mujoco_file(file)),
+        joints_(mujoco_->joints()),
+        at_file_pose_(linearised(file.pose)) {
+    std::vector<std::size_t> in_order;
+    for (const int kind : {0, 1, 2, 3}) {
+      for (std::size_t i = 0; i < joints_.size(); ++i) {
+        if (rank(i) == kind) in_order.push_back(i);
+      }
+    }
+    pose_joints_ = independent(at_file_pose_, in_order);
+    std::ranges::sort(pose_joints_);
+    for (const std::size_t each : pose_joints_) joints_[each].is_of_pose = true;
+  }
+
+  [[nodiscard]] MechanismAtPose linearised(const JointPositions& pose) const {
+    auto [at, of_joints] = mujoco_->at(pose);
+    for (std::size_t i = 0; i < of_.transmissions.size(); ++i) {
+      const Transmission& each = of_.transmissions[i];
+      const int joint = mujoco_->joint(fmt::format("transmission.{}.joint", i), each.joint);
+      internal::add_transmission(at, joint, each, of_.encoders.empty());
+    }
+    if (at.motors.rows() == 0) internal::refuse_mechanism("mechanism.file", {.code = ProblemCode::no_motor});
+    if (of_joints.cols() == of_joints.rows()) return internal::without_springs(std::move(at));  // no loops
+    const Eigen::Index motors = at.mass.rows() - of_joints.rows();
+    Eigen::MatrixXd free = Eigen::MatrixXd::Zero(at.mass.rows(), of_joints.cols() + motors);
+    free.topLeftCorner(of_joints.rows(), of_joints.cols()) = of_joints;
+    free.bottomRightCorner(motors, motors).setIdentity();
+    return internal::without_springs(internal::with_loops(at, free));
+  }
+
+  [[nodiscard]] const MechanismFile& file() const { return of_; }
+  [[nodiscard]] const std::vector<MechanismJoint>& joints() const { return joints_; }
+  [[nodiscard]] const std::vector<std::size_t>& pose_joints() const { return pose_joints_; }
+  [[nodiscard]] const MechanismAtPose& at_file_pose() const { return at_file_pose_; }
+
+ private:
+  // Which joints are asked first whether they give the pose.
+  [[nodiscard]] int rank(std::size_t joint) const {
+    if (of_.pose.contains(joints_[joint].name)) return 0;
+    if (!joints_[joint].is_driven) return 2;
+    const Eigen::MatrixXd along = at_file_pose_.cables * at_file_pose_.joint_motions.transpose();
+    return along.col(static_cast<Eigen::Index>(joint)).isZero(0.0) ? 1 : 3;
+  }
+
+  MechanismFile of_;
+  std::unique_ptr<const internal::MujocoFile> mujoco_;
+  std::vector<MechanismJoint> joints_;
+  MechanismAtPose at_file_pose_;
+  std::vector<std::size_t> pose_joints_;
+};
+
+MechanismModel::MechanismModel(const MechanismFile& file) : read_(std::make_shared<const Read>(file)) {}
+
+const std::vector<MechanismJoint>& MechanismModel::joints() const { return read_->joints(); }
+
+std::vector<std::string> MechanismModel::pose_joints() const {
+  std::vector<std::string> names;
+  for (const std::size_t each : read_->pose_joints()) names.push_back(joints()[each].name);
+  return names;
+}
+
+const MechanismFile& MechanismModel::file() const { return read_->file(); }
+
+MechanismAtPose MechanismModel::at(const JointPositions& pose) const {
+  if (pose.empty()) return read_->at_file_pose();
+  return read_->linearised(with(file().pose, pose));
+}
+
+MechanismModel::Reached MechanismModel::reach(const Eigen::Vector3d& point) const {
+  if (!point.allFinite()) internal::refuse_mechanism("mechanism.tip", {.code = ProblemCode::not_finite});
+  return internal::reached_by(*this, read_->pose_joints(), point);
+}
+
+MechanismAtPose at_pose(const MechanismFile& file) { return MechanismModel(file).at(); }
+
+}  // namespace zwidth
