@@ -19,7 +19,7 @@ set(slow
   "^EncoderRounding\\.IsTaken"
   "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
-  "^MechanismOfProgram\\."
+  "^(MechanismOfProgram|MechanismWorkspace)\\."
   # the library
   "^SimulatedWall\\."
   "^PointWall\\.(PlanarArm|IsThat)"

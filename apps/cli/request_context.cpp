@@ -44,10 +44,11 @@ Progress of_reading(const RequestContext* own, const Progress& progress) {
   return [&progress](double) { progress(0.0); };
 }
 
-/// A wall in every direction has no answer but analyze's.
+/// A wall in every direction has no answer but analyze's; a workspace has directions of its own.
 tl::expected<Device, InputError> of_one_direction(const CLI::App& command, const std::string& name,
                                                   tl::expected<Device, InputError> device) {
-  if (!device || !is_point_wall(*device) || command.get_name() == "analyze") return device;
+  const bool asks_no_direction = command.get_name() == "analyze" || command.get_name() == "workspace";
+  if (!device || !is_point_wall(*device) || asks_no_direction) return device;
   return tl::unexpected(
       InputError({.file = name, .key = "mechanism.normal"}, {.code = ProblemCode::point_wall_not_known}));
 }
