@@ -22,6 +22,8 @@ set(slow
   "^(MechanismOfProgram|MechanismWorkspace)\\."
   # the library
   "^SimulatedWall\\."
+  "^Workspace\\.(PlanarArm|NoDirection|InSpace|IsThatOf|TakesTheRanges)"
+  "^MechanismModel\\.(IsAtEvery|ReachesPoints)"
   "^PointWall\\.(PlanarArm|IsThat)"
   "^(GraspLimit\\.NoRandom|LimitsAlong\\.AreThose)"
   "^AlikeBranches\\.(Nearly|Six)"

@@ -13,8 +13,9 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double reached_to = 1e-9;   // m
-constexpr double settled_to = 1e-13;  // m, from the point
+constexpr double reached_to = 1e-9;    // m
+constexpr double settled_to = 1e-13;   // m, from the point
+constexpr double no_closer_by = 1e-9;  // relative, of a step: the tip comes no closer
 constexpr int most_steps_of_reach = 200;
 constexpr double first_damping = 1e-3;  // of the steps, relative to the largest slope
 constexpr double least_damping = 1e-12;
@@ -44,7 +45,9 @@ class Reach {
     for (int step = 0; step < most_steps_of_reach && there->off.norm() > settled_to; ++step) {
       const std::optional<There> next = at(kept(there->position - move(*there, damping)));
       if (next && next->off.norm() < there->off.norm()) {
+        const bool is_least = there->off.norm() - next->off.norm() < no_closer_by * there->off.norm();
         there = next;
+        if (is_least) break;
         damping = std::max(damping * eased, least_damping);
       } else if ((damping *= stiffened) > greatest_damping) {
         break;
