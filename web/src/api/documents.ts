@@ -17,6 +17,8 @@ export type {
   Trust,
   WallPoint,
   WallToRender,
+  Workspace,
+  WorkspacePose,
 } from './generated/documents'
 export type { Design, DesignSweep as Sweep, DesignTarget as Target, WallRecommendation as Recommendation } from './generated/documents'
 
@@ -38,35 +40,4 @@ export interface Example {
   name: string
   opened: boolean
   device_toml: string
-}
-
-interface WorkspaceValue {
-  value: number | null // null: every wall is stable
-  normal: number[]
-  frequency_hz: number | null
-}
-export interface WorkspacePose {
-  pose: (number | null)[]
-  tip: number[] | null
-  problem: { code: string; what: string; allowed: string } | null
-  least: WorkspaceValue | null
-  greatest: WorkspaceValue | null
-  least_any_user: WorkspaceValue | null
-  directions?: { normal: number[]; status: string; nobody: number | null; any_user: number | null }[]
-}
-type WorkspaceLeast = WorkspaceValue & { pose: (number | null)[]; tip: number[] | null; limited_by: made.Mechanism | null }
-export interface Workspace {
-  device: string
-  units: { stiffness: string; length: string }
-  joints: { name: string; unit: string }[]
-  tip_directions: number
-  least: WorkspaceLeast | null
-  least_any_user: WorkspaceLeast | null
-  quantiles: { probability: number; nobody: number | null; any_user: number | null }[]
-  share_at_least: { stiffness: number; nobody: number; any_user: number | null } | null
-  refused_poses: number
-  poses: WorkspacePose[]
-  trust: made.Trust
-  remarks: made.Remark[]
-  findings: made.Finding[]
 }
