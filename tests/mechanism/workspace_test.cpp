@@ -249,6 +249,46 @@ TEST(Workspace, ASingularPoseIsReported) {
   EXPECT_EQ(along.least->pose, 1U);
 }
 
+// Ever less the tip moves along the arm: the limit there rises, and the least stays.
+TEST(Workspace, BesideASingularPoseNothingBreaks) {
+  const Device device = workspace_device(workspace_arm(0.3, 1.2));
+  std::vector<JointPositions> poses;
+  for (const double elbow : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9}) poses.push_back({{"elbow", elbow}});
+  const Workspace found = workspace(device, {.poses = poses, .directions = 6});
+  EXPECT_TRUE(found.trust.sound());
+  double greatest = 0.0;
+  for (const WorkspacePose& pose : found.poses) {
+    ASSERT_TRUE(pose.least && pose.least_any_user);
+    EXPECT_NEAR(pose.least->nobody / found.poses[0].least->nobody, 1.0, 2e-2);
+    if (pose.directions.size() == 1U) continue;
+    EXPECT_EQ(pose.directions.size(), 6U);
+    EXPECT_GE(pose.greatest->nobody, greatest);
+    greatest = pose.greatest->nobody;
+  }
+  EXPECT_EQ(found.poses.back().refused.size(), 1U);
+}
+
+// A slide that nothing drives lets the tip float: walls across it are known, one by one, and along it none.
+TEST(Workspace, WhatMotorsDoNotPushIsRefusedByDirection) {
+  MechanismFile file;
+  file.tip = "tip";
+  file.text =
+      R"(<mujoco><compiler angle="radian" autolimits="true"/><worldbody><body><joint name="one" axis="0 0 1" damping="0.01"/>
+    <inertial pos="0.1 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/><body pos="0.2 0 0"><joint name="two" axis="0 0 1" damping="0.01"/>
+    <inertial pos="0.1 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/><body pos="0.2 0 0"><joint name="float" type="slide" axis="0 0 1"
+    damping="0.1"/><inertial pos="0 0 0" mass="0.01" diaginertia="1e-6 1e-6 1e-6"/><site name="tip"/></body></body></body></worldbody>
+    <actuator><motor joint="one"/><motor joint="two"/></actuator></mujoco>)";
+  file.pose = {{"one", 0.2}, {"two", 0.9}};
+  const Device device = workspace_device(file);
+  const Workspace found =
+      workspace(device, {.poses = {{}}, .normals = {{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}}});
+  ASSERT_EQ(found.poses[0].directions.size(), 2U);
+  EXPECT_EQ(found.poses[0].directions[0].nobody, critical_stiffness(device).stiffness);
+  EXPECT_TRUE(found.poses[0].directions[0].any_user.has_value());
+  ASSERT_EQ(found.poses[0].refused.size(), 1U);
+  EXPECT_EQ(found.poses[0].refused[0].problem.code, ProblemCode::tip_not_determined_by_encoders);
+}
+
 TEST(Workspace, AWallWithFiltersIsAnsweredOneByOne) {
   DeviceParameters parameters = workspace_device(workspace_arm(0.3, 1.2)).parameters();
   parameters.wall.filters = {WallFilter{.frequency_hz = 100.0}};
