@@ -16,6 +16,7 @@
 #include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/workspace_arguments.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/text_medium.hpp"
 #include "report/text/workspace_text.hpp"
 #include "results/workspace_json.hpp"
@@ -94,6 +95,7 @@ void run_workspace(const WorkspaceArguments& arguments) {
   }
   outputs.put("--csv", [&] { return results::workspace_csv(found); });
   outputs.put(worst_option, [&] { return worst; });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_workspace(device, found, format); });
   outputs.commit();
   outputs.print(answer);
 }
@@ -127,7 +129,9 @@ void add_workspace(CLI::App& app) {
   command->add_option("--threads", arguments->threads, "0: all cores; no result depends on it (default: 0)")
       ->type_name("N");
   add_output_options(*command, arguments->output,
-                     {.csv = "Also write a row for every pose and direction that was tried", .explain = explain_help});
+                     {.csv = "Also write a row for every pose and direction that was tried",
+                      .figure = "Also draw a map: .svg, .png or .pdf",
+                      .explain = explain_help});
   command->add_flag("--all-directions", arguments->all_directions,
                     "With --json: each pose's limits in all directions tried, too");
   command
@@ -142,7 +146,7 @@ void add_workspace(CLI::App& app) {
       "  zwidth workspace devices/mechanisms/planar_arm.toml --points 0.3,0.2,0 \\\n"
       "    --normals \"1,0,0;0,1,0\" --json\n"
       "  zwidth workspace devices/mechanisms/planar_arm.toml \\\n"
-      "    --poses \"shoulder=0.3,elbow=20:150:5 deg\" --worst-to worst.toml");
+      "    --poses \"shoulder=0.3,elbow=20:150:5 deg\" --output map.svg --worst-to worst.toml");
   command->callback([arguments] { run_workspace(*arguments); });
 }
 

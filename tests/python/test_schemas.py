@@ -58,7 +58,7 @@ OTHERS = [
     ["workspace", ARM, "--poses", "shoulder=0,elbow=0:2:3", "--stiffness", "300"],
     ["workspace", ARM, "--points", "0.3,0.2,0;2,0,0", "--normals", "1,0,0;0,1,0", "--all-directions"],
     ["workspace", ARM, "--points", "2,0,0"],
-    ["workspace", "devices/mechanisms/pantograph.toml", "--poses", "theta1=30:60:2 deg,theta5=120:150:2 deg"],
+    ["workspace", "devices/mechanisms/pantograph.toml", "--poses", "theta1=30:60:2deg,theta5=120:150:2deg"],
 ]
 LOOP = "[loop]\nsampling_period = 1e-3\n"
 BODY = '[[body]]\nname = "a"\nmass = 1\ndamping = 1\n'

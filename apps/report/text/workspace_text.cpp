@@ -93,8 +93,8 @@ class WorkspaceWriter {
   [[nodiscard]] std::string holder(Holder who, const WorkspaceLimit& limit) const {
     const WorkspacePose& pose = workspace_.poses[limit.pose];
     return labelled(fmt::format("  {}", words_of(who)), limit_text(who, limit)) +
-           labelled("", fmt::format("at {}, tip {} m, normal {}", pose_text(pose), vector_text(pose.tip),
-                                    vector_text(limit.normal)));
+           labelled("", "at " + pose_text(pose)) +
+           labelled("", fmt::format("normal {}, tip {} m", vector_text(limit.normal), vector_text(pose.tip)));
   }
 
   [[nodiscard]] TextTable quantile_table() const {
