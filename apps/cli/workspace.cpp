@@ -109,9 +109,9 @@ void add_workspace(CLI::App& app) {
   add_device_arguments(*command, arguments->devices, FileCount::one);
   command
       ->add_option("--poses", arguments->texts.poses,
-                   "A grid: FIRST:LAST:COUNT, or one value, of each joint, in rad, m or with\n"
+                   "JOINT=FIRST:LAST:COUNT or JOINT=VALUE, parted by commas, in rad, m or with\n"
                    "a unit (default: the ranges in the mechanism's file)")
-      ->type_name("JOINT=FIRST:LAST:COUNT,...")
+      ->type_name("GRID")
       ->allow_extra_args(false);
   command
       ->add_option("--points", arguments->texts.points,

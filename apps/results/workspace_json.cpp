@@ -103,7 +103,6 @@ Json pose_json(const Workspace& workspace, const WorkspacePose& pose, Directions
                {"point", pose.point},
                {"problem", problem_json(pose.problem)},
                {"least", nobody_json(pose.least)},
-               {"limited_by", pose.limited_by},
                {"greatest", nobody_json(pose.greatest)},
                {"least_any_user", any_user_json(pose.least_any_user)},
                {"refused_directions", refused_directions_json(pose)}};

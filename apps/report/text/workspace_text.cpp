@@ -145,11 +145,11 @@ class WorkspaceWriter {
                       });
     TextTable table;
     std::vector<std::string> heads = workspace_.pose_joints;
-    heads.insert(heads.end(), {"tip (m)", "nobody: least", "greatest", "limited by"});
+    heads.insert(heads.end(), {"tip (m)", "nobody: least", "greatest"});
     if (has_any_user()) heads.emplace_back("any user: least");
     heads.emplace_back("along");
     for (const std::string& head : heads) {
-      const bool is_text = head == "along" || head == "tip (m)" || head == "limited by";
+      const bool is_text = head == "along" || head == "tip (m)";
       table.alignment.push_back(is_text ? Align::left : Align::right);
     }
     table.rows.push_back(heads);
@@ -192,7 +192,6 @@ class WorkspaceWriter {
     row.push_back(vector_text(pose.tip));
     row.push_back(limit_value_text(pose.least->nobody, tip_stiffness_unit));
     row.push_back(pose.greatest ? limit_value_text(pose.greatest->nobody, tip_stiffness_unit) : "?");
-    row.push_back(pose.limited_by ? short_name(*pose.limited_by) : "-");
     const std::optional<DirectionLimits>& worst = has_any_user() ? pose.least_any_user : pose.least;
     if (has_any_user()) {
       row.push_back(worst && worst->any_user ? limit_value_text(*worst->any_user, tip_stiffness_unit) : "?");
