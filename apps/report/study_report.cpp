@@ -275,7 +275,7 @@ std::string study_page(const StudyRun& run, const Study& study) {
                               element("p", version) + "</footer>");
 }
 
-std::string worst_device_file(const StudyRun& run, const Study& study) {
+std::string worst_device_file(const StudyRun& /*run*/, const Study& study) {
   Trust whole = study.trust;
   whole.inherit(study.worst->critical.trust);
   return worst_device_text(study.worst->device, "worst unit of a study", whole);
