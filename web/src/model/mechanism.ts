@@ -23,13 +23,14 @@ export function withMechanismText(toml: string, text: string): string {
   return set(unset(toml, ['mechanism', 'file']), ['mechanism', 'text'], tomlOfLines(text))
 }
 
-/** A device of a mechanism's file alone: what it needs besides is assumed, and said to be. */
+/** A device of a mechanism's file alone: what it needs besides is assumed, and said to be. The wall begins in
+ * every direction, for along one alone the tip may not move where the file has it. */
 export function deviceOfMechanism(name: string, text: string): string {
   const tip = likelyTip(text)
   return `name = ${JSON.stringify(name)}
 
 [mechanism]
-${tip === undefined ? '' : `tip = ${JSON.stringify(tip)}\n`}normal = [1, 0, 0]
+${tip === undefined ? '' : `tip = ${JSON.stringify(tip)}\n`}normal = "all"
 text = ${tomlOfLines(text)}
 
 [loop]

@@ -78,6 +78,7 @@ describe('a mechanism in a device file', () => {
     expect(scan(toml).complete).toBe(true)
     expect(value(toml, 'name')).toBe('arm "one"')
     expect(value(toml, 'mechanism', 'tip')).toBe('tip')
+    expect(value(toml, 'mechanism', 'normal')).toBe('all')
     expect(value(toml, 'uncertainty', 'assumed')).toEqual(['loop.sampling_period'])
   })
 
