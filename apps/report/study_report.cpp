@@ -38,9 +38,9 @@ std::string wanted_text(const StudyRun& run) {
 std::string yield_sentence(const StudyRun& run, const Study& study) {
   if (!study.yield) return "Nothing is specified: there is no yield to state.";
   const Proportion& share = *study.yield;
-  return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).", share_text(share.value),
-                     wanted_text(run), share_text(share.lower), share_text(share.upper), share.total - share.count,
-                     share.total);
+  return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).",
+                     share_of_all_text(share.value), wanted_text(run), share_of_all_text(share.lower),
+                     share_of_all_text(share.upper), share.total - share.count, share.total);
 }
 
 TextTable quantile_table(const StudyRun& run, const Study& study) {
@@ -115,7 +115,8 @@ TextTable cluster_table(const Study& study) {
                                              quantity(hertz(*each.highest_frequency), "Hz"))
                                : std::string("-");
     table.rows.push_back({mechanism_of(each.status, each.limited_by ? each.limited_by->mode : -1),
-                          std::to_string(each.count), share_text(each.share), at, common.empty() ? "nothing" : common});
+                          std::to_string(each.count), share_of_all_text(each.share), at,
+                          common.empty() ? "nothing" : common});
   }
   return table;
 }
@@ -275,7 +276,7 @@ std::string study_page(const StudyRun& run, const Study& study) {
                               element("p", version) + "</footer>");
 }
 
-std::string worst_device_file(const StudyRun& /*run*/, const Study& study) {
+std::string worst_device_file(const Study& study) {
   Trust whole = study.trust;
   whole.inherit(study.worst->critical.trust);
   return worst_device_text(study.worst->device, "worst unit of a study", whole);

@@ -23,12 +23,12 @@ struct MechanismAtPose {
   Eigen::MatrixXd mass;                          ///< M, n x n
   std::vector<Coordinates::Element> elements;    ///< springs and dampers of joints and cables
   std::vector<Coordinates::Friction> frictions;  ///< of joints and cables
-  Eigen::MatrixXd cables;       ///< T, whose lengths T q the controller takes for constant: those with stiffness
-  Eigen::MatrixXd motors;       ///< A_m: a row a motor
-  Eigen::MatrixXd encoders;     ///< A_e: a row an encoder
-  Eigen::MatrixXd tip;          ///< J, 3 x n, in the world's frame
+  Eigen::MatrixXd cables;              ///< T, whose lengths T q the controller takes for constant: those with stiffness
+  Eigen::MatrixXd motors;              ///< A_m: a row a motor
+  Eigen::MatrixXd encoders;            ///< A_e: a row an encoder
+  Eigen::MatrixXd tip;                 ///< J, 3 x n, in the world's frame
   Eigen::MatrixXd joint_motions = {};  ///< of the file's joints: a row a joint of MechanismModel::joints()
-  Eigen::VectorXd joints = {};  ///< where the file's joints are, as MechanismModel::joints()
+  Eigen::VectorXd joints = {};         ///< where the file's joints are, as MechanismModel::joints()
   Eigen::Vector3d tip_position = Eigen::Vector3d::Zero();  ///< m, in the world's frame
 };
 
@@ -66,6 +66,10 @@ class MechanismModel {
 
   /// What was read, with its pose.
   [[nodiscard]] const MechanismFile& file() const;
+
+  /// What was read of the file and of those that it includes, as one text that names no file: `text` of a MechanismFile
+  /// without a path. Each element of the file stands in its line; what does not count is left out.
+  [[nodiscard]] std::string text() const;
 
   /// The mechanism where these joints are there, and of others those of the file's pose. Throws Error as at_pose() does.
   [[nodiscard]] MechanismAtPose at(const JointPositions& pose = {}) const;

@@ -50,6 +50,7 @@ WorkspacePose pose_at(const Eigen::Vector3d& tip, double softest, bool is_spatia
 Workspace found(std::size_t tip_directions, bool is_spatial = false) {
   Workspace workspace;
   workspace.joints = {{.name = "elbow", .motion = Motion::rotary}, {.name = "slide", .motion = Motion::linear}};
+  workspace.pose_joints = {"elbow", "slide"};
   workspace.tip_directions = tip_directions;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {

@@ -15,6 +15,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "results/workspace_json.hpp"
 #include "zwidth/workspace.hpp"
 
 namespace zwidth::report {
@@ -136,9 +137,12 @@ class WorkspaceFigure {
   /// "shoulder 17.19°, slide 20 mm".
   [[nodiscard]] std::string pose_text(const WorkspacePose& pose) const {
     std::string text;
-    for (const auto& [joint, position] : pose.pose) {
-      const auto found = std::ranges::find(workspace_.joints, joint, &MechanismJoint::name);
-      const bool is_slide = found != workspace_.joints.end() && found->motion == Motion::linear;
+    const std::vector<double> positions = results::pose_positions(workspace_, pose);
+    const std::vector<Motion> motions = results::pose_motions(workspace_);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const std::string& joint = workspace_.pose_joints[i];
+      const double position = positions[i];
+      const bool is_slide = motions[i] == Motion::linear;
       text +=
           fmt::format("{}{} {}", text.empty() ? "" : ", ", joint,
                       is_slide ? quantity(position, "m") : fmt::format("{:.4g}°", position * 180.0 / std::numbers::pi));

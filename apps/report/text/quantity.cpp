@@ -35,7 +35,7 @@ std::string parameter_text(const std::string& key, double value, Motion motion) 
                                                                     : fmt::format("{} {}", number(value), unit);
 }
 
-std::string share_text(double share) {
+std::string share_of_all_text(double share) {
   const double rest = std::min(share, 1.0 - share);
   const int digits = rest <= 0.0 ? 2 : std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(rest * 100.0))), 2, 8);
   return fmt::format("{:.{}f} %", 100.0 * share, digits);

@@ -119,8 +119,9 @@ class WorkspaceWriter {
   [[nodiscard]] static std::string share_sentence(const WorkspaceShare& share) {
     std::string text =
         fmt::format("A wall of {} is stable in {} of them with {}", quantity(share.stiffness, tip_stiffness_unit),
-                    share_text(share.nobody), words_of(Holder::nobody));
-    if (share.any_user) text += fmt::format(", in {} with {}", share_text(*share.any_user), words_of(Holder::any_user));
+                    share_of_all_text(share.nobody), words_of(Holder::nobody));
+    if (share.any_user)
+      text += fmt::format(", in {} with {}", share_of_all_text(*share.any_user), words_of(Holder::any_user));
     return text + ".";
   }
 

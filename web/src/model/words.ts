@@ -51,7 +51,7 @@ export const holderWord = (of: Analysis | null, holder: HolderLimit | null | und
                 : limitWord(of)
 
 /** The bounds of the limit with any passive user, of a wall in every direction. */
-export const boundsWord = ({ point_wall: point, units }: Analysis): string => {
+const boundsWord = ({ point_wall: point, units }: Analysis): string => {
   const bounds = point?.any_user
   if (!bounds) return 'not known'
   if (bounds.at_least === null) return 'every wall is stable'
@@ -59,6 +59,10 @@ export const boundsWord = ({ point_wall: point, units }: Analysis): string => {
   const [least, most] = [bounds.at_least, bounds.at_most].map((each) => (each === null ? '' : say(each, units.stiffness)))
   return least === most || !most ? `at least ${least}` : `${least} to ${most}`
 }
+
+/** With any passive user: of a wall in every direction bounds are known, else a limit. */
+export const anyUserLimitWord = (of: Analysis): string =>
+  of.point_wall && of.status !== 'refused' ? boundsWord(of) : holderWord(of, of.limits.any_user)
 
 /** "(−0.93, 0.36, 0)" */
 export const directionWord = (direction: number[]): string =>

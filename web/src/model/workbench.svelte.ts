@@ -3,7 +3,7 @@
 import { decode, encode, type Decoded } from './address'
 import { written } from './decimal'
 import { History } from './history'
-import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Joint, type Row } from './keys'
+import { deviceKey, fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Joint, type Row } from './keys'
 import { empty, type Settings, type Snapshot } from './snapshot'
 import { confirm } from './parts'
 import { scan, set, unset } from './toml'
@@ -33,7 +33,8 @@ class Workbench {
   scanned = $derived(scan(this.toml))
   private before: Group[] = []
   /** Of a mechanism, as the program's newest answer has them. */
-  joints = $state.raw<Joint[]>([])
+  private learned = $state.raw<{ joints: Joint[]; of: string }>({ joints: [], of: '' })
+  joints: Joint[] = $derived(this.learned.of === deviceKey(this.toml) ? this.learned.joints : [])
   groups: Group[] = $derived((this.before = groupsOf(this.scanned, this.before, this.joints)))
   private rows = $derived(new Map(this.groups.flatMap((group) => group.rows.map((row) => [row.key, row]))))
   shape = $derived(shapeOf(this.scanned))
@@ -80,6 +81,11 @@ class Workbench {
   /** The whole state of a link, as one step. */
   follow(state: Snapshot): void {
     if (JSON.stringify(state) !== JSON.stringify(this.state)) this.change(state)
+  }
+
+  /** Where the joints of that device are. */
+  learn(joints: Joint[], toml: string): void {
+    this.learned = { joints, of: deviceKey(toml) }
   }
 
   row(key: string): Row | undefined {
