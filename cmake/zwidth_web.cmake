@@ -2,10 +2,10 @@
 # (ZWIDTH_WEB=ON), or was before (ZWIDTH_FRONT_END); without it the program serves a page that says how.
 set(embed ${PROJECT_SOURCE_DIR}/cmake/zwidth_embed.cmake)
 
-file(GLOB devices CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/devices/*.toml)
+file(GLOB_RECURSE devices CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/devices/*.toml ${PROJECT_SOURCE_DIR}/devices/*.xml)
 set(devices_source ${CMAKE_CURRENT_BINARY_DIR}/embedded_devices.cpp)
 add_custom_command(OUTPUT ${devices_source} DEPENDS ${devices} ${embed} VERBATIM
-  COMMAND ${CMAKE_COMMAND} -D FOLDER=${PROJECT_SOURCE_DIR}/devices -D PATTERNS=*.toml -D FUNCTION=embedded_devices
+  COMMAND ${CMAKE_COMMAND} -D FOLDER=${PROJECT_SOURCE_DIR}/devices -D "PATTERNS=*.toml;*.xml" -D FUNCTION=embedded_devices
     -D OUTPUT=${devices_source} -P ${embed})
 
 set(web ${PROJECT_SOURCE_DIR}/web)

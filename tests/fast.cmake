@@ -19,7 +19,7 @@ set(slow
   "^EncoderRounding\\.IsTaken"
   "^CampaignKinds\\.ALinear"
   "^Fourier\\.ALargePrime"
-  "^MechanismOfProgram\\."
+  "^(MechanismOfProgram|MechanismWorkspace)\\."
   # the library
   "^SimulatedWall\\."
   "^Workspace\\.(PlanarArm|NoDirection|InSpace|IsThatOf|TakesTheRanges)"

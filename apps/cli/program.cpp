@@ -90,7 +90,8 @@ constexpr std::array command_table{NamedCommand{"analyze", add_analyze},
                                    NamedCommand{"rig", add_rig},
                                    NamedCommand{"serve", add_serve},
                                    NamedCommand{"simulate", add_simulate},
-                                   NamedCommand{"study", add_study}};
+                                   NamedCommand{"study", add_study},
+                                   NamedCommand{"workspace", add_workspace}};
 
 /// The command that is `asked` for, or all of them: the options of all take as long as an answer.
 void add_commands(CLI::App& app, std::string_view asked) {

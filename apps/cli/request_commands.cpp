@@ -48,7 +48,8 @@ constexpr std::array offered_commands{OfferedCommand{"analyze", add_analyze, pos
                                       OfferedCommand{"region", add_region, positional, ""},
                                       OfferedCommand{"relay", add_relay, positional, "--recording"},
                                       OfferedCommand{"simulate", add_simulate, positional, "--user-force"},
-                                      OfferedCommand{"study", add_study, positional, "", "--study"}};
+                                      OfferedCommand{"study", add_study, positional, "", "--study"},
+                                      OfferedCommand{"workspace", add_workspace, positional, ""}};
 
 struct Refused {
   Problem problem;

@@ -79,7 +79,7 @@ tl::expected<Device, InputError> read_named_device(const CLI::App& command, cons
   if (own == nullptr) return read_device_file(name, overrides);
   const auto found = own->devices.find(name);
   if (found == own->devices.end()) return tl::unexpected(no_such_name(name, "must be the device given with it"));
-  return parse_device(found->second, name, overrides, FilesBeside::refused);
+  return parse_device(found->second, name, overrides, own->bounds.files);
 }
 
 tl::expected<StudyFile, InputError> read_named_study(const CLI::App& command, const std::string& name,

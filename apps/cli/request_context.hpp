@@ -27,6 +27,7 @@ struct RequestBounds {
   std::size_t threads = std::numeric_limits<std::size_t>::max();
   std::size_t answer = std::numeric_limits<std::size_t>::max();    ///< bytes
   std::size_t unpacked = std::numeric_limits<std::size_t>::max();  ///< bytes of a recording that came compressed
+  FilesBeside files = FilesBeside::refused;  ///< that the text of a device names; Python reads them
 };
 
 /// What a command reads and writes where it does not run on the command line: the names that its arguments give stand

@@ -20,6 +20,7 @@
 #include "server/http/embedded_files.hpp"
 #include "server/http/http_server.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/mechanism.hpp"
 
 extern char** environ;
 
@@ -32,16 +33,38 @@ struct ServeArguments {
   bool opens = false;
 };
 
+/// What the device file of a mechanism names stands in it: nobody but this program can read that file.
+DeviceParameters with_mechanism_text(DeviceParameters device) {
+  if (!device.mechanism) return device;
+  MechanismFile& mechanism = device.mechanism->mechanism;
+  if (mechanism.text.empty()) mechanism.text = MechanismModel(mechanism).text();
+  mechanism.path.clear();
+  return device;
+}
+
+/// The same of a device that comes with the program, comments and all.
+std::string with_embedded_mechanism(const server::EmbeddedFile& device) {
+  std::string toml(device.bytes);
+  for (const server::EmbeddedFile& each : server::embedded_devices()) {
+    if (!each.name.ends_with(".xml")) continue;
+    const std::string named = fmt::format("file = \"{}\"\n", std::filesystem::path(each.name).filename().string());
+    const std::size_t at = toml.find(named);
+    if (at != std::string::npos) toml.replace(at, named.size(), fmt::format("text = '''\n{}'''\n", each.bytes));
+  }
+  return toml;
+}
+
 /// The devices of the command line first, then those that come with the program.
 std::vector<server::OfferedDevice> offered_devices(const DeviceArguments& arguments) {
   std::vector<server::OfferedDevice> offered;
   const std::vector<Device> devices = read_devices(arguments);
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const std::string name = std::filesystem::path(arguments.files[i]).filename().string();
-    offered.push_back({name, write_device(devices[i].parameters()), true});
+    offered.push_back({name, write_device(with_mechanism_text(devices[i].parameters())), true});
   }
   for (const server::EmbeddedFile& file : server::embedded_devices()) {
-    offered.push_back({std::string(file.name), std::string(file.bytes), false});
+    if (!file.name.ends_with(".toml") || file.name.starts_with("studies/")) continue;
+    offered.push_back({std::string(file.name), with_embedded_mechanism(file), false});
   }
   return offered;
 }

@@ -154,8 +154,8 @@ void run_study(const StudyArguments& arguments) {
   if (!arguments.worst.empty() && !study->worst)
     throw WorkFailed("--output-device: no unit has a limit: there is no worst one");
   outputs.put("--report", [&] { return report::study_page(run, *study); });
-  outputs.put("--output-device", [&] { return report::worst_device_file(run, *study); });
-  if (study->worst) hand_over_device(*arguments.devices.command, report::worst_device_file(run, *study));
+  outputs.put("--output-device", [&] { return report::worst_device_file(*study); });
+  if (study->worst) hand_over_device(*arguments.devices.command, report::worst_device_file(*study));
   outputs.commit();
   outputs.print(arguments.output.json ? results::line(results::study_json(run, *study))
                                       : report::for_medium(report::study_text(run, *study)));

@@ -136,5 +136,6 @@ void add_rig(CLI::App& app);
 void add_serve(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_study(CLI::App& app);
+void add_workspace(CLI::App& app);
 
 }  // namespace zwidth::cli

@@ -12,7 +12,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
-#include "zwidth/io/device_file.hpp"
+#include "report/worst_device.hpp"
 #include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/remark.hpp"
 
@@ -23,13 +23,6 @@ std::string unit_stiffness_text(const StudyRun& run, double value) {
   if (std::isnan(value)) return "none";
   if (std::isinf(value)) return "unbounded";
   return quantity(value, units_of(run.device().parameters().motion).stiffness);
-}
-
-/// With as many digits as tell it from 0 % and from 100 %.
-std::string share_of_units_text(double share) {
-  const double rest = std::min(share, 1.0 - share);
-  const int digits = rest <= 0.0 ? 2 : std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(rest * 100.0))), 2, 8);
-  return fmt::format("{:.{}f} %", 100.0 * share, digits);
 }
 
 std::string wanted_text(const StudyRun& run) {
@@ -47,8 +40,8 @@ std::string yield_sentence(const StudyRun& run, const Study& study) {
   if (!study.yield) return "Nothing is specified: there is no yield to state.";
   const Proportion& share = *study.yield;
   return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).",
-                     share_of_units_text(share.value), wanted_text(run), share_of_units_text(share.lower),
-                     share_of_units_text(share.upper), share.total - share.count, share.total);
+                     share_of_all_text(share.value), wanted_text(run), share_of_all_text(share.lower),
+                     share_of_all_text(share.upper), share.total - share.count, share.total);
 }
 
 TextTable quantile_table(const StudyRun& run, const Study& study) {
@@ -123,7 +116,7 @@ TextTable cluster_table(const Study& study) {
                                              quantity(hertz(*each.highest_frequency), "Hz"))
                                : std::string("-");
     table.rows.push_back({mechanism_of(each.status, each.limited_by ? each.limited_by->mode : -1),
-                          std::to_string(each.count), share_of_units_text(each.share), at,
+                          std::to_string(each.count), share_of_all_text(each.share), at,
                           common.empty() ? "nothing" : common});
   }
   return table;
@@ -285,17 +278,10 @@ std::string study_page(const StudyRun& run, const Study& study) {
                               element("p", version) + "</footer>");
 }
 
-std::string worst_device_file(const StudyRun& run, const Study& study) {
-  DeviceParameters device = study.worst->device;
-  device.name = fmt::format("{}, worst unit of a study", display_name(run.device())).substr(0, max_name_size);
+std::string worst_device_file(const Study& study) {
   Trust whole = study.trust;
   whole.inherit(study.worst->critical.trust);
-  if (!whole.sound()) {
-    Uncertainty& uncertainty = device.uncertainty.emplace();
-    uncertainty.verdict = whole.verdict;
-    uncertainty.reasons = whole.reasons;
-  }
-  return write_device(device);
+  return worst_device_text(study.worst->device, "worst unit of a study", whole);
 }
 
 }  // namespace zwidth::report

@@ -13,7 +13,7 @@ namespace zwidth::report {
 [[nodiscard]] std::string study_page(const StudyRun& run, const Study& study);
 
 /// The worst unit as a device file, named so, with the trust of the study. Requires that there is one.
-[[nodiscard]] std::string worst_device_file(const StudyRun& run, const Study& study);
+[[nodiscard]] std::string worst_device_file(const Study& study);
 
 /// "vibration mode 1", "no wall is stable", ...
 [[nodiscard]] std::string mechanism_of(StiffnessStatus status, int mode);

@@ -8,6 +8,7 @@
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
+#include "zwidth/mechanism.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
@@ -121,6 +122,23 @@ void add_point_wall(Json& json, const Analysis& analysis) {
   json["point_wall"] = {{"direction", std::move(direction)}, {"any_user", std::move(any_user)}};
 }
 
+/// Where the tip of a mechanism is, and the joints that bring it there.
+Json mechanism_json(const MechanismFile& file) {
+  const MechanismModel model(file);
+  const MechanismAtPose at = model.at();
+  Json list = Json::array();
+  for (std::size_t i = 0; i < model.joints().size(); ++i) {
+    const MechanismJoint& joint = model.joints()[i];
+    if (!joint.is_of_pose) continue;
+    list.push_back({{"name", joint.name},
+                    {"unit", unit_of(Measure::position, joint.motion)},
+                    {"position", at.joints(static_cast<Eigen::Index>(i))},
+                    {"range", joint.range ? Json::array({joint.range->least, joint.range->greatest}) : Json()}});
+  }
+  const Eigen::Vector3d& tip = at.tip_position;
+  return {{"tip", Json::array({tip.x(), tip.y(), tip.z()})}, {"joints", std::move(list)}};
+}
+
 std::optional<std::string> uncertainty_warning(const DeviceParameters& device) {
   if (!device.uncertainty || device.uncertainty->warning.empty()) return std::nullopt;
   return device.uncertainty->warning;
@@ -155,6 +173,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis, const std::
   json["uncertainty_warning"] = uncertainty_warning(device);
   json["assumed"] = device.uncertainty ? device.uncertainty->assumed : std::vector<std::string>{};
   if (analysis.point_wall) add_point_wall(json, analysis);
+  if (device.mechanism) json["mechanism"] = mechanism_json(device.mechanism->mechanism);
   add_findings(json, analysis);
   return json;
 }

@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "zwidth/io/device_file.hpp"
@@ -27,6 +28,16 @@ Json value_of(std::string toml) {
   return Json::parse(toml);
 }
 
+/// A text of several lines, from behind its first quotes.
+std::string text_of(std::istringstream& lines) {
+  constexpr std::string_view quotes = "'''";
+  std::string text;
+  for (std::string next; std::getline(lines, next); text += next + "\n") {
+    if (next.ends_with(quotes)) return text + next.substr(0, next.size() - quotes.size());
+  }
+  return text;
+}
+
 }  // namespace
 
 // From the device file's text: what is written there is all here, and under the same keys.
@@ -43,7 +54,8 @@ Json device_json(const DeviceParameters& parameters) {
         for (std::string next; next != "]" && std::getline(lines, next);) value += "\n" + next;
       }
       const std::string key = line.substr(0, equals);
-      (*table)[key.starts_with('"') ? Json::parse(key).get<std::string>() : key] = value_of(std::move(value));
+      (*table)[key.starts_with('"') ? Json::parse(key).get<std::string>() : key] =
+          value == "'''" ? Json(text_of(lines)) : value_of(std::move(value));
     }
   }
   return device;

@@ -31,6 +31,8 @@ using StudyHeld = std::optional<std::variant<std::string, std::filesystem::path>
 Answer run(const std::string& command, const Options& options, const Device* device,
            const std::vector<std::pair<std::string, Held>>& recordings, const py::object& progress,
            const StudyHeld& study) {
+  cli::RequestBounds bounds;
+  bounds.files = FilesBeside::read;
   CommandRequest request;
   request.command = command;
   request.naming = CommandRequest::Naming::keyword;
@@ -47,7 +49,7 @@ Answer run(const std::string& command, const Options& options, const Device* dev
     request.recordings.push_back(std::move(recorded));
   }
   auto answer =
-      interruptible(progress, [&](const Progress& told) { return cli::RequestCommands().answer(request, told); });
+      interruptible(progress, [&](const Progress& told) { return cli::RequestCommands(bounds).answer(request, told); });
   if (answer) return Answer(*std::move(answer));
   const server::Problem& problem = answer.error();
   if (problem.where.empty()) raise_work_failed(problem.what + (problem.allowed.empty() ? "" : "; ") + problem.allowed);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "answer.hpp"
+#include "zwidth/mechanism.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/critical_damping.hpp"
@@ -47,6 +48,15 @@ struct type_caster<zwidth::CriticalDamping> : zwidth::python::ConstructedCaster<
 template <>
 struct type_caster<zwidth::AbsoluteStabilityDamping>
     : zwidth::python::ConstructedCaster<zwidth::AbsoluteStabilityDamping> {};
+template <>
+struct type_caster<zwidth::MechanismModel> : zwidth::python::ConstructedCaster<zwidth::MechanismModel> {};
+template <>
+struct type_caster<zwidth::MechanismModel::Reached>
+    : zwidth::python::ConstructedCaster<zwidth::MechanismModel::Reached> {};
+template <>
+struct type_caster<zwidth::MechanismAtPose> : zwidth::python::ConstructedCaster<zwidth::MechanismAtPose> {};
+template <>
+struct type_caster<zwidth::MechanismJoint> : zwidth::python::ConstructedCaster<zwidth::MechanismJoint> {};
 template <>
 struct type_caster<zwidth::python::Answer> : zwidth::python::ConstructedCaster<zwidth::python::Answer> {};
 }  // namespace pybind11::detail

@@ -10,8 +10,10 @@ import sys
 from pathlib import Path
 
 # Parts that are classes of their own, in an order in which none needs a later one; any other is a Record.
-PARTS = ["Trust", "Remark", "Finding", "Mechanism", "Mode", "Crossover", "HolderLimit", "HoldingLimits", "StableFor", "WallMargins", "AnyUser",
+PARTS = ["Trust", "Remark", "Finding", "LimitedBy", "Mode", "Crossover", "HolderLimit", "HoldingLimits", "StableFor", "WallMargins", "AnyUser",
          "Curve", "SweepAxis", "SweepPoint", "Quantile", "FitPoints", "BodyMotion", "Motion"]  # fmt: skip
+# Parts whose schemas have a title that is another class of the package.
+CLASSES = {"Mechanism": "LimitedBy"}
 SCALARS = {"string": "text", "boolean": "flag", "integer": "count", "number": "number"}
 HEAD = '''"""The documents' keys as attributes. Written by bindings/python/documents.py from docs/schemas."""
 
@@ -60,7 +62,8 @@ def sentence(description):
 
 
 def class_of(schema):
-    return schema["title"] if schema.get("title") in PARTS else "Record"
+    name = CLASSES.get(schema.get("title"), schema.get("title"))
+    return name if name in PARTS else "Record"
 
 
 def class_text(name, base, schemas, told):
@@ -78,8 +81,8 @@ def class_text(name, base, schemas, told):
 
 def found_in(schema, told, parts):
     """Adds the parts that are classes: (schema, what the key that has it means)."""
-    if schema.get("title") in PARTS:
-        parts.setdefault(schema["title"], []).append((schema, told))
+    if class_of(schema) != "Record":
+        parts.setdefault(class_of(schema), []).append((schema, told))
     for each in schema.get("properties", {}).values():
         found_in(each, each["description"], parts)
     if "items" in schema:

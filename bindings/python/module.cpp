@@ -23,6 +23,7 @@ extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
     py::module_::import("atexit").attr("register")(py::cpp_function(&zwidth::python::InterpreterEnd::begin));
     zwidth::python::bind_device(module);
     zwidth::python::bind_limits(module);
+    zwidth::python::bind_mechanism(module);
     zwidth::python::bind_commands(module);
     return module.ptr();
   }

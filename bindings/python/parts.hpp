@@ -10,6 +10,9 @@ namespace zwidth::python {
 void bind_device(pybind11::module_& module);
 void bind_limits(pybind11::module_& module);
 
+/// Mechanism, MechanismAtPose, MechanismJoint, ReachedPose.
+void bind_mechanism(pybind11::module_& module);
+
 /// Answer, run(command, ...) and options(command).
 void bind_commands(pybind11::module_& module);
 

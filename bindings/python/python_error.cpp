@@ -68,6 +68,19 @@ void raise_input_error(const DeviceProblem& problem) {
       server::Problem{problem.key, InputProblem{{"", 0, 0, problem.key, ""}, problem.what, problem.allowed, {}}});
 }
 
+void raise_input_error(const Error& error, const std::string& where) {
+  if (error.problems().empty()) raise_input_error(where, error.what(), "");
+  std::vector<server::Problem> placed_problems;
+  for (const InputProblem& each : error.problems()) {
+    server::Problem made = placed(each);
+    if (made.where.empty()) made.where = where;
+    placed_problems.push_back(std::move(made));
+  }
+  server::Problem first = placed_problems.front();
+  first.others.assign(placed_problems.begin() + 1, placed_problems.end());
+  raise_input_error(first);
+}
+
 void raise_work_failed(const std::string& what) { raise("WorkFailed", py::make_tuple(what)); }
 
 void warn_of(const Trust& trust) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/api/command_request.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/io/input_error.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/trust.hpp"
@@ -20,6 +21,8 @@ namespace zwidth::python {
 /// The same of what the library refuses: where is "FILE:LINE:COLUMN: key", as far as there is each.
 [[noreturn]] void raise_input_error(const InputError& error);
 [[noreturn]] void raise_input_error(const DeviceProblem& problem);
+/// The same of an error with its problems; `where` of what has no place.
+[[noreturn]] void raise_input_error(const Error& error, const std::string& where);
 
 /// Raises zwidth.WorkFailed.
 [[noreturn]] void raise_work_failed(const std::string& what);

@@ -67,6 +67,10 @@ class MechanismModel {
   /// What was read, with its pose.
   [[nodiscard]] const MechanismFile& file() const;
 
+  /// What was read of the file and of those that it includes, as one text that names no file: `text` of a MechanismFile
+  /// without a path. Each element of the file stands in its line; what does not count is left out.
+  [[nodiscard]] std::string text() const;
+
   /// The mechanism where these joints are there, and of others those of the file's pose. Throws Error as at_pose() does.
   [[nodiscard]] MechanismAtPose at(const JointPositions& pose = {}) const;
 

@@ -29,6 +29,17 @@ std::string text_value(std::string_view text) {
   return result + '"';
 }
 
+/// A text of several lines as it is, where TOML can hold it so.
+std::string lines_value(const std::string& text) {
+  const auto is_control = [](char c) {
+    return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
+  };
+  if (text.find("'''") != std::string::npos || text.ends_with('\'') || std::ranges::any_of(text, is_control)) {
+    return text_value(text);
+  }
+  return fmt::format("'''\n{}'''", text);
+}
+
 /// The shortest digits that read back to the same double, at most 17.
 std::string number_value(double value) {
   const std::string digits = fmt::format("{}", value);
@@ -112,7 +123,11 @@ void write_mechanism(const DeviceParameters& device, Writer& out) {
   if (!device.mechanism) return;
   const auto& [mechanism, normal, is_point] = *device.mechanism;
   out.header(DeviceTable::mechanism);
-  out.value(mechanism.path.empty() ? "text" : "file", text_value(mechanism.path + mechanism.text));
+  if (mechanism.path.empty()) {
+    out.value("text", lines_value(mechanism.text));
+  } else {
+    out.value("file", text_value(mechanism.path));
+  }
   out.value("tip", text_value(mechanism.tip));
   if (!mechanism.encoders.empty()) out.value("encoders", text_array_value(mechanism.encoders));
   out.value("normal", is_point ? text_value("all") : array_value({normal.begin(), normal.end()}));

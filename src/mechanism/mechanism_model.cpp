@@ -73,6 +73,7 @@ class MechanismModel::Read {
   }
 
   [[nodiscard]] const MechanismFile& file() const { return of_; }
+  [[nodiscard]] const internal::MujocoFile& mujoco() const { return *mujoco_; }
   [[nodiscard]] const std::vector<MechanismJoint>& joints() const { return joints_; }
   [[nodiscard]] const std::vector<std::size_t>& pose_joints() const { return pose_joints_; }
   [[nodiscard]] const MechanismAtPose& at_file_pose() const { return at_file_pose_; }
@@ -104,6 +105,8 @@ std::vector<std::string> MechanismModel::pose_joints() const {
 }
 
 const MechanismFile& MechanismModel::file() const { return read_->file(); }
+
+std::string MechanismModel::text() const { return read_->mujoco().text(); }
 
 MechanismAtPose MechanismModel::at(const JointPositions& pose) const {
   if (pose.empty()) return read_->at_file_pose();

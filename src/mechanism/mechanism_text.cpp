@@ -237,6 +237,23 @@ class MechanismReader {
 
 }  // namespace
 
+std::string one_text(std::vector<MechanismText> texts) {
+  // A text stands behind the one that includes it.
+  for (; texts.size() > 1; texts.pop_back()) {
+    const MechanismText& last = texts.back();
+    const std::size_t begin = last.text.find('>') + 1;
+    const std::size_t end = last.text.rfind("</");
+    const bool is_empty = end == std::string::npos || end < begin;
+    const std::string within = is_empty ? "" : last.text.substr(begin, end - begin);
+    const std::string element = fmt::format("<include file=\"{}\"/>", last.name);
+    for (MechanismText& each : texts) {
+      const std::size_t at = each.text.find(element);
+      if (at != std::string::npos) each.text.replace(at, element.size(), within);
+    }
+  }
+  return std::move(texts.front().text);
+}
+
 std::vector<MechanismText> mechanism_texts(const MechanismFile& file) { return MechanismReader(file).texts(); }
 
 }  // namespace zwidth::internal

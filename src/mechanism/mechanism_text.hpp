@@ -31,4 +31,7 @@ inline constexpr std::size_t most_mechanism_joints = 300;
 // elements that make or load others; a body that has its mass of a mesh; and every path where the mechanism is a text.
 [[nodiscard]] std::vector<MechanismText> mechanism_texts(const MechanismFile& file);
 
+// Those texts as one, what is included in its place.
+[[nodiscard]] std::string one_text(std::vector<MechanismText> texts);
+
 }  // namespace zwidth::internal

@@ -375,7 +375,9 @@ MujocoFile::At at_pose_of(const mjModel* model, mjData* data, const MechanismFil
 class OpenFile final : public MujocoFile {
  public:
   OpenFile(const MechanismFile& file, const std::vector<MechanismText>& texts)
-      : file_(file), model_(read_model(texts)) {}
+      : file_(file), text_(one_text(texts)), model_(read_model(texts)) {}
+
+  [[nodiscard]] std::string text() const override { return text_; }
 
   [[nodiscard]] std::vector<MechanismJoint> joints() const override {
     std::vector<MechanismJoint> joints;
@@ -416,6 +418,7 @@ class OpenFile final : public MujocoFile {
   }
 
   MechanismFile file_;
+  std::string text_;
   Model model_;
   mutable std::mutex mutex_;
   mutable std::vector<Data> idle_;  // that no thread uses just now

@@ -20,6 +20,8 @@ class MujocoFile {
   MujocoFile& operator=(const MujocoFile&) = delete;
   virtual ~MujocoFile() = default;
 
+  // MechanismModel::text()
+  [[nodiscard]] virtual std::string text() const = 0;
   // But for which of them give a pose.
   [[nodiscard]] virtual std::vector<MechanismJoint> joints() const = 0;
   // The number of that joint; refuses, with the key, a name that no joint has.

@@ -50,6 +50,9 @@ std::string command_line(const Asked& asked) {
   return name == "export" ? line : line + " --json";
 }
 
+const std::string lhifam = "devices/lhifam.toml";
+const std::string mechanism_as_text = "arm.toml";
+
 class ServedDocuments : public Served {
  protected:
   ServedDocuments() {
@@ -57,6 +60,10 @@ class ServedDocuments : public Served {
       write(name, contents(std::string("recordings/") + name));
     EXPECT_EQ(run("zwidth relay devices/lhifam.toml --amplitude 5 --delay 4e-3 --start 0.03 --csv run.csv").status, 0);
     EXPECT_EQ(run("zwidth frf locked_chirp.csv --force force --position position --csv frf.csv").status, 0);
+    std::string arm = contents("devices/mechanisms/planar_arm.toml");
+    const std::string file = "file = \"planar_arm.xml\"";
+    arm.replace(arm.find(file), file.size(), "text = '''" + contents("devices/mechanisms/planar_arm.xml") + "'''");
+    write(mechanism_as_text, arm);
     start();
     devices_ = json::parse(get("/api/v1/devices").body).at("devices");
   }
@@ -98,8 +105,6 @@ class ServedDocuments : public Served {
  private:
   json devices_;
 };
-
-const std::string lhifam = "devices/lhifam.toml";
 
 std::vector<Asked> questions() {
   return {
@@ -147,6 +152,16 @@ std::vector<Asked> questions() {
       {"excite", lhifam, {}, {{"amplitude", 2}, {"duration", 1}, {"stroke", 0.5}}},
       {"excite", "", {}, {{"kind", "noise"}, {"amplitude", 3}, {"duration", 1}}},
       {"study", lhifam, {}, {{"samples", 300}, {"seed", 5}}, "devices/studies/lhifam.toml"},
+#ifdef ZWIDTH_MUJOCO
+      {"workspace",
+       mechanism_as_text,
+       {},
+       {{"poses", "shoulder=0:60:2 deg,elbow=30:120:2 deg"}, {"stiffness", "300 N/m"}, {"normals", 3}}},
+      {"workspace",
+       mechanism_as_text,
+       {},
+       {{"points", {"0.3,0.2,0", "2,0,0"}}, {"normals", {"1,0,0", "0,1,0"}}, {"all-directions", true}}},
+#endif
   };
 }
 
@@ -157,7 +172,10 @@ TEST_F(ServedDocuments, AreThoseOfTheCommandLineBitForBit) {
     asked.insert(each.command);
   }
   // Every command but those that make files and this server itself; a new command stands here or there.
-  const std::set<std::string> no_requests{"reproduce", "rig", "serve"};
+  std::set<std::string> no_requests{"reproduce", "rig", "serve"};
+#ifndef ZWIDTH_MUJOCO
+  no_requests.insert("workspace");
+#endif
   std::istringstream help(run("zwidth --help").output);
   std::set<std::string> missing;
   bool in_list = false;

@@ -230,18 +230,22 @@ TEST_F(Hostile, NoOptionReachesADisk) {
     expect_bad("excite", {{"device", path}, {"amplitude", 1}});
   }
   const std::string made = (directory() / "made").string();
-  for (const auto& [command, option, ending] : std::vector<std::array<std::string, 3>>{{"analyze", "report", ".html"},
-                                                                                       {"bode", "output", ".csv"},
-                                                                                       {"region", "csv", ".csv"},
-                                                                                       {"region", "output", ".svg"},
-                                                                                       {"design", "write", ".toml"},
-                                                                                       {"recommend", "write", ".toml"},
-                                                                                       {"simulate", "csv", ".csv"},
-                                                                                       {"simulate", "figure", ".svg"},
-                                                                                       {"relay", "csv", ".csv"},
-                                                                                       {"export", "output", ".c"},
-                                                                                       {"excite", "output", ".csv"},
-                                                                                       {"excite", "figure", ".svg"}}) {
+  for (const auto& [command, option, ending] :
+       std::vector<std::array<std::string, 3>>{{"analyze", "report", ".html"},
+                                               {"bode", "output", ".csv"},
+                                               {"region", "csv", ".csv"},
+                                               {"region", "output", ".svg"},
+                                               {"design", "write", ".toml"},
+                                               {"recommend", "write", ".toml"},
+                                               {"simulate", "csv", ".csv"},
+                                               {"simulate", "figure", ".svg"},
+                                               {"relay", "csv", ".csv"},
+                                               {"export", "output", ".c"},
+                                               {"excite", "output", ".csv"},
+                                               {"excite", "figure", ".svg"},
+                                               {"workspace", "csv", ".csv"},
+                                               {"workspace", "output", ".svg"},
+                                               {"workspace", "worst-to", ".toml"}}) {
     json options{{option, made + ending}};
     if (command == "relay" || command == "excite") options["amplitude"] = 1;
     if (command == "export") options["format"] = "octave";

@@ -390,5 +390,29 @@ TEST_F(Serve, PythonGetsAnAnswer) {
   EXPECT_THAT(run("/usr/bin/python3 ask.py " + url).output, StartsWith("8848.70869499"));
 }
 
+// Nothing of a request names a file: the text of a mechanism's stands in the device.
+TEST_F(Serve, OffersMechanismsAsText) {
+  start({"devices/mechanisms/planar_arm.toml", "--set", "mechanism.pose.elbow=0.4"});
+  const json devices = json::parse(get("/api/v1/devices").body).at("devices");
+  EXPECT_EQ(devices.at(0).at("file"), "planar_arm.toml");
+  EXPECT_EQ(devices.at(0).at("opened"), true);
+  int mechanisms = 0;
+  for (const json& each : devices) {
+    if (!each.at("device").contains("mechanism")) continue;
+    ++mechanisms;
+    const std::string file = each.at("file");
+    SCOPED_TRACE(file);
+    const HttpAnswer answer = post("analyze", json{{"device_toml", each.at("device_toml")}}.dump());
+    ASSERT_EQ(answer.status, 200) << answer.body;
+    const bool is_opened = each.at("opened");
+    const std::string line =
+        is_opened ? "devices/mechanisms/planar_arm.toml --set mechanism.pose.elbow=0.4" : "devices/" + file;
+    const Outcome printed = run("zwidth analyze --json " + line);
+    EXPECT_EQ(json::parse(answer.body).at("critical_stiffness"), json::parse(printed.output).at("critical_stiffness"));
+    EXPECT_EQ(json::parse(answer.body).at("mechanism"), json::parse(printed.output).at("mechanism"));
+  }
+  EXPECT_EQ(mechanisms, 4);
+}
+
 }  // namespace
 }  // namespace zwidth::cli

@@ -238,5 +238,39 @@ TEST(MechanismDeviceFile, NamesNoFileWhereItCameAsText) {
   EXPECT_EQ(overridden.problem->code, file_beside_text);
 }
 
+// As it is written where TOML can hold it so, and the same to the last byte in any case.
+TEST(MechanismDeviceFile, ItsTextIsWrittenAsItWasRead) {
+  DeviceParameters parameters = arm().parameters();
+  MechanismFile& mechanism = parameters.mechanism->mechanism;
+  const std::string as_read = contents(mechanism.path);
+  mechanism.path.clear();
+  for (const auto& [more, is_plain] :
+       {std::pair{"", true}, {"<!-- it's \\ \" -->\n", true}, {"<!-- ''' -->", false}, {"<!-- -->\r\n", false}}) {
+    mechanism.text = as_read + more;
+    const std::string written = write_device(parameters);
+    EXPECT_EQ(written.find("\n<mujoco") != std::string::npos, is_plain);
+    const auto read = parse_device(written, "text", {}, FilesBeside::refused);
+    ASSERT_TRUE(read.has_value()) << read.error().what;
+    EXPECT_EQ(read->parameters().mechanism->mechanism.text, mechanism.text);
+  }
+}
+
+// A file's text in place of its path is the same device.
+TEST(MechanismDeviceFile, AFileAsTextIsTheSameDevice) {
+  for (const char* name : {"planar_arm", "pantograph", "phantom_premium"}) {
+    SCOPED_TRACE(name);
+    const auto of_file = read_device_file(fmt::format("{}/devices/mechanisms/{}.toml", ZWIDTH_SOURCE_DIR, name));
+    ASSERT_TRUE(of_file.has_value());
+    DeviceParameters parameters = of_file->parameters();
+    MechanismFile& mechanism = parameters.mechanism->mechanism;
+    mechanism.text = MechanismModel(mechanism).text();
+    mechanism.path.clear();
+    const auto of_text = parse_device(write_device(parameters), "text", {}, FilesBeside::refused);
+    ASSERT_TRUE(of_text.has_value()) << of_text.error().what;
+    EXPECT_EQ(analyze(*of_text).limits.nobody.critical_stiffness, analyze(*of_file).limits.nobody.critical_stiffness);
+    EXPECT_EQ(MechanismModel(of_text->parameters().mechanism->mechanism).text(), mechanism.text);
+  }
+}
+
 }  // namespace
 }  // namespace zwidth

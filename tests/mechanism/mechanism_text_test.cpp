@@ -179,5 +179,23 @@ TEST(MechanismText, FilesAreIncludedOnceAndFromBesideAlone) {
   EXPECT_EQ(refusal_of([&] { return internal::mechanism_texts(pipe); })->code, mechanism_file_refused);
 }
 
+TEST(MechanismText, IsOneWithWhatItIncludes) {
+  const auto one = [](std::vector<std::string> given) {
+    std::vector<internal::MechanismText> texts;
+    for (const std::string& each : given) texts.push_back({"included_" + std::to_string(texts.size()) + ".xml", each});
+    return internal::one_text(std::move(texts));
+  };
+  EXPECT_EQ(one({"<mujoco/>"}), "<mujoco/>");
+  EXPECT_EQ(one({"<a><include file=\"included_1.xml\"/><d/></a>", "<b n=\"1\">\n<c/></b>"}), "<a>\n<c/><d/></a>");
+  EXPECT_EQ(one({"<a><include file=\"included_1.xml\"/></a>", "<b/>"}), "<a></a>");
+  // One that is included may include others.
+  EXPECT_EQ(one({"<a><include file=\"included_1.xml\"/><include file=\"included_3.xml\"/></a>",
+                 "<b><include file=\"included_2.xml\"/><c/></b>", "<b><d/></b>", "<b><e/></b>"}),
+            "<a><d/><c/><e/></a>");
+  // What it says stands there once more as a text.
+  const std::string again = one({texts_of("<mujoco model='a > b'>\n<body name='c'/></mujoco>").at(0).text});
+  EXPECT_EQ(texts_of(again).at(0).text, again);
+}
+
 }  // namespace
 }  // namespace zwidth

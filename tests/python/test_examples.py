@@ -38,7 +38,8 @@ def test_the_stub_names_what_the_module_has():
     for name in dir(core):
         if not name.startswith("__"):
             assert re.search(rf"(def|class) {name}\b", stub), name
-    for kind in (core.Device, core.CriticalStiffness, core.AnyUserLimit, core.Answer):
+    for kind in (core.Device, core.CriticalStiffness, core.AnyUserLimit, core.Answer,
+                 core.Mechanism, core.MechanismAtPose, core.MechanismJoint, core.ReachedPose):
         body = stub.split(f"class {kind.__name__}:")[1].split("\nclass ")[0]
         for name in vars(kind):
             if not name.startswith("_"):

@@ -30,6 +30,7 @@ def some_results(device):
     yield zwidth.simulate(device, points=True, duration=0.5, set="wall.stiffness=5000")
     yield zwidth.relay(device, amplitude=5, trials=1, duration=2)
     yield zwidth.study(device, "devices/studies/lhifam.toml", samples=300, index_samples=0)
+    yield zwidth.workspace(zwidth.Device.from_toml("devices/mechanisms/planar_arm.toml"), poses={"elbow": [1.2]}, directions=6)
     yield zwidth.excite(amplitude=1, lowest_hz=1, highest_hz=100, rate=1000, duration=5)
     yield zwidth.frequency_response(files, points=True, **columns)
     yield zwidth.identify(

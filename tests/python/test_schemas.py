@@ -19,6 +19,7 @@ from test_same_answer import CALLS, words_of
 SCHEMAS = ROOT / "docs/schemas"
 COLUMNS = ["--force", "force", "--position", "position"]
 CHIRP, MOTION, LHIFAM = "recordings/locked_chirp.csv", "recordings/free_motion.csv", "devices/lhifam.toml"
+ARM = "devices/mechanisms/planar_arm.toml"
 STUDY = ["--study", "devices/studies/lhifam.toml", "--samples", "300"]
 OTHERS = [
     ["frf", CHIRP, *COLUMNS, "--points"],
@@ -54,6 +55,10 @@ OTHERS = [
     *[["rig", action, LHIFAM, "--velocity-limit", "1e-9"] for action in ("measure", "identify", "relay", "limit")],
     ["rig", "limit", LHIFAM, "--ceiling", "100", "--from", "90"],
     ["excite", "--amplitude", "1"],
+    ["workspace", ARM, "--poses", "shoulder=0,elbow=0:2:3", "--stiffness", "300"],
+    ["workspace", ARM, "--points", "0.3,0.2,0;2,0,0", "--normals", "1,0,0;0,1,0", "--all-directions"],
+    ["workspace", ARM, "--points", "2,0,0"],
+    ["workspace", "devices/mechanisms/pantograph.toml", "--poses", "theta1=30:60:2deg,theta5=120:150:2deg"],
 ]
 LOOP = "[loop]\nsampling_period = 1e-3\n"
 BODY = '[[body]]\nname = "a"\nmass = 1\ndamping = 1\n'

@@ -53,6 +53,18 @@ std::optional<FigureFormat> figure_format(std::string_view path) {
   return std::nullopt;
 }
 
+double point_radius(FigureFormat format) {
+  switch (format) {
+    case FigureFormat::svg:
+      return 4.9;
+    case FigureFormat::png:
+      return 3.05;
+    case FigureFormat::pdf:
+      break;
+  }
+  return 4.0;
+}
+
 Canvas::Canvas(std::string title, double width, double height)
     : title_(std::move(title)), width_(width), height_(height) {}
 

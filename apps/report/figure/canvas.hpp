@@ -12,6 +12,9 @@ enum class FigureFormat { svg, png, pdf };
 /// The format that a file name asks for by its extension (any case), if it is one of figures.
 [[nodiscard]] std::optional<FigureFormat> figure_format(std::string_view path);
 
+/// Radius of gnuplot's point of size 1, px, as measured.
+[[nodiscard]] double point_radius(FigureFormat format);
+
 enum class Anchor { left, centre, right };
 
 struct TextStyle {

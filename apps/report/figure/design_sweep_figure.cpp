@@ -29,11 +29,6 @@ constexpr std::size_t most_cells = 240;  // of the map, each way
 constexpr LineStyle limit_style{"#1a1a1a", 3.4, "1"};  // in the legend; drawn in its mechanism's colour
 constexpr LineStyle jump_style{"#1a1a1a", 1.0, "(2,3)"};
 constexpr LineStyle branch_edge{"#1a1a1a", 1.3, "1"};
-/// Of a map: even steps are seen as even, and stay so in grey (viridis, Smith and van der Walt).
-constexpr std::string_view even_colours =
-    "0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 "
-    "'#b5de2b', "
-    "9 '#fde725'";
 constexpr LineStyle any_user_limit_style{"#15803d", 1.8, "(8,5)"};
 constexpr std::array<std::string_view, 6> mode_colours = {"#0b4f9e", "#c2410c", "#7e22ce",
                                                           "#0e7490", "#a16207", "#9d174d"};

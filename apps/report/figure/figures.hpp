@@ -17,6 +17,7 @@ struct RelayTrial;
 struct RigLimit;
 struct Simulation;
 struct WallRegion;
+struct Workspace;
 namespace results {
 struct FrfUnits;
 }
@@ -68,5 +69,10 @@ struct AnalysedDevice;
 /// The axis of wall stiffness K: where the loop is stable, every crossover (numbered as in the Bode figure), and beside
 /// them the rigid model's critical stiffness, Q and the wall, where there are such.
 [[nodiscard]] std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat format);
+
+/// The least limit at every place of the tip, as colours, with any passive user where that is known; the worst pose marked
+/// with its normal. Planar: a map, with the limit over directions at some poses. Spatial: seen along each axis of the world,
+/// and every direction at the worst pose.
+[[nodiscard]] std::string draw_workspace(const Device& device, const Workspace& workspace, FigureFormat format);
 
 }  // namespace zwidth::report

@@ -24,6 +24,12 @@ inline constexpr std::string_view purple = "#7e22ce";
 inline constexpr std::string_view red = "#b91c1c";
 inline constexpr std::string_view grey = "#555555";
 
+/// Of a map: even steps are seen as even, and stay so in grey (viridis, Smith and van der Walt).
+inline constexpr std::string_view even_colours =
+    "0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 "
+    "'#b5de2b', "
+    "9 '#fde725'";
+
 struct LegendEntry {
   std::string text;
   LineStyle line = {};

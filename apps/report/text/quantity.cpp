@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace zwidth::report {
@@ -32,6 +33,12 @@ std::string parameter_text(const std::string& key, double value, Motion motion) 
   // Prefixes with units of one word only: no "mkg", no "mN s/m".
   return unit == "s" || unit == "Hz" || key.ends_with(".stiffness") ? quantity(value, unit)
                                                                     : fmt::format("{} {}", number(value), unit);
+}
+
+std::string share_of_all_text(double share) {
+  const double rest = std::min(share, 1.0 - share);
+  const int digits = rest <= 0.0 ? 2 : std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(rest * 100.0))), 2, 8);
+  return fmt::format("{:.{}f} %", 100.0 * share, digits);
 }
 
 std::string factor_text(double factor) {

@@ -31,6 +31,9 @@ using zwidth::units_of;
 /// A parameter's value with its unit: "0.3 kg", "250 µs".
 [[nodiscard]] std::string parameter_text(const std::string& key, double value, Motion motion);
 
+/// Of a share, 0..1: "34.21 %", with as many digits as tell it from 0 % and from 100 %.
+[[nodiscard]] std::string share_of_all_text(double share);
+
 /// By what a number changes, of its factor: "+23.1 %", "-12 %", and from twice and half on "x 2.5", "/ 3.7".
 [[nodiscard]] std::string factor_text(double factor);
 

@@ -24,7 +24,7 @@ struct UsedGain {
   std::optional<double> limit;
 };
 
-std::string share_text(const UsedGain& gain, Holder holder) {
+std::string used_text(const UsedGain& gain, Holder holder) {
   if (!gain.limit || !(*gain.limit > 0.0) || !std::isfinite(*gain.limit)) return "";
   return fmt::format("{} of the limit with {}", percent_text(gain.value / *gain.limit), words_of(holder));
 }
@@ -36,9 +36,9 @@ std::string shares_text(const WallMargins& wall, const HoldingLimits& limits) {
     return wall.stiffness > 0.0 ? UsedGain{wall.stiffness, limit.critical_stiffness}
                                 : UsedGain{wall.damping, limit.critical_damping};
   };
-  std::vector<std::string> shares{share_text(used(limits.nobody), Holder::nobody)};
-  if (limits.user) shares.push_back(share_text(used(*limits.user), Holder::user));
-  if (limits.any_user) shares.push_back(share_text(used(*limits.any_user), Holder::any_user));
+  std::vector<std::string> shares{used_text(used(limits.nobody), Holder::nobody)};
+  if (limits.user) shares.push_back(used_text(used(*limits.user), Holder::user));
+  if (limits.any_user) shares.push_back(used_text(used(*limits.any_user), Holder::any_user));
   std::erase(shares, "");
   return fmt::format("{}", fmt::join(shares, ", "));
 }

@@ -39,6 +39,7 @@ from ._commands import (
     simulate,
     study,
     sweep,
+    workspace,
 )
 from ._core import (
     AnyUserDamping,
@@ -46,6 +47,10 @@ from ._core import (
     CriticalDamping,
     CriticalStiffness,
     Device,
+    Mechanism,
+    MechanismAtPose,
+    MechanismJoint,
+    ReachedPose,
     __version__,
     any_user_damping,
     any_user_limit,
@@ -55,7 +60,7 @@ from ._core import (
 )
 from ._errors import DoubtfulResult, Error, InputError, Place, Problem, ResultWarning, WorkFailed
 from ._record import Record, Result
-from ._documents import Crossover, Finding, HolderLimit, HoldingLimits, Mechanism, Mode, Remark, StableFor, Trust, WallMargins
+from ._documents import Crossover, Finding, HolderLimit, HoldingLimits, LimitedBy, Mode, Remark, StableFor, Trust, WallMargins
 from ._results import (
     Analysis,
     Bode,
@@ -75,6 +80,7 @@ from ._results import (
     Study,
     Sweep,
     WallRecommendation,
+    Workspace,
 )
 
 if TYPE_CHECKING:
@@ -111,13 +117,17 @@ __all__ = [
     "HoldingLimits",
     "Identification",
     "InputError",
+    "LimitedBy",
     "Mechanism",
+    "MechanismAtPose",
+    "MechanismJoint",
     "Mode",
     "Model",
     "Notch",
     "Place",
     "Problem",
     "Record",
+    "ReachedPose",
     "Recording",
     "Region",
     "Relay",
@@ -133,6 +143,7 @@ __all__ = [
     "WallMargins",
     "WallRecommendation",
     "WorkFailed",
+    "Workspace",
     "__version__",
     "analyze",
     "any_user_damping",
@@ -159,4 +170,5 @@ __all__ = [
     "simulate",
     "study",
     "sweep",
+    "workspace",
 ]

@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _device, _results
+from . import _core, _device, _mechanism, _results
 from ._core import Device
 from ._errors import InputError, warn_of_document
 
@@ -307,6 +307,37 @@ def study(
     else:
         raise InputError("study", f"is of type {type(study).__name__}", "a path, a text, or a dict")
     result: _results.Study = _result("study", device, (), progress, options, held)
+    return result
+
+
+def workspace(
+    device: Device,
+    *,
+    poses: Union[str, Sequence[str], npt.ArrayLike, Mapping[str, npt.ArrayLike], None] = None,
+    points: Union[str, npt.ArrayLike, None] = None,
+    normals: Union[str, npt.ArrayLike, None] = None,
+    directions: Optional[int] = None,
+    stiffness: Union[float, str, None] = None,
+    progress: Progress = None,
+    **options: Option,
+) -> _results.Workspace:
+    """The stiffest wall at every pose and in every direction of a mechanism.
+
+    `poses`: an array of a row a pose with the columns of Mechanism.pose_joints, arrays by joint, or the text of a grid,
+    "shoulder=0:90:19 deg"; or `points`, rows of x, y, z (m), to which the tip is brought. `normals`: rows of three, or so
+    many `directions` at each pose. `stiffness`: the share of poses and directions that reaches it.
+    """
+    if directions is not None and normals is not None:
+        raise InputError("options.directions", "are given beside normals", "one of the two")
+    if isinstance(device, Device) and poses is not None:
+        options["poses"] = _mechanism.poses_text(device, poses)
+    if points is not None:
+        options["points"] = _mechanism.vectors_text("points", points)
+    if normals is not None:
+        options["normals"] = _mechanism.vectors_text("normals", normals)
+    if directions is not None:
+        options["normals"] = str(_mechanism.count_of("directions", directions))
+    result: _results.Workspace = _result("workspace", device, (), progress, {"stiffness": stiffness, **options})
     return result
 
 

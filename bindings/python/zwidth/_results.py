@@ -108,6 +108,33 @@ class Excitation(_documents.Excitation):
         return self._series("samples")
 
 
+class Workspace(_documents.Workspace):
+    """The stiffest wall at every pose and in every direction of a mechanism: docs/mechanisms.md."""
+
+    def _table(self, name: str, *more: int) -> Array:
+        poses, directions = (int(each) for each in self._series("shape"))
+        return self._series(name).reshape(poses, directions, *more)
+
+    @property
+    def limits(self) -> Array:
+        """K_CR with nobody holding, N/m, poses x directions: inf where unbounded, 0 where none is stable, NaN where there is none."""
+        return self._table("nobody")
+
+    @property
+    def any_user_limits(self) -> Array:
+        """The same with any passive user; NaN where it is not known or not asked for."""
+        return self._table("any_user")
+
+    @property
+    def normals(self) -> Array:
+        """Of the wall, poses x directions x 3, of length 1 in the world's frame; NaN where a pose has fewer directions."""
+        return self._table("normals", 3)
+
+    def worst_device(self) -> _core.Device:
+        """The device at the worst pose and normal, as workspace --worst-to writes it."""
+        return _device_of(self, "no pose has a limit: there is no worst one")
+
+
 class Model(Result):
     """The continuous and the exact discrete model, and the wall: `export --format json`."""
 
@@ -124,6 +151,7 @@ CLASSES: Dict[str, Type[Result]] = {
     "zwidth.wall_recommendation/1": WallRecommendation,
     "zwidth.diagnosis/1": Diagnosis,
     "zwidth.study/1": Study,
+    "zwidth.workspace/1": Workspace,
     "zwidth.identification/1": Identification,
     "zwidth.inverse_dynamics/1": RigidBodyIdentification,
     "zwidth.frf/1": FrequencyResponse,

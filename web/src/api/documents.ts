@@ -17,6 +17,8 @@ export type {
   Trust,
   WallPoint,
   WallToRender,
+  Workspace,
+  WorkspacePose,
 } from './generated/documents'
 export type { Design, DesignSweep as Sweep, DesignTarget as Target, WallRecommendation as Recommendation } from './generated/documents'
 

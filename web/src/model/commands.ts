@@ -28,7 +28,8 @@ const rawOf = (text: string, entry: Entry): string => text.slice(entry.start, en
 export function setsFrom(example: string, text: string): string[] | null {
   const [from, to] = [scan(example), scan(text)]
   if (!from.complete || !to.complete) return null
-  const isDefault = ({ key, field }: Row, value: unknown): boolean => value === 0 && key !== 'wall.stiffness' && !field.like
+  const isDefault = ({ key, field }: Row, value: unknown): boolean =>
+    value === 0 && key !== 'wall.stiffness' && !field.like && !field.travel
   const rowOf = new Map(groupsOf(to).flatMap((group) => group.rows.map((row) => [row.path.join('\n'), row])))
   const before = new Map(from.entries.map((each) => [each.path.join('\n'), rawOf(example, each)]))
   const sets: string[] = []
@@ -43,8 +44,10 @@ export function setsFrom(example: string, text: string): string[] | null {
         : old === rawOf(text, entry) || (typeof entry.value === 'number' && Number(old) === entry.value)
     )
       continue
-    if (!row || hasControls(rawOf(text, entry)) || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
-    sets.push(`${row.key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
+    const key = row?.key ?? (id === 'mechanism\nnormal' ? 'mechanism.normal' : undefined)
+    const isOne = typeof entry.value === 'number' || typeof entry.value === 'string'
+    if (key === undefined || hasControls(rawOf(text, entry)) || (row && !isOne)) return null
+    sets.push(`${key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
   }
   return before.size > 0 ? null : sets
 }

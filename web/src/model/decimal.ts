@@ -121,3 +121,7 @@ export function wholeRatio(value: number, period: number, from?: number): number
   step = Math.max(-most, Math.min(most, step))
   return Number((step < 0 ? period / (1 - step) : period * (1 + step)).toPrecision(12))
 }
+
+const inSi: Record<string, number> = { rad: 1, mrad: 1e-3, deg: Math.PI / 180, '°': Math.PI / 180, m: 1, cm: 1e-2, mm: 1e-3 }
+/** How many rad or m one of a joint's unit is; null of a unit that the page does not turn. */
+export const siOfPosition = (unit: string | null): number | null => (unit === null ? 1 : (inSi[unit] ?? null))

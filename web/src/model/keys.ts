@@ -13,6 +13,22 @@ export interface Field {
   mayBeAbsent?: string // emptied, it is taken out of the file; then this holds
   like?: string // the key whose number holds while it is absent
   ofRig?: 'number' | 'choice' // no limit feels it: nothing to slide or follow; a choice is not stepped either
+  travel?: Travel // of a joint: its slider has even steps
+}
+
+/** From where to where a joint is moved here, and where it is while the file does not say; m or rad. */
+export interface Travel {
+  from: number
+  to: number
+  at: number
+}
+
+/** A joint that gives the pose of a mechanism, as the program's answer lists them. */
+export interface Joint {
+  name: string
+  unit: string
+  position: number
+  range: number[] | null
 }
 
 type Pair = [linear: number, rotary: number]
@@ -81,6 +97,7 @@ const [body, link, loop, damper, actuator, sensor] = [
   fieldsOf('actuator'),
   fieldsOf('sensor'),
 ]
+const transmission = fieldsOf('transmission')
 const [wall, filter, operator, driver] = [fieldsOf('wall'), fieldsOf('wall.filter'), fieldsOf('operator'), fieldsOf('driver')]
 // What a mass is called in a rotary device.
 const inertias = new Map(
@@ -124,6 +141,29 @@ export interface Shape {
   sensed: string | undefined
   held: string | undefined
   hasTransferFunction: boolean
+  mechanism: MechanismShape | null
+}
+
+/** What the file says of a mechanism. */
+export interface MechanismShape {
+  text: string // of its own file, here
+  file: string // that it names, which nobody but its user can read
+  tip: string
+  normal: number[] | null // null: no three numbers
+  isPoint: boolean // a wall in every direction
+}
+
+function mechanismOf(scanned: Scan): MechanismShape | null {
+  if (!scanned.tables.some((each) => each.path[0] === 'mechanism')) return null
+  const normal = find(scanned, ['mechanism', 'normal'])?.value
+  const numbers = Array.isArray(normal) ? normal.map(Number) : []
+  return {
+    text: textAt(scanned, 'mechanism', 'text') ?? '',
+    file: textAt(scanned, 'mechanism', 'file') ?? '',
+    tip: textAt(scanned, 'mechanism', 'tip') ?? '',
+    normal: numbers.length === 3 && numbers.every(Number.isFinite) ? numbers : null,
+    isPoint: normal === 'all',
+  }
 }
 
 export function shapeOf(scanned: Scan): Shape {
@@ -139,7 +179,43 @@ export function shapeOf(scanned: Scan): Shape {
     sensed: textAt(scanned, 'loop', 'sensed') ?? bodies[0],
     held: textAt(scanned, 'loop', 'held') ?? bodies.at(-1),
     hasTransferFunction: scanned.tables.some((each) => each.path[0] === 'transfer_function'),
+    mechanism: mechanismOf(scanned),
   }
+}
+
+const jointFields = new Map<string, Field>()
+/** The position of a joint; the same one as long as the joint is where it was, so that its row is not drawn again. */
+function fieldOfJoint(joint: Joint): Field {
+  const { name, unit, position, range } = joint
+  const id = JSON.stringify(joint)
+  const known = jointFields.get(id)
+  if (known) return known
+  const [from, to] = [range?.[0], range?.[1]]
+  const around = unit === 'm' ? 0.1 : Math.PI
+  const middle = 2 * around * Math.round(position / (2 * around)) // stays where it is as the joint moves
+  const travel = from !== undefined && to !== undefined && from < to ? { from, to } : { from: middle - around, to: middle + around }
+  const field: Field = {
+    key: name,
+    label: name,
+    unit: [unit, unit],
+    about: `Position of the joint${range ? '' : '; its file gives no range'}`,
+    mayBeZero: true,
+    first: [0.1, 0.1],
+    mayBeAbsent: 'as it follows from the file',
+    travel: { ...travel, at: position },
+  }
+  if (jointFields.size > 2000) jointFields.clear()
+  jointFields.set(id, field)
+  return field
+}
+
+/** The joints that the answer lists, then others that the file names. */
+function jointsOf(scanned: Scan, known: Joint[]): Joint[] {
+  const named = scanned.entries
+    .filter(({ path }) => path[0] === 'mechanism' && path[1] === 'pose' && path.length === 3)
+    .map(({ path }) => path[2]!)
+  const others = named.filter((name) => known.every((each) => each.name !== name))
+  return [...known, ...others.map((name): Joint => ({ name, unit: 'rad', position: 0, range: null }))]
 }
 
 /** The old one where it is the same, so that what shows it is not drawn again. */
@@ -163,7 +239,7 @@ function sharing(group: Group, before: Group[]): Group {
 }
 
 /** Every number of the file and those that may be added, in groups as the schematic shows them; what is as `before` is the same object. */
-export function groupsOf(scanned: Scan, before: Group[] = []): Group[] {
+export function groupsOf(scanned: Scan, before: Group[] = [], joints: Joint[] = []): Group[] {
   const side = isRotary(scanned) ? 1 : 0
   const shape = shapeOf(scanned)
   const group = (id: string, title: string, path: string[], fields: Field[]): Group => ({
@@ -176,7 +252,15 @@ export function groupsOf(scanned: Scan, before: Group[] = []): Group[] {
       return { key: `${id}.${field.key}`, path: own, field, unit: field.unit[side], group: id, value: find(scanned, own)?.value }
     }),
   })
+  const ofMechanism = shape.mechanism && [
+    group('mechanism.pose', 'Pose', ['mechanism', 'pose'], jointsOf(scanned, joints).map(fieldOfJoint)),
+    ...Array.from({ length: countOf(scanned, 'transmission') }, (_, i) => {
+      const joint = textAt(scanned, 'transmission', String(i), 'joint') ?? String(i)
+      return group(`transmission.${i}`, `Motor behind joint “${joint}”`, ['transmission', String(i)], transmission)
+    }),
+  ]
   const groups = [
+    ...(ofMechanism ?? []),
     ...shape.bodies.map((name, i) => group(`body.${name}`, `Body “${name}”`, ['body', String(i)], body)),
     ...shape.links.map(([a, b], i) => group(`link.${i}`, `Link ${a} – ${b}`, ['link', String(i)], link)),
     group('loop', 'Loop', ['loop'], loop),
@@ -201,7 +285,8 @@ export function deviceKey(toml = ''): string {
   let key = devices.get(toml)
   if (key === undefined) {
     const scanned = scan(toml)
-    key = JSON.stringify([textAt(scanned, 'name'), isRotary(scanned), shapeOf(scanned)])
+    const { mechanism, ...shape } = shapeOf(scanned)
+    key = JSON.stringify([textAt(scanned, 'name'), isRotary(scanned), shape, mechanism?.text, mechanism?.file, mechanism?.tip])
     if (devices.size > 20) devices.clear()
     devices.set(toml, key)
   }

@@ -27,6 +27,9 @@ export interface Settings {
   phaseMarginDeg?: string
   ripple?: string
   goal?: string
+  workspacePoses?: string
+  workspaceNormals?: string
+  workspaceStiffness?: string
 }
 
 export const empty = (toml: string): Snapshot => ({ toml, pins: [], locks: [], settings: {} })

@@ -27,6 +27,30 @@ export interface Scan {
 
 export const samePath = (a: string[], b: string[]): boolean => a.length === b.length && a.every((part, i) => part === b[i])
 
+const escapes: Record<string, string> = { b: '\b', t: '\t', n: '\n', f: '\f', r: '\r', '"': '"', '\\': '\\' }
+/** What stands between double quotes; a backslash at the end of a line takes the line's end and the spaces behind it away. */
+const unescaped = (inside: string): string =>
+  inside.replace(
+    /\\(?:u([\da-fA-F]{4})|U([\da-fA-F]{8})|([btnfr"\\])|[ \t]*\r?\n\s*)/g,
+    (_, four?: string, eight?: string, one?: string) => {
+      const code = Number.parseInt(four ?? eight ?? '', 16)
+      return one !== undefined ? escapes[one]! : code <= 0x10ffff ? String.fromCodePoint(code) : ''
+    },
+  )
+
+/** A key as a file has it: quoted where it is no bare one. */
+export const keyText = (key: string): string => (/^[\w-]+$/.test(key) ? key : JSON.stringify(key))
+const pathText = (path: string[]): string => path.map(keyText).join('.')
+
+/** Lines as a value: as they are where they may be, else with escapes. */
+export function tomlOfLines(text: string): string {
+  const lines = text.replaceAll('\r\n', '\n')
+  const isPlain = !/'''|'$|[\u0000-\u0008\u000b-\u001f\u007f]/.test(lines)
+  if (isPlain) return `'''\n${lines}'''`
+  const escaped = lines.split('\n').map((line) => JSON.stringify(line).slice(1, -1).replaceAll('\u007f', '\\u007f'))
+  return `"""\n${escaped.join('\n')}"""`
+}
+
 class Reader {
   at = 0
   scan: Scan = { entries: [], tables: [], comments: [], complete: true }
@@ -168,14 +192,10 @@ class Reader {
       if (this.at >= this.text.length || (end === quote && this.text[this.at] === '\n')) throw new Error('string')
       this.at += quote === '"' && this.text[this.at] === '\\' ? 2 : 1
     }
-    const inside = this.text.slice(start, this.at)
+    if (end === long) for (let i = 0; i < 2 && this.text[this.at + 3] === quote; ++i) ++this.at // quotes of the text itself
+    const inside = this.text.slice(start, this.at).replace(/^\r?\n/, '')
     this.at += end.length
-    if (quote === "'") return inside
-    try {
-      return JSON.parse(`"${inside}"`) as string
-    } catch {
-      return inside
-    }
+    return quote === "'" ? inside : unescaped(inside)
   }
 
   private array(): TomlValue[] {
@@ -235,14 +255,14 @@ export function set(text: string, path: string[], raw: string): string {
   const parent = path.slice(0, -1)
   const key = path[path.length - 1]!
   const table = tableOf(scanned, parent)
-  if (!table) return `${text.replace(/\n*$/, '\n')}\n[${parent.join('.')}]\n${key} = ${raw}\n`
+  if (!table) return `${text.replace(/\n*$/, '\n')}\n[${pathText(parent)}]\n${keyText(key)} = ${raw}\n`
   const insert = (what: string): string => text.slice(0, table.insertAt) + what + text.slice(table.insertAt)
   if (table.kind === 'inline') {
-    const line = `${path.slice(table.path.length).join('.')} = ${raw}`
+    const line = `${pathText(path.slice(table.path.length))} = ${raw}`
     return insert(table.empty ? ` ${line} ` : `, ${line}`)
   }
   const at = lineEnd(text, table.insertAt)
-  const name = table.kind === 'dotted' ? path.join('.') : key
+  const name = table.kind === 'dotted' ? pathText(path) : keyText(key)
   return `${text.slice(0, at)}\n${name} = ${raw}${text.slice(at)}`
 }
 
@@ -267,12 +287,19 @@ export function unset(text: string, path: string[]): string {
 
 /** The text without its comments and empty lines; every value is the same. */
 export function withoutComments(text: string): string {
-  let out = text
-  for (const comment of [...scan(text).comments].reverse()) {
-    out = out.slice(0, comment.start) + out.slice(comment.end)
+  const { comments, entries } = scan(text)
+  const lines = entries.filter(({ start, end, value }) => typeof value === 'string' && text.slice(start, end).includes('\n'))
+  /** What stands between texts of several lines. */
+  const between = (from: number, to: number): string => {
+    const inside = comments.filter((each) => each.start >= from && each.end <= to)
+    const left = inside.reduceRight((out, { start, end }) => out.slice(0, start - from) + out.slice(end - from), text.slice(from, to))
+    return left.replace(/[ \t]+$/gm, '').replace(/\n{2,}/g, '\n')
   }
-  return out
-    .replace(/[ \t]+$/gm, '')
-    .replace(/\n{2,}/g, '\n')
-    .replace(/^\n/, '')
+  let out = ''
+  let done = 0
+  for (const { start, end } of lines) {
+    out += between(done, start) + text.slice(start, end)
+    done = end
+  }
+  return (out + between(done, text.length)).replace(/^\n/, '')
 }

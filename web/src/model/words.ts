@@ -50,6 +50,24 @@ export const holderWord = (of: Analysis | null, holder: HolderLimit | null | und
                 ? 'none: the softest walls are unstable'
                 : limitWord(of)
 
+/** The bounds of the limit with any passive user, of a wall in every direction. */
+const boundsWord = ({ point_wall: point, units }: Analysis): string => {
+  const bounds = point?.any_user
+  if (!bounds) return 'not known'
+  if (bounds.at_least === null) return 'every wall is stable'
+  if (bounds.at_least === 0) return 'not known: some user may destabilise every wall'
+  const [least, most] = [bounds.at_least, bounds.at_most].map((each) => (each === null ? '' : say(each, units.stiffness)))
+  return least === most || !most ? `at least ${least}` : `${least} to ${most}`
+}
+
+/** With any passive user: of a wall in every direction bounds are known, else a limit. */
+export const anyUserLimitWord = (of: Analysis): string =>
+  of.point_wall && of.status !== 'refused' ? boundsWord(of) : holderWord(of, of.limits.any_user)
+
+/** "(−0.93, 0.36, 0)" */
+export const directionWord = (direction: number[]): string =>
+  `(${direction.map((each) => say(Math.round(each * 1e3) / 1e3 + 0, '').replace('-', '−')).join(', ')})`
+
 /** A wall is one of these, in texts, page and figures. */
 export type WallWord = 'stable for anyone' | 'stable alone only' | 'unstable'
 

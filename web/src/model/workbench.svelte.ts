@@ -3,7 +3,7 @@
 import { decode, encode, type Decoded } from './address'
 import { written } from './decimal'
 import { History } from './history'
-import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
+import { deviceKey, fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Joint, type Row } from './keys'
 import { empty, type Settings, type Snapshot } from './snapshot'
 import { confirm } from './parts'
 import { scan, set, unset } from './toml'
@@ -32,7 +32,10 @@ class Workbench {
   pins = $derived(this.state.pins)
   scanned = $derived(scan(this.toml))
   private before: Group[] = []
-  groups: Group[] = $derived((this.before = groupsOf(this.scanned, this.before)))
+  /** Of a mechanism, as the program's newest answer has them. */
+  private learned = $state.raw<{ joints: Joint[]; of: string }>({ joints: [], of: '' })
+  joints: Joint[] = $derived(this.learned.of === deviceKey(this.toml) ? this.learned.joints : [])
+  groups: Group[] = $derived((this.before = groupsOf(this.scanned, this.before, this.joints)))
   private rows = $derived(new Map(this.groups.flatMap((group) => group.rows.map((row) => [row.key, row]))))
   shape = $derived(shapeOf(this.scanned))
   rotary = $derived(isRotary(this.scanned))
@@ -80,6 +83,11 @@ class Workbench {
     if (JSON.stringify(state) !== JSON.stringify(this.state)) this.change(state)
   }
 
+  /** Where the joints of that device are. */
+  learn(joints: Joint[], toml: string): void {
+    this.learned = { joints, of: deviceKey(toml) }
+  }
+
   row(key: string): Row | undefined {
     return this.rows.get(fullKey(key))
   }
@@ -120,6 +128,7 @@ class Workbench {
   /** The plain SI number of the file or what holds without it; null where it has a unit of its own or is none. */
   plain(key: string): number | null {
     const row = this.row(key)
+    if (row?.value === undefined && row?.field.travel) return row.field.travel.at
     if (row?.value === undefined) return row?.field.like ? this.plain(row.field.like) : row?.field.mayBeZero ? 0 : null
     const value = written(row.value)
     return value?.unit === null ? value.number : null

@@ -7,7 +7,7 @@ import { panels } from './open.svelte'
 
 /** The limit for any passive user, else alone, with its first two digits: not above it. */
 export function firstStiffness(of: Analysis | null): number {
-  const limit = of?.any_user?.critical_stiffness || of?.critical_stiffness || 1
+  const limit = of?.point_wall?.any_user?.at_least || of?.any_user?.critical_stiffness || of?.critical_stiffness || 1
   const step = 10 ** (Math.floor(Math.log10(limit)) - 1)
   return Number((Math.floor(limit / step) * step).toPrecision(2))
 }

@@ -8,6 +8,7 @@ export const panels = $state<Record<string, boolean>>({})
 
 export const panelNames: [id: string, title: string][] = [
   ['bar', 'Which stiffness is stable'],
+  ['workspace', 'Where in the workspace'],
   ['limits', 'What limits, what to change'],
   ['recommend', 'Which wall to render'],
   ['region', 'Stiff and damped walls'],
