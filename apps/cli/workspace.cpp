@@ -111,8 +111,9 @@ void add_workspace(CLI::App& app) {
   add_device_arguments(*command, arguments->devices, FileCount::one);
   command
       ->add_option("--poses", arguments->texts.poses,
-                   "JOINT=FIRST:LAST:COUNT or JOINT=VALUE, parted by commas, in rad, m or with\n"
-                   "a unit; parted by ; a list of poses (default: the ranges in the mechanism's file)")
+                   "JOINT=FIRST:LAST:COUNT or JOINT=VALUE, parted by commas, in rad or m,\n"
+                   "or with a unit; parted by ; a list of poses (default: ranges in the\n"
+                   "mechanism's file)")
       ->type_name("GRID")
       ->allow_extra_args(false);
   command
@@ -121,8 +122,8 @@ void add_workspace(CLI::App& app) {
       ->type_name("X,Y,Z");
   command
       ->add_option("--normals", arguments->texts.normals,
-                   "Of the wall: a number of directions, spread and refined to the least, or\n"
-                   "normals, \"1,0,0;0,1,0\" (default: 12 in a plane, 48 in space)")
+                   "Of the wall: a number of directions, spread and refined to the least,\n"
+                   "or normals, \"1,0,0;0,1,0\" (default: 12 in a plane, 48 in space)")
       ->type_name("N|LIST")
       ->allow_extra_args(false);
   command
@@ -138,7 +139,7 @@ void add_workspace(CLI::App& app) {
                     "With --json: each pose's limits in all directions tried, too");
   command
       ->add_option(worst_option, arguments->worst,
-                   "Also write the device at the worst pose and normal, of any passive user\nwhere that is known")
+                   "Also write the device at the worst pose and normal, of any\npassive user where that is known")
       ->type_name("FILE");
   command->footer(
       "Examples:\n"
