@@ -73,7 +73,7 @@ set(slow
   "^ServedDocuments\\.(AreThose|Progress|WhatIsNo)"
   "^ServedErrors\\.WhatARequest"
   "^Verdicts/TrustedOrNot\\.IsSaidByEvery"
-  "^Serve\\.WorkOfEveryKind"
+  "^Serve\\.(WorkOfEveryKind|OffersMechanisms)"
   "^Identify\\.(What|Finds|Fits|Writes|Draws|SetsKeys|ItsMethods|TakesSeveral)"
   "^(Frf\\.TheUnits|Relay\\.AVeryLong)"
   "^Design\\.(ADamperAlone|Slopes)"

@@ -280,7 +280,7 @@ it('marks the page while a file is dragged over it', async () => {
       dataTransfer.items.add(new File(['x'], 'x.csv'))
       document.querySelector('h1')!.dispatchEvent(new DragEvent(name, { dataTransfer, bubbles: true, cancelable: true }))
     }, type)
-  const mark = page.getByText('Drop a recording (CSV, MAT, UFF) or a device file (TOML)')
+  const mark = page.getByText('Drop a recording (CSV, MAT, UFF), a device file (TOML) or a mechanism (MJCF, URDF)')
   await expect.poll(() => mark.count()).toBe(0)
   await drag('dragover')
   await mark.waitFor()
