@@ -47,7 +47,7 @@ constexpr const char* arm_without_motors = R"(<mujoco>
   </worldbody>
 </mujoco>)";
 
-DeviceParameters arm(double shoulder, double elbow) {
+DeviceParameters posed_arm(double shoulder, double elbow) {
   DeviceParameters parameters;
   parameters.loop.sampling_period = 1e-3;
   MechanismFile& mechanism = parameters.mechanism.emplace().mechanism;
@@ -73,8 +73,8 @@ Device with_number(const Device& device, const std::string& key, double value) {
 }
 
 TEST(MechanismDesign, a_device_whose_numbers_change_is_put_to_its_pose_again) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
-  DeviceParameters moved = arm(0.3, 0.4);
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
+  DeviceParameters moved = posed_arm(0.3, 0.4);
   moved.mechanism->mechanism.transmissions[1].stiffness = 250.0;
   const Device expected = device_of_mechanism(std::move(moved));
   const Device found = with_number(with_number(device, "mechanism.pose.elbow", 0.4), "transmission.1.stiffness", 250.0);
@@ -85,7 +85,7 @@ TEST(MechanismDesign, a_device_whose_numbers_change_is_put_to_its_pose_again) {
 }
 
 TEST(MechanismDesign, a_number_that_makes_no_mechanism_is_refused_with_its_key) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   for (const auto& [key, value, at] : {std::tuple{"transmission.0.ratio", -1.0, "transmission.0.ratio"},
                                        std::tuple{"mechanism.pose.elbow", std::nan(""), "mechanism.pose.elbow"},
                                        // stretched out, its tip does not move along x
@@ -103,7 +103,7 @@ TEST(MechanismDesign, a_number_that_makes_no_mechanism_is_refused_with_its_key) 
 }
 
 TEST(MechanismDesign, numbers_of_motors_and_hinges_are_of_rotary_motion) {
-  const DeviceParameters parameters = arm(0.3, 1.2);
+  const DeviceParameters parameters = posed_arm(0.3, 1.2);
   EXPECT_EQ(motion_of_key(parameters, "transmission.0.stiffness"), Motion::rotary);
   EXPECT_EQ(motion_of_key(parameters, "mechanism.pose.elbow"), Motion::rotary);
   EXPECT_EQ(motion_of_key(parameters, "wall.stiffness"), Motion::linear);
@@ -115,7 +115,7 @@ TEST(MechanismDesign, slopes_are_those_of_the_limits_of_changed_mechanisms) {
   std::mt19937 random(46);
   std::uniform_real_distribution<double> angle(0.2, 1.4);
   for (int i = 0; i < 3; ++i) {
-    DeviceParameters parameters = arm(angle(random), angle(random));
+    DeviceParameters parameters = posed_arm(angle(random), angle(random));
     parameters.loop.delay = 1e-4;
     parameters.actuator.time_constant = 2e-4;
     const Device device = device_of_mechanism(std::move(parameters));
@@ -136,7 +136,7 @@ TEST(MechanismDesign, slopes_are_those_of_the_limits_of_changed_mechanisms) {
 }
 
 TEST(MechanismDesign, slopes_of_any_grasp_are_those_of_its_limits) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const std::vector<Sensitivity> slopes = absolute_stability_sensitivities(device);
   EXPECT_EQ(slopes.size(), 16U);  // without the user's
   for (const char* key : {"mechanism.pose.elbow", "transmission.0.ratio", "transmission.1.damping"}) {
@@ -193,7 +193,7 @@ TEST(MechanismDesign, slopes_are_those_of_the_same_device_of_bodies) {
 }
 
 TEST(MechanismDesign, a_design_finds_where_another_crossover_takes_over_but_not_along_a_joint) {
-  const Design found = design(device_of_mechanism(arm(0.3, 1.2)));
+  const Design found = design(device_of_mechanism(posed_arm(0.3, 1.2)));
   EXPECT_TRUE(found.trust.sound());
   EXPECT_EQ(found.sensitivities.size(), 19U);
   EXPECT_EQ(found.absolute_stability_sensitivities.size(), 16U);
@@ -202,14 +202,14 @@ TEST(MechanismDesign, a_design_finds_where_another_crossover_takes_over_but_not_
     SCOPED_TRACE(each.key);
     EXPECT_FALSE(is_key_of_pose(each.key));
     const double below =
-        critical_stiffness(with_number(device_of_mechanism(arm(0.3, 1.2)), each.key, each.value)).stiffness;
+        critical_stiffness(with_number(device_of_mechanism(posed_arm(0.3, 1.2)), each.key, each.value)).stiffness;
     EXPECT_NEAR(below / each.stiffness_beyond, 1.0, 0.05);
   }
 }
 
 // The disc of every frequency, by the limit that it leaves, and behind a filter.
 TEST(MechanismDesign, the_grasped_plant_leaves_the_limit_of_any_grasp) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const TipMotion motion = tip_motion_of(device).value();
   const Eigen::Vector3d normal(1.0, 0.0, 0.0);
   const GraspLimit limit = any_grasp_limit(motion, device.parameters(), normal);
@@ -232,7 +232,7 @@ TEST(MechanismDesign, the_grasped_plant_leaves_the_limit_of_any_grasp) {
 }
 
 TEST(MechanismDesign, targets_are_reached_and_judged_by_any_grasp) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const DesignTargets found = design_targets(device, {.factor = 3.0, .times_now = 1.2});
   EXPECT_TRUE(found.trust.sound());
   EXPECT_NEAR(*found.absolute_stability_limit_now / 278.845911, 1.0, 1e-5);
@@ -254,7 +254,7 @@ TEST(MechanismDesign, targets_are_reached_and_judged_by_any_grasp) {
 }
 
 TEST(MechanismDesign, an_oscillation_is_told_and_what_moves_it_is_judged_by_any_grasp) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const CriticalStiffness critical = critical_stiffness(device);
   const Diagnosis found =
       diagnose(device, {.frequency = critical.limit->frequency, .stiffness = 1.1 * critical.stiffness});
@@ -277,7 +277,7 @@ TEST(MechanismDesign, an_oscillation_is_told_and_what_moves_it_is_judged_by_any_
 
 // Whoever grasps the tip, as far as 100 springs, dampers and masses in all directions of the plane tell.
 TEST(MechanismDesign, no_grasp_destabilises_the_wall_that_is_recommended) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const WallRecommendation found = recommend_wall(device, {.alternatives = false});
   ASSERT_EQ(found.status, WallRecommendation::Status::found);
   EXPECT_TRUE(found.trust.sound());
@@ -307,7 +307,7 @@ TEST(MechanismDesign, no_grasp_destabilises_the_wall_that_is_recommended) {
 }
 
 TEST(MechanismDesign, a_sweep_of_a_joint_has_the_limits_of_its_poses) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const ParameterSweep found = parameter_sweep(
       device, {{.key = "mechanism.pose.elbow", .first = 0.4, .last = 1.2, .count = 3}}, {.any_user = true});
   ASSERT_EQ(found.points.size(), 3U);
@@ -317,7 +317,7 @@ TEST(MechanismDesign, a_sweep_of_a_joint_has_the_limits_of_its_poses) {
 }
 
 TEST(MechanismDesign, a_study_draws_poses_and_cables) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   StudyDistributions distributions;
   distributions.parameters = {
       {"mechanism.pose.elbow", {.kind = Distribution::Kind::uniform, .lower = 0.4, .upper = 1.2}},
@@ -331,7 +331,7 @@ TEST(MechanismDesign, a_study_draws_poses_and_cables) {
     const double elbow = columns[0].values[i];
     const double stiffness = columns[1].values[i];
     SCOPED_TRACE(elbow);
-    DeviceParameters unit = arm(0.3, elbow);
+    DeviceParameters unit = posed_arm(0.3, elbow);
     unit.mechanism->mechanism.transmissions[0].stiffness = stiffness;
     const Device expected = device_of_mechanism(std::move(unit));
     EXPECT_EQ(answers.stiffness[i], critical_stiffness(expected).stiffness);
@@ -344,7 +344,7 @@ TEST(MechanismDesign, a_study_draws_poses_and_cables) {
 }
 
 TEST(MechanismDesign, a_unit_that_is_no_mechanism_fails_alone) {
-  const Device device = device_of_mechanism(arm(0.0, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.0, 1.2));
   // stretched out along x, no wall of that normal is felt
   const std::vector<ParameterValues> changes = {{"mechanism.pose.elbow", {1.2, 0.0}}};
   const BatchStiffness answers = batch_stiffness(device, changes, {});
@@ -354,12 +354,12 @@ TEST(MechanismDesign, a_unit_that_is_no_mechanism_fails_alone) {
 }
 
 TEST(MechanismDesign, a_relay_finds_the_crossover_of_an_arm_in_which_nothing_rubs) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const RelayPrediction found = relay_prediction(device, {.amplitude = 1.0});
   EXPECT_NEAR(found.linear.stiffness / 318.881897, 1.0, 1e-8);
   ASSERT_FALSE(found.describing_function.empty());
   EXPECT_NEAR(found.describing_function.front().stiffness / 318.881897, 1.0, 1e-3);
-  DeviceParameters rubbing = arm(0.3, 1.2);
+  DeviceParameters rubbing = posed_arm(0.3, 1.2);
   std::string& text = rubbing.mechanism->mechanism.text;
   text.replace(text.find("damping=\"2e-3\""), 14, "damping=\"2e-3\" frictionloss=\"0.01\"");
   EXPECT_THROW(static_cast<void>(relay_prediction(device_of_mechanism(std::move(rubbing)), {.amplitude = 1.0})), Error);
@@ -367,7 +367,7 @@ TEST(MechanismDesign, a_relay_finds_the_crossover_of_an_arm_in_which_nothing_rub
 
 // Friction of joints is told from what it is not.
 TEST(MechanismDesign, friction_of_joints_is_a_cause) {
-  DeviceParameters rubbing = arm(0.3, 1.2);
+  DeviceParameters rubbing = posed_arm(0.3, 1.2);
   std::string& text = rubbing.mechanism->mechanism.text;
   text.replace(text.find("damping=\"2e-3\""), 14, "damping=\"2e-3\" frictionloss=\"0.01\"");
   const Device device = device_of_mechanism(std::move(rubbing));
@@ -380,7 +380,7 @@ TEST(MechanismDesign, friction_of_joints_is_a_cause) {
 }
 
 TEST(MechanismDesign, a_study_file_takes_the_units_of_joints_and_motors) {
-  const Device device = device_of_mechanism(arm(0.3, 1.2));
+  const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const auto found = parse_study(
       "[[parameter]]\nkey = \"mechanism.pose.elbow\"\ndistribution = \"uniform\"\nlower = \"20 deg\"\nupper = \"1.2 "
       "rad\"\n"
