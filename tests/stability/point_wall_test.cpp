@@ -47,6 +47,30 @@ TEST(PointWall, PlanarArmInAllDirectionsAndAlongEveryNormal) {
   EXPECT_EQ(normals, 36);
 }
 
+// Near a singular pose the wall hardly moves one direction: its pole stays within rounding of z = 1 at the least gains.
+TEST(PointWall, IsKnownWhereOneDirectionHardlyMoves) {
+  TipMotion motion;
+  motion.mass = Eigen::Vector2d(2e-3, 3e-3).asDiagonal();
+  test::add_element(motion, Eigen::Vector2d::UnitX(), 0.0, 4e-3);
+  test::add_element(motion, Eigen::Vector2d::UnitY(), 0.0, 9e-2);
+  motion.tip = Eigen::MatrixXd::Zero(3, 2);
+  motion.tip(0, 0) = 0.2;
+  DeviceParameters loop;
+  loop.loop.sampling_period = 1e-3;
+  for (const double lever : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    SCOPED_TRACE(lever);
+    motion.tip(1, 1) = lever;
+    motion.sensed = motion.pushed = motion.tip;
+    const PointWallLimit limit = point_wall_limit(motion, loop);
+    ASSERT_EQ(limit.status, StiffnessStatus::finite);
+    const PointWallLimit alone = normal_wall_limit(motion, loop, Eigen::Vector3d::UnitX());
+    EXPECT_NEAR(limit.stiffness / alone.stiffness, 1.0, 1e-9);
+    const test::SecondRoute route(motion, loop, Eigen::Matrix3d::Identity());
+    EXPECT_LT(route.radius(limit.stiffness * (1.0 - 1e-7)), 1.0);
+    EXPECT_GT(route.radius(limit.stiffness * (1.0 + 1e-7)), 1.0);
+  }
+}
+
 // Property: every wall below is stable, and the limit is where the largest pole passes the circle, by a second route.
 TEST(PointWall, IsThatOfClosedLoopEigenvalues) {
   constexpr double tolerance = 1e-8;

@@ -11,9 +11,12 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double first_gain = 1e-9;     // of the loop's unit: below, poles leave z = 1 in proportion to the gain
+constexpr double first_gain = 1e-9;       // of the loop's unit: below, poles leave z = 1 in proportion to the gain
+constexpr double last_first_gain = 1e-3;  // of the unit, where poles leave the circle so slowly that rounding hides it
+constexpr double to_next_gain = 10.0;
 constexpr double greatest_gain = 1e12;  // of the unit
 constexpr int most_gain_steps = 200000;
+constexpr int most_steps_down = 2000;
 constexpr int most_newton_steps = 40;
 constexpr double of_certain_step = 0.999;
 constexpr double followed_until = 1e-7;  // relative, below the crossing
@@ -72,6 +75,38 @@ const LoopPole* first_to_leave(const std::vector<LoopPole>& poles) {
   return first;
 }
 
+bool is_surely_unstable(const std::vector<LoopPole>& poles) {
+  return std::ranges::any_of(poles, [](const LoopPole& each) { return each.excess > of_rounding; });
+}
+
+// From where the march begins, `crossing`; or what is known instead.
+struct FirstGain {
+  GainLimit::Kind kind = GainLimit::Kind::not_determined;
+  double gain = 0.0;
+};
+
+// A pole that the wall hardly moves is at first as near to the circle as rounding: on which side, larger gains tell. From the
+// first that tells all, intervals go down to the least gain, or to where rounding hides the pole again.
+FirstGain first_known_gain(const GainLoop& loop) {
+  for (double known = first_gain; known <= last_first_gain; known *= to_next_gain) {
+    std::vector<LoopPole> poles = poles_at(loop, known);
+    if (is_surely_unstable(poles)) return {.kind = GainLimit::Kind::none_stable};
+    std::optional<double> certain = certain_step(poles);
+    if (!certain) continue;
+    double gain = known;
+    for (int step = 0; certain && gain > first_gain; ++step) {
+      if (step == most_steps_down) return {};
+      gain -= of_certain_step * *certain;
+      if (!(gain > 0.0)) break;
+      poles = poles_at(loop, gain);
+      certain = certain_step(poles);
+    }
+    if (is_surely_unstable(poles)) return {.kind = GainLimit::Kind::none_stable};
+    return {GainLimit::Kind::crossing, known};
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<GainLimit> polished_crossing(const GainLoop& loop, double gain, double angle) {
@@ -94,9 +129,10 @@ std::optional<GainLimit> polished_crossing(const GainLoop& loop, double gain, do
 }
 
 GainLimit first_crossing(const GainLoop& loop) {
-  double gain = first_gain;
+  const FirstGain first = first_known_gain(loop);
+  if (first.kind != GainLimit::Kind::crossing) return {.kind = first.kind};
+  double gain = first.gain;
   std::vector<LoopPole> poles = poles_at(loop, gain);
-  if (!certain_step(poles)) return {.kind = GainLimit::Kind::none_stable};
   std::optional<GainLimit> ahead;
   double near = close_to_crossing;
   for (int step = 0; step < most_gain_steps; ++step) {
