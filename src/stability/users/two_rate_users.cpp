@@ -28,9 +28,14 @@ constexpr int even_frequencies = 128;
 constexpr int grid_frequencies_per_decade = 24;  // below the first of them
 constexpr double least_grid_angle = 1e-7;        // rad per period of the spring
 constexpr int bits_of_minimum = 40;
-constexpr double flat_minimum = 1e-8;     // relative: neighbours this near are a minimum to an eighth of that
-constexpr double same_as_at_zero = 1e-9;  // relative: the frequency is then 0
-constexpr double whole_within = 1e-6;     // periods of the damper, of the difference of the delays
+// Between neighbours a parabola falls by an eighth of what they differ by.
+constexpr double flat_minimum = 1e-8;  // relative, of neighbours that are a minimum
+constexpr double deepest_fall = 1.0;   // of that difference: what falls more slowly to above the least is not refined
+// Beside nobody's crossovers a limit may fall between the grid's frequencies, to little below what it is there.
+constexpr double nearest_to_crossover = 1e-5;  // relative
+constexpr double far_above = 4.0;              // times the least of the grid: no frequencies beside that crossover
+constexpr double same_as_at_zero = 1e-9;       // relative: the frequency is then 0
+constexpr double whole_within = 1e-6;          // periods of the damper, of the difference of the delays
 
 // The damper's periods by which the spring's force comes later, whole where they are nearly; nothing where the damper is slower.
 std::optional<double> periods_later(const Loop& loop) {
@@ -81,10 +86,11 @@ class TwoRateDiscs {
     const auto disc_of = [](const TerminationDiscs& discs, const DiscPieces&, double at) {
       return discs.scaled_at({0.0, at});
     };
+    const DamperResponse gains(damper, fast_period_);
     return limit_of([&](int alias) {
       Alias seen = alias_of(frequency, alias, disc_of);
       if (discs_of_spring_) set_apart(disc_of, seen);
-      return closed(seen, damper);
+      return closed(seen, gains);
     });
   }
   // One frequency of the damper's band as the spring's samples show it, before the damper is closed.
@@ -92,8 +98,9 @@ class TwoRateDiscs {
     TerminationDiscs::Disc disc;  // scaled
     double frequency = 0.0;       // rad/s, without its sign
     bool is_negative = false;
-    double gain = 0.0;           // |(1 - z^-N)/(1 - z^-1)|/N
-    std::complex<double> phase;  // e^j of its angle and that of z^-m
+    double gain = 0.0;                // |(1 - z^-N)/(1 - z^-1)|/N
+    std::complex<double> phase;       // e^j of its angle and that of z^-m
+    std::complex<double> difference;  // 1 - z^-1
     // What the spring's plant is apart from the damper's, z^m p_s - p: of the aliases beyond the damper's rate.
     std::complex<double> apart_centre;
     double apart_radius = 0.0;
@@ -109,12 +116,13 @@ class TwoRateDiscs {
     return all;
   }
   [[nodiscard]] double limit_of_aliases(const Aliases& aliases, VirtualDamper damper) const {
-    return limit_of(
-        [&](int alias) { return closed(aliases[static_cast<std::size_t>(alias - least_alias())], damper); });
+    const DamperResponse gains(damper, fast_period_);
+    return limit_of([&](int alias) { return closed(aliases[static_cast<std::size_t>(alias - least_alias())], gains); });
   }
   // At a frequency that share of the way between two of such aliases; what is apart is interpolated.
   [[nodiscard]] double limit_between(double frequency, const Aliases& before, const Aliases& after, double share,
                                      VirtualDamper damper) const {
+    const DamperResponse gains(damper, fast_period_);
     return limit_of([&](int alias) {
       Alias seen = alias_of(frequency, alias, quick_disc);
       if (discs_of_spring_) {
@@ -122,14 +130,15 @@ class TwoRateDiscs {
         seen.apart_centre = (1.0 - share) * before[i].apart_centre + share * after[i].apart_centre;
         seen.apart_radius = std::lerp(before[i].apart_radius, after[i].apart_radius, share);
       }
-      return closed(seen, damper);
+      return closed(seen, gains);
     });
   }
 
   // The dampers that some user destabilises there without any spring: D <= 0, a range of B.
   void add_excluded(const Aliases& aliases, double velocity_filter_hz, std::vector<StableInterval>& excluded) const {
+    const DamperResponse velocity({1.0, velocity_filter_hz}, fast_period_);
     for (const Alias& each : aliases) {
-      const std::complex<double> unit = damper_response({1.0, velocity_filter_hz}, fast_period_, each.frequency);
+      const std::complex<double> unit = velocity.at(each.difference);
       const double half = (unit * each.disc.centre).real();
       const double quadratic = std::norm(unit) * each.disc.power;
       const double first = least_root(each.disc.one, half, quadratic);
@@ -198,6 +207,7 @@ class TwoRateDiscs {
     const double angle = seen.frequency * fast_period_;
     const double sum = std::sin(0.5 * angle * steps_) / std::sin(0.5 * angle);
     seen.gain = std::abs(sum) / steps_;
+    seen.difference = backward_difference(angle);
     seen.phase = (sum < 0.0 ? -1.0 : 1.0) * std::polar(1.0, -angle * (0.5 * (steps_ - 1) + periods_later_));
     return seen;
   }
@@ -229,10 +239,10 @@ class TwoRateDiscs {
     seen.apart_radius = 2.0 * (std::abs(std::sin(pi * periods_later_)) * next + std::max(others, 0.0));
   }
 
-  [[nodiscard]] Part closed(const Alias& seen, VirtualDamper gains) const {
+  [[nodiscard]] Part closed(const Alias& seen, const DamperResponse& gains) const {
     const TerminationDiscs::Disc& disc = seen.disc;
     if (!std::isfinite(disc.radius)) return {};
-    const std::complex<double> damper = damper_response(gains, fast_period_, seen.frequency);
+    const std::complex<double> damper = gains.at(seen.difference);
     const double divisor = disc.one + 2.0 * (damper * disc.centre).real() + std::norm(damper) * disc.power;
     if (!(divisor > 0.0)) return {};
     std::complex<double> centre = seen.gain * seen.phase * (disc.centre + std::conj(damper) * disc.power) / divisor;
@@ -274,10 +284,8 @@ class TwoRateDiscs {
 
 namespace {
 
-// Rising, within the spring's band.
-void keep_band(double period, double nyquist, std::vector<double>& frequencies) {
-  std::erase_if(frequencies, [&](double each) { return !(each >= least_grid_angle / period && each <= nyquist); });
-  std::ranges::sort(frequencies);
+bool is_in_band(double frequency, double period) {
+  return frequency >= least_grid_angle / period && frequency <= pi / period;
 }
 
 std::vector<double> frequency_grid(const TwoRateDiscs& discs, const Device& device) {
@@ -291,20 +299,8 @@ std::vector<double> frequency_grid(const TwoRateDiscs& discs, const Device& devi
     frequencies.push_back(angle / period);
   }
   discs.add_modes(frequencies);
-  keep_band(period, nyquist, frequencies);
-  return frequencies;
-}
-
-std::vector<double> beside_crossovers(const CriticalStiffness& nobody, double period, double nyquist) {
-  std::vector<double> frequencies;
-  for (const Crossover& each : nobody.crossovers) {
-    for (double share = 1e-5; share < 0.5; share *= 4.0) {
-      frequencies.push_back(each.frequency * (1.0 - share));
-      frequencies.push_back(each.frequency * (1.0 + share));
-    }
-    frequencies.push_back(each.frequency);
-  }
-  keep_band(period, nyquist, frequencies);
+  std::erase_if(frequencies, [&](double each) { return !is_in_band(each, period); });
+  std::ranges::sort(frequencies);
   return frequencies;
 }
 
@@ -385,18 +381,31 @@ struct TwoRateUsers::Grid {
     for (const double each : frequencies) aliases.push_back(discs.aliases_at(each));
   }
 
-  // The least K at a frequency; those of the grid, and others among them.
+  // The least K at a frequency; those of the grid, and among them some beside nobody's crossovers.
   struct Sample {
     double frequency = 0.0;
     double stiffness = 0.0;
   };
-  [[nodiscard]] std::vector<Sample> samples(VirtualDamper damper, const std::vector<double>& others) const {
+  [[nodiscard]] std::vector<Sample> samples(VirtualDamper damper, const CriticalStiffness& nobody) const {
     std::vector<Sample> all;
-    all.reserve(frequencies.size() + others.size());
+    all.reserve(2 * frequencies.size());
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < frequencies.size(); ++i) {
       all.push_back({frequencies[i], discs.limit_of_aliases(aliases[i], damper)});
+      least = std::min(least, all.back().stiffness);
     }
-    for (const double each : others) all.push_back({each, limit_at(each, damper)});
+    const auto add = [&](double frequency) {
+      if (!is_in_band(frequency, period)) return least;
+      all.push_back({frequency, limit_at(frequency, damper)});
+      return all.back().stiffness;
+    };
+    for (const Crossover& each : nobody.crossovers) {
+      if (add(each.frequency) > far_above * least) continue;
+      for (double share = nearest_to_crossover; share < 0.5; share *= 4.0) {
+        (void)add(each.frequency * (1.0 - share));
+        (void)add(each.frequency * (1.0 + share));
+      }
+    }
     std::ranges::sort(all, {}, &Sample::frequency);
     return all;
   }
@@ -421,22 +430,22 @@ AbsoluteStabilityLimit TwoRateUsers::limit(VirtualDamper damper, const CriticalS
   limit.trust = nobody.trust;
   const TwoRateDiscs& discs = grid_->discs;
   if (discs.is_undamped() || nobody.stiffness == 0.0) return limit;
-  const std::vector<Grid::Sample> samples =
-      grid_->samples(damper, beside_crossovers(nobody, grid_->period, discs.nyquist()));
+  const std::vector<Grid::Sample> samples = grid_->samples(damper, nobody);
   double least = std::numeric_limits<double>::infinity();
   const auto take = [&](double frequency, double stiffness) {
     if (!(stiffness < least)) return;
     least = stiffness;
     limit.frequency = frequency;
   };
+  for (const Grid::Sample& each : samples) take(each.frequency, each.stiffness);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double here = samples[i].stiffness;
-    take(samples[i].frequency, here);
     const double before = i > 0 ? samples[i - 1].stiffness : std::numeric_limits<double>::infinity();
     const double after = i + 1 < samples.size() ? samples[i + 1].stiffness : std::numeric_limits<double>::infinity();
     if (!(here > 0.0) || here > before || here > after) continue;
     // Towards zero the limit is constant, and rounding swings.
-    if (std::max(before, after) <= here * (1.0 + flat_minimum)) continue;
+    const double highest = std::max(before, after);
+    if (highest <= here * (1.0 + flat_minimum) || here - deepest_fall * (highest - here) > least) continue;
     std::uintmax_t most_steps = 100;
     const auto [at, compliance] = boost::math::tools::brent_find_minima(
         [&](double frequency) { return -1.0 / grid_->limit_at(frequency, damper); },
