@@ -6,7 +6,7 @@ function(zwidth_unity target)
   set(alone plant_sensitivity identifiability pole_count_in_digits)
   list(APPEND alone wall_recommendation mat5_matrix welch)  # some names of theirs are others in wall_search, mat_recording
   # What the program loads on demand. The kernel includes itself besides, once per instruction set.
-  list(APPEND alone stiffness_kernel mat73_file least_squares quiet_solve exact_sampling transfer_function mujoco_file)
+  list(APPEND alone stiffness_kernel mat73_file least_squares quiet_solve exact_sampling transfer_function mujoco_file mechanism_text)
   set(exact exact_fraction exact_modal_form exact_partial_fractions exact_poles)  # together, for the same reason
   # tests that name their seed, cases or period as their neighbours do
   list(APPEND alone absolute_stability_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test

@@ -188,6 +188,7 @@ std::string exported_chai3d(const ExportArguments& arguments) {
   SafeWallOptions options{.damping = SafeWallOptions::Damping::ceiling};
   options.safety_factor = arguments.safety_factor.value_or(options.safety_factor);
   if (const auto problem = find_problem(options)) refuse(*problem, options_of_wall);
+  require_one_rate(device);  // CHAI3D runs the damper with the spring
   const SafeWall wall = worked(arguments.devices.files.front(), [&] { return safe_wall(device, options); });
   check_share(arguments, wall);
   return report::export_chai3d(device, wall, options.safety_factor);

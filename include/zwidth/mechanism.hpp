@@ -74,17 +74,18 @@ class MechanismModel {
   /// The mechanism where these joints are there, and of others those of the file's pose. Throws Error as at_pose() does.
   [[nodiscard]] MechanismAtPose at(const JointPositions& pose = {}) const;
 
+  /// How close the tip comes to a point.
+  struct Reached {
+    JointPositions pose;    ///< of pose_joints(), the closest that was found
+    double short_of = 0.0;  ///< m, from the tip to the point: at most 1e-9 where it is reached
+    bool reached = false;   ///< to 1e-9 m
+  };
   /// A pose of pose_joints() with the tip at a point of the world's frame, m, from the file's pose on.
   ///
   ///     minimise |x(q) - point|,  loops closed, cables not stretched, ranges of joints kept
   ///
   /// Damped Gauss-Newton steps (Levenberg-Marquardt), at most 200, from the file's pose, and where that ends short from some
   /// around it. Throws Error (invalid_argument) for a point that is not finite.
-  struct Reached {
-    JointPositions pose;    ///< of pose_joints(), the closest that was found
-    double short_of = 0.0;  ///< m, from the tip to the point: at most 1e-9 where it is reached
-    bool reached = false;   ///< to 1e-9 m
-  };
   [[nodiscard]] Reached reach(const Eigen::Vector3d& point) const;
 
  private:

@@ -11,16 +11,13 @@
 
 #include "mechanism/transmissions.hpp"
 #include "stability/tip/limits_at_pose.hpp"
-#include "stability/users/any_grasp.hpp"
+#include "stability/users/two_rate_users.hpp"
 #include "workspace/direction_spread.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-// rad per sample: of the scan's lowest frequency, below which the limit is taken for constant.
-constexpr double lowest_scanned_angle = 1.001e-3;
 
 // A damper of the loop's own period and delay, or none, is no loop of its own; filters are of one direction alone.
 bool has_plain_wall(const DeviceParameters& parameters) {
@@ -33,7 +30,8 @@ class AnyDirection {
   AnyDirection(const MechanismAtPose& at, const DeviceParameters& parameters, bool any_user)
       : at_(at), parameters_(parameters), any_user_(any_user) {
     any_user_ = any_user_ && static_cast<std::size_t>(at.mass.rows()) <= most_bodies_for_absolute_stability;
-    if (!has_plain_wall(parameters)) return;
+    // A tip that moves along one direction alone is one axis, of which more is known.
+    if (!has_plain_wall(parameters) || moved_directions(at.tip).cols() == 1) return;
     DeviceParameters loop = parameters;
     loop.loop.damper.reset();
     loop.user = {};
@@ -74,8 +72,7 @@ class AnyDirection {
     const GraspLimit grasp = shared_->any_grasp_along(normal);
     if (nobody.stiffness <= grasp.stiffness) return limits;
     limits.any_user = grasp.stiffness;
-    const double angle = grasp.frequency * parameters_.loop.sampling_period;
-    limits.any_user_frequency = angle > lowest_scanned_angle ? grasp.frequency : 0.0;
+    limits.any_user_frequency = grasp.frequency;
     return limits;
   }
 
@@ -170,8 +167,7 @@ ExactLimits exact_limits(const MechanismAtPose& at, const DeviceParameters& para
   const Device device = device_along(at, normal, alone_along(parameters, normal));
   ExactLimits limits{critical_stiffness(device), {}};
   if (!with_any_user || limits.nobody.status == StiffnessStatus::refused) return limits;
-  if (device.degrees_of_freedom() > most_bodies_for_absolute_stability) return limits;
-  limits.any_user = any_grasp_absolute_stability(device, virtual_damper(device), limits.nobody);
+  if (device.degrees_of_freedom() <= most_bodies_for_absolute_stability) limits.any_user = any_user_limit(device);
   return limits;
 }
 

@@ -332,7 +332,10 @@ class WorkspaceFigure {
   [[nodiscard]] Panel map(const MapView& view, double width, double height) const {
     const AxisRange across = reach(view.across);
     const AxisRange up = reach(view.up);
-    double per_px = 1.16 * std::max((across.high - across.low) / width, (up.high - up.low) / height);
+    constexpr double room = 40.0;  // px, of the dots and curves at the ends
+    const double wide = across.high - across.low;
+    const double high = up.high - up.low;
+    double per_px = std::max({1.16 * wide / width, wide / (width - 2.0 * room), high / (height - 2.0 * room)});
     if (per_px == 0.0) per_px = 0.2 / width;
     const auto axis = [&](std::string_view name, const AxisRange& range, double size) {
       const double middle = 0.5 * (range.low + range.high);
