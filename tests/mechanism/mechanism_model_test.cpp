@@ -68,6 +68,28 @@ TEST(MechanismModel, IsAtEveryPoseWhatTheFileIsThere) {
   }
 }
 
+// Property: what was read last is looked at again, and says what a file read anew does; of a changed text nothing stays.
+TEST(MechanismModel, WhatWasReadLastIsTheFileAtAnotherPoseAndTransmission) {
+  const MechanismFile other = file_of_device("planar_arm");
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const test::RandomMechanism mechanism = random_mechanism(seed);
+    MechanismFile file = file_of_random(mechanism, {});
+    for (const double share : {0.5, 1.0, -0.2}) {
+      for (const auto& [joint, position] : mechanism.pose) file.pose[joint] = share * position;
+      file.transmissions = {{mechanism.pose.begin()->first, 3.0 + share, 1e-4, 1e-4, share > 0.0 ? 50.0 : 0.0, 0.01}};
+      file.encoders = {mechanism.pose.begin()->first};
+      (void)at_pose(file);
+      const MechanismAtPose again = at_pose(file);
+      (void)at_pose(other);
+      expect_same(again, at_pose(file));
+    }
+    const MechanismAtPose before = at_pose(file);
+    file.text.insert(file.text.rfind("</worldbody>"), R"(<body><joint name="new"/><geom size="0.1"/></body>)");
+    EXPECT_EQ(at_pose(file).joints.size(), before.joints.size() + 1);
+  }
+}
+
 TEST(MechanismModel, IsAskedBySeveralThreadsAtOnce) {
   const MechanismModel model(file_of_device("pantograph"));
   const auto pose = [](int i) { return JointPositions{{"theta1", 0.6 + 0.01 * i}, {"theta5", 2.4 - 0.01 * i}}; };
