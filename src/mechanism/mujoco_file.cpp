@@ -163,6 +163,7 @@ class Posed {
     for (const auto& [joint, to] : pose) {
       const std::string key = fmt::format("mechanism.pose.{}", joint);
       const int of = parts_.index(key, mjOBJ_JOINT, joint);
+      if (!std::isfinite(to)) refuse_key(key, {.code = ProblemCode::not_finite});
       const bool slides = model_->jnt_type[of] == mjJNT_SLIDE;
       const auto unit = file.units_of_pose.find(joint);
       if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {

@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "mechanism/random_mechanism.hpp"
@@ -87,6 +88,24 @@ TEST(MechanismModel, WhatWasReadLastIsTheFileAtAnotherPoseAndTransmission) {
     const MechanismAtPose before = at_pose(file);
     file.text.insert(file.text.rfind("</worldbody>"), R"(<body><joint name="new"/><geom size="0.1"/></body>)");
     EXPECT_EQ(at_pose(file).joints.size(), before.joints.size() + 1);
+  }
+}
+
+TEST(MechanismModel, APoseThatIsNoNumberIsRefusedByItsJoint) {
+  const MechanismModel arm(file_of_device("planar_arm"));
+  const MechanismModel loop(file_of_device("pantograph"));
+  for (const double no_number : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (const auto& [model, joint] : {std::pair(&arm, "elbow"), std::pair(&loop, "theta1")}) {
+      try {
+        (void)model->at({{joint, no_number}});
+        ADD_FAILURE() << joint;
+      } catch (const Error& error) {
+        ASSERT_EQ(error.problems().size(), 1U);
+        EXPECT_EQ(error.problems()[0].place.key, std::string("mechanism.pose.") + joint);
+        ASSERT_TRUE(error.problems()[0].problem);
+        EXPECT_EQ(error.problems()[0].problem->code, ProblemCode::not_finite);
+      }
+    }
   }
 }
 
