@@ -22,9 +22,14 @@ namespace {
 // rad per sample: of the scan's lowest frequency, below which the limit is taken for constant.
 constexpr double lowest_scanned_angle = 1.001e-3;
 
-// A damper of the loop's own period and delay, or none, is no loop of its own; filters are of one direction alone.
+// A damper of the loop's own period and delay, or none, is no loop of its own.
+bool is_damper_apart(const DeviceParameters& parameters) {
+  return parameters.wall.damping > 0.0 && has_damper_loop(parameters.loop);
+}
+
+// Filters are of one direction alone.
 bool has_plain_wall(const DeviceParameters& parameters) {
-  return parameters.wall.filters.empty() && (parameters.wall.damping == 0.0 || !has_damper_loop(parameters.loop));
+  return parameters.wall.filters.empty() && !is_damper_apart(parameters);
 }
 
 // The limits along any normal at a pose: by what is of the pose, once, where that is known, else one by one.
@@ -32,7 +37,8 @@ class AnyDirection {
  public:
   AnyDirection(const MechanismAtPose& at, const DeviceParameters& parameters, bool any_user)
       : at_(at), parameters_(parameters), any_user_(any_user) {
-    any_user_ = any_user_ && static_cast<std::size_t>(at.mass.rows()) <= most_bodies_for_absolute_stability;
+    any_user_ = any_user_ && !is_damper_apart(parameters) &&
+                static_cast<std::size_t>(at.mass.rows()) <= most_bodies_for_absolute_stability;
     if (!has_plain_wall(parameters)) return;
     DeviceParameters loop = parameters;
     loop.loop.damper.reset();
@@ -170,8 +176,11 @@ ExactLimits exact_limits(const MechanismAtPose& at, const DeviceParameters& para
   const Device device = device_along(at, normal, alone_along(parameters, normal));
   ExactLimits limits{critical_stiffness(device), {}};
   if (!with_any_user || limits.nobody.status == StiffnessStatus::refused) return limits;
-  if (device.degrees_of_freedom() > most_bodies_for_absolute_stability) return limits;
-  limits.any_user = any_grasp_absolute_stability(device, virtual_damper(device), limits.nobody);
+  const bool is_known =
+      !is_damper_apart(parameters) && device.degrees_of_freedom() <= most_bodies_for_absolute_stability;
+  if (!is_known) return limits;
+  const VirtualDamper damper{parameters.wall.damping, parameters.wall.velocity_filter_hz};
+  limits.any_user = any_grasp_absolute_stability(device, damper, limits.nobody);
   return limits;
 }
 
