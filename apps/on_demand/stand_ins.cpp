@@ -104,7 +104,7 @@ void solve_group(const KernelGroup& group, const KernelDevices& devices, std::si
 }
 
 #ifdef ZWIDTH_MUJOCO
-std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
+std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
   return loaded<on_demand::Mechanisms>().open_mujoco_file(file);
 }
 #endif

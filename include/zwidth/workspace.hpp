@@ -141,8 +141,9 @@ struct Workspace {
 /// that are not varied stay, its normal and its user are not asked, its wall's damper stays closed. A pose that is singular
 /// or does not close its loops is an answer with a problem. The least of all is computed once more by critical_stiffness()
 /// and any_grasp_limit() of the device there: what contradicts is doubtful.
-/// Throws Error (invalid_argument) where find_problem(options, device) finds one, for a wall with filters or with a damper
-/// in a loop of its own, and whatever options.progress throws. Source: theory, section 9.
+/// Filters of the wall are answered one direction at a time; with a damper in a loop of its own the limit for any user is not
+/// known, and absent. Throws Error (invalid_argument) where find_problem(options, device) finds one, and whatever
+/// options.progress throws. Source: theory, section 9.
 [[nodiscard]] Workspace workspace(const Device& device, const WorkspaceOptions& options = {});
 
 /// The device of a mechanism at another pose, its wall along a normal: what a device file of the worst pose holds.

@@ -88,7 +88,7 @@ class MechanismModel::Read {
   }
 
   MechanismFile of_;
-  std::unique_ptr<const internal::MujocoFile> mujoco_;
+  std::shared_ptr<const internal::MujocoFile> mujoco_;
   std::vector<MechanismJoint> joints_;
   MechanismAtPose at_file_pose_;
   std::vector<std::size_t> pose_joints_;

@@ -163,6 +163,7 @@ class Posed {
     for (const auto& [joint, to] : pose) {
       const std::string key = fmt::format("mechanism.pose.{}", joint);
       const int of = parts_.index(key, mjOBJ_JOINT, joint);
+      if (!std::isfinite(to)) refuse_key(key, {.code = ProblemCode::not_finite});
       const bool slides = model_->jnt_type[of] == mjJNT_SLIDE;
       const auto unit = file.units_of_pose.find(joint);
       if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
@@ -377,6 +378,12 @@ class OpenFile final : public MujocoFile {
   OpenFile(const MechanismFile& file, const std::vector<MechanismText>& texts)
       : file_(file), text_(one_text(texts)), model_(read_model(texts)) {}
 
+  // Whether what is read of the same texts for this file is the same.
+  [[nodiscard]] bool is_for(const MechanismFile& file) const {
+    return file.path == file_.path && file.text.empty() == file_.text.empty() && file.tip == file_.tip &&
+           file.encoders == file_.encoders && file.units_of_pose == file_.units_of_pose;
+  }
+
   [[nodiscard]] std::string text() const override { return text_; }
 
   [[nodiscard]] std::vector<MechanismJoint> joints() const override {
@@ -426,23 +433,28 @@ class OpenFile final : public MujocoFile {
 
 }  // namespace
 
-// What MuJoCo does not expect may crash it: a text is read in another process first. One text at a time.
-std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
+// What MuJoCo does not expect may crash it: a text is read in another process first. One text at a time. Devices made from one
+// another differ in pose and transmissions, and share what was read last.
+std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
   const std::vector<MechanismText> texts = mechanism_texts(file);
   static std::mutex one_at_a_time;
   static std::vector<MechanismText> read_before;
+  static std::shared_ptr<const OpenFile> opened;
   const std::lock_guard lock(one_at_a_time);
+  const bool is_known = texts == read_before;
+  if (is_known && opened && opened->is_for(file)) return opened;
   const Handlers handlers;
-  return reading(file, [&]() -> std::unique_ptr<const MujocoFile> {
-    if (texts == read_before) return std::make_unique<const OpenFile>(file, texts);
-    const bool ends = ends_in_trial([&] {
-      const Model model = read_model(texts);
-      const Data data(mj_makeData(model.get()));
-      static_cast<void>(at_pose_of(model.get(), data.get(), file, file.pose));
-    });
+  return reading(file, [&]() -> std::shared_ptr<const MujocoFile> {
+    const bool ends = is_known || ends_in_trial([&] {
+                        const Model model = read_model(texts);
+                        const Data data(mj_makeData(model.get()));
+                        static_cast<void>(at_pose_of(model.get(), data.get(), file, file.pose));
+                      });
     if (!ends) refuse_part("reader");
+    opened.reset();
     read_before = texts;
-    return std::make_unique<const OpenFile>(file, texts);
+    opened = std::make_shared<const OpenFile>(file, texts);
+    return opened;
   });
 }
 

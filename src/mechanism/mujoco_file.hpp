@@ -37,6 +37,6 @@ class MujocoFile {
 };
 
 // Throws Error as at_pose() does for what its text says.
-[[nodiscard]] std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file);
+[[nodiscard]] std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file);
 
 }  // namespace zwidth::internal

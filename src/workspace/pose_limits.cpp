@@ -19,9 +19,14 @@
 namespace zwidth::internal {
 namespace {
 
-// A damper of the loop's own period and delay, or none, is no loop of its own; filters are of one direction alone.
+// A damper of the loop's own period and delay, or none, is no loop of its own.
+bool is_damper_apart(const DeviceParameters& parameters) {
+  return parameters.wall.damping > 0.0 && has_damper_loop(parameters.loop);
+}
+
+// Filters are of one direction alone.
 bool has_plain_wall(const DeviceParameters& parameters) {
-  return parameters.wall.filters.empty() && (parameters.wall.damping == 0.0 || !has_damper_loop(parameters.loop));
+  return parameters.wall.filters.empty() && !is_damper_apart(parameters);
 }
 
 // The limits along any normal at a pose: by what is of the pose, once, where that is known, else one by one.
@@ -29,7 +34,8 @@ class AnyDirection {
  public:
   AnyDirection(const MechanismAtPose& at, const DeviceParameters& parameters, bool any_user)
       : at_(at), parameters_(parameters), any_user_(any_user) {
-    any_user_ = any_user_ && static_cast<std::size_t>(at.mass.rows()) <= most_bodies_for_absolute_stability;
+    any_user_ = any_user_ && !is_damper_apart(parameters) &&
+                static_cast<std::size_t>(at.mass.rows()) <= most_bodies_for_absolute_stability;
     // A tip that moves along one direction alone is one axis, of which more is known.
     if (!has_plain_wall(parameters) || moved_directions(at.tip).cols() == 1) return;
     DeviceParameters loop = parameters;

@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "mechanism/random_mechanism.hpp"
@@ -64,6 +65,46 @@ TEST(MechanismModel, IsAtEveryPoseWhatTheFileIsThere) {
       JointPositions pose;
       for (const auto& [joint, position] : mechanism.pose) pose[joint] = share * position;
       expect_same(model.at(pose), at_pose(file_of_random(mechanism, pose)));
+    }
+  }
+}
+
+// Property: what was read last is looked at again, and says what a file read anew does; of a changed text nothing stays.
+TEST(MechanismModel, WhatWasReadLastIsTheFileAtAnotherPoseAndTransmission) {
+  const MechanismFile other = file_of_device("planar_arm");
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const test::RandomMechanism mechanism = random_mechanism(seed);
+    MechanismFile file = file_of_random(mechanism, {});
+    for (const double share : {0.5, 1.0, -0.2}) {
+      for (const auto& [joint, position] : mechanism.pose) file.pose[joint] = share * position;
+      file.transmissions = {{mechanism.pose.begin()->first, 3.0 + share, 1e-4, 1e-4, share > 0.0 ? 50.0 : 0.0, 0.01}};
+      file.encoders = {mechanism.pose.begin()->first};
+      (void)at_pose(file);
+      const MechanismAtPose again = at_pose(file);
+      (void)at_pose(other);
+      expect_same(again, at_pose(file));
+    }
+    const MechanismAtPose before = at_pose(file);
+    file.text.insert(file.text.rfind("</worldbody>"), R"(<body><joint name="new"/><geom size="0.1"/></body>)");
+    EXPECT_EQ(at_pose(file).joints.size(), before.joints.size() + 1);
+  }
+}
+
+TEST(MechanismModel, APoseThatIsNoNumberIsRefusedByItsJoint) {
+  const MechanismModel arm(file_of_device("planar_arm"));
+  const MechanismModel loop(file_of_device("pantograph"));
+  for (const double no_number : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (const auto& [model, joint] : {std::pair(&arm, "elbow"), std::pair(&loop, "theta1")}) {
+      try {
+        (void)model->at({{joint, no_number}});
+        ADD_FAILURE() << joint;
+      } catch (const Error& error) {
+        ASSERT_EQ(error.problems().size(), 1U);
+        EXPECT_EQ(error.problems()[0].place.key, std::string("mechanism.pose.") + joint);
+        ASSERT_TRUE(error.problems()[0].problem);
+        EXPECT_EQ(error.problems()[0].problem->code, ProblemCode::not_finite);
+      }
     }
   }
 }

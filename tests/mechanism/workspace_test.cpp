@@ -298,8 +298,34 @@ TEST(Workspace, AWallWithFiltersIsAnsweredOneByOne) {
   const Workspace found = workspace(device, {.poses = {{}}, .normals = {{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}});
   ASSERT_EQ(found.poses[0].directions.size(), 1U);
   EXPECT_EQ(found.poses[0].directions[0].nobody, critical_stiffness(device).stiffness);
-  EXPECT_EQ(found.poses[0].directions[0].any_user, absolute_stability_limit(device, {}).stiffness);
+  const double any_user = absolute_stability_limit(device, virtual_damper(device)).stiffness;
+  ASSERT_TRUE(found.poses[0].directions[0].any_user);
+  EXPECT_NEAR(*found.poses[0].directions[0].any_user / any_user, 1.0, of_quick_limits);
   EXPECT_EQ(found.poses[0].refused.size(), 1U);
+  EXPECT_TRUE(has_finding(found, FindingCode::any_grasp_scanned));
+}
+
+// A grasp is known of one rate alone: nobody's limits are answered, any user's is absent.
+TEST(Workspace, ADamperInALoopOfItsOwnIsAnsweredForNobody) {
+  DeviceParameters parameters = workspace_device(workspace_arm(0.3, 1.2)).parameters();
+  parameters.loop.damper = LoopDamper{.sampling_period = 1e-4, .delay = {}};
+  for (const double damping : {0.0, 2.0}) {
+    SCOPED_TRACE(damping);
+    parameters.wall.damping = damping;
+    parameters.coordinates.reset();
+    const Device device = device_of_mechanism(parameters);
+    const Workspace found = workspace(device, {.poses = {{}}, .normals = {{1.0, 0.0, 0.0}}});
+    EXPECT_TRUE(found.trust.sound());
+    EXPECT_EQ(found.refused_poses, 0U);
+    ASSERT_EQ(found.poses[0].directions.size(), 1U);
+    const double alone = critical_stiffness(device).stiffness;
+    EXPECT_NEAR(found.poses[0].directions[0].nobody / alone, 1.0, of_confirmed_crossover);
+    ASSERT_TRUE(found.least);
+    EXPECT_EQ(found.least->stiffness, alone);
+    EXPECT_EQ(found.poses[0].directions[0].any_user.has_value(), damping == 0.0);
+    EXPECT_EQ(found.least_any_user.has_value(), damping == 0.0);
+    EXPECT_EQ(has_finding(found, FindingCode::any_grasp_not_known), damping > 0.0);
+  }
 }
 
 TEST(Workspace, TheFilesUserIsLeftOut) {

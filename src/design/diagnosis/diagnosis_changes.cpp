@@ -284,6 +284,7 @@ class Changes {
   void damp_own_loop() {
     if (is_quantisation()) return;  // with such a damper its cycle is not known
     std::vector<double> tried;
+    tried.reserve(std::size(dampers));
     for (const double factor : dampers) tried.push_back(factor * unit_of_dampers());
     for (const double damping : most_promising_first(loop_.device, std::move(tried))) {
       auto made = recomputed(

@@ -119,6 +119,7 @@ std::vector<AbsoluteStabilityPoint> scan(Sampler& sampler, double largest) {
   dampings.push_back(largest);
   std::ranges::sort(dampings);
   std::vector<AbsoluteStabilityPoint> points;
+  points.reserve(dampings.size());
   for (const double each : dampings) points.push_back(sampler.at(each));
   return points;
 }

@@ -49,7 +49,7 @@ double influence_of(const Device& device, const DesignParameter& parameter, Wall
 std::vector<DesignParameter> take_out_least(const Device& device, WallNumber number, double limit_frequency,
                                             const Progress& progress, std::vector<DesignParameter>& parameters) {
   const std::size_t bodies = device.degrees_of_freedom();
-  const std::size_t most = std::max(fewest_followed, bodies_times_numbers / bodies);
+  const std::size_t most = std::max(fewest_followed, bodies_times_numbers / std::max<std::size_t>(bodies, 1));
   if (bodies <= most_bodies_followed_whole || parameters.size() <= most) return {};
   const double frequency = limit_frequency > 0.0 ? limit_frequency : towards_rest / device.loop().sampling_period;
   struct Influence {

@@ -14,6 +14,8 @@ namespace {
 constexpr double first_gain = 1e-9;       // of the loop's unit: below, poles leave z = 1 in proportion to the gain
 constexpr double last_first_gain = 1e-3;  // of the unit, where poles leave the circle so slowly that rounding hides it
 constexpr double to_next_gain = 10.0;
+constexpr double in_proportion = 0.1;   // relative
+constexpr double rounded_steps = 10.0;  // of eps |A|: what an eigenvalue decomposition leaves
 constexpr double greatest_gain = 1e12;  // of the unit
 constexpr int most_gain_steps = 200000;
 constexpr int most_steps_down = 2000;
@@ -30,12 +32,15 @@ struct LoopPole {
   double growth = 0.0;  // of it with the gain
   double angle = 0.0;
   double residue = 0.0;  // |C r| |l B|
+  double rounding = 0.0;
   Eigen::VectorXcd motion;
 };
 
 // Of delta = z - 1.
 std::vector<LoopPole> poles_at(const GainLoop& loop, double gain) {
-  const EigenDecomposition of = eigen_decomposition(loop.state - gain * loop.input * loop.output);
+  const Eigen::MatrixXd closed = loop.state - gain * loop.input * loop.output;
+  const EigenDecomposition of = eigen_decomposition(closed);
+  const double rounded = rounded_steps * std::numeric_limits<double>::epsilon() * closed.norm();
   const Eigen::MatrixXcd motions = loop.output * of.right;
   const Eigen::MatrixXcd drives = of.left * loop.input;
   std::vector<LoopPole> poles;
@@ -48,6 +53,7 @@ std::vector<LoopPole> poles_at(const GainLoop& loop, double gain) {
     pole.growth = std::abs(z) > 0.0 ? (std::conj(z) * moves).real() / std::abs(z) : 0.0;
     pole.angle = std::abs(std::arg(z));
     pole.residue = motions.col(i).norm() * drives.row(i).norm();
+    pole.rounding = rounded * of.right.col(i).norm() * of.left.row(i).norm();
     pole.motion = motions.col(i);
     const bool is_free = std::abs(delta) < free_pole_below && pole.residue * std::max(gain, 1.0) < free_pole_below;
     if (!is_free) poles.push_back(std::move(pole));
@@ -75,9 +81,12 @@ const LoopPole* first_to_leave(const std::vector<LoopPole>& poles) {
   return first;
 }
 
-bool is_surely_unstable(const std::vector<LoopPole>& poles) {
-  return std::ranges::any_of(poles, [](const LoopPole& each) { return each.excess > of_rounding; });
-}
+// What is beyond rounding, which moves a pole by eps |A| |l| |r|.
+double sure_from(const LoopPole& pole) { return std::max(of_rounding, pole.rounding); }
+
+bool is_surely_unstable(const LoopPole& pole) { return pole.excess > sure_from(pole); }
+
+bool is_surely_stable(const LoopPole& pole) { return pole.excess < -sure_from(pole); }
 
 // From where the march begins, `crossing`; or what is known instead.
 struct FirstGain {
@@ -85,15 +94,25 @@ struct FirstGain {
   double gain = 0.0;
 };
 
+// Of a pole that lies on the circle without a wall: it moves in proportion to the gain.
+bool leaves_at_once(const LoopPole& pole, double gain) {
+  const double expected = pole.growth * gain;
+  return std::abs(pole.excess - expected) <= in_proportion * std::abs(expected);
+}
+
 // A pole that the wall hardly moves is at first as near to the circle as rounding: on which side, larger gains tell. From the
 // first that tells all, intervals go down to the least gain, or to where rounding hides the pole again.
 FirstGain first_known_gain(const GainLoop& loop) {
   for (double known = first_gain; known <= last_first_gain; known *= to_next_gain) {
     std::vector<LoopPole> poles = poles_at(loop, known);
-    if (is_surely_unstable(poles)) return {.kind = GainLimit::Kind::none_stable};
-    std::optional<double> certain = certain_step(poles);
-    if (!certain) continue;
+    const auto unstable = std::ranges::find_if(poles, is_surely_unstable);
+    if (unstable != poles.end()) {
+      if (known > first_gain && !leaves_at_once(*unstable, known)) return {};
+      return {.kind = GainLimit::Kind::none_stable};
+    }
+    if (!std::ranges::all_of(poles, is_surely_stable)) continue;
     double gain = known;
+    std::optional<double> certain = certain_step(poles);
     for (int step = 0; certain && gain > first_gain; ++step) {
       if (step == most_steps_down) return {};
       gain -= of_certain_step * *certain;
@@ -101,7 +120,7 @@ FirstGain first_known_gain(const GainLoop& loop) {
       poles = poles_at(loop, gain);
       certain = certain_step(poles);
     }
-    if (is_surely_unstable(poles)) return {.kind = GainLimit::Kind::none_stable};
+    if (std::ranges::any_of(poles, is_surely_unstable)) return {};
     return {GainLimit::Kind::crossing, known};
   }
   return {};
