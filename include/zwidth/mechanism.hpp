@@ -105,14 +105,14 @@ class MechanismModel {
 ///
 /// `parameters` gives all but bodies, links and which points the loop names. The user holds the tip along the normal alone.
 /// Throws Error (invalid_argument) for a normal of length 0, one along which the tip cannot move, and where encoders or
-/// motors do not determine its motion, or one of them depends on others. Source: theory, section 9.
+/// motors do not determine its motion, or one of them depends on others. Source: docs/theory.md, "Several axes".
 [[nodiscard]] Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal,
                                   DeviceParameters parameters);
 
 /// The same in all directions that the tip can move: what device_along() senses and pushes along a normal n is n' S_s, n' S_a.
 ///
 /// Throws Error (invalid_argument) where encoders or motors do not determine the tip's motion, or one of them depends on
-/// others. Source: theory, section 9.
+/// others. Source: docs/theory.md, "Several axes".
 [[nodiscard]] TipMotion tip_motion(const MechanismAtPose& mechanism);
 
 /// The device of `parameters.mechanism`: at_pose(), then device_along(), which throw; of a point wall tip_motion().

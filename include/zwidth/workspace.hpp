@@ -143,7 +143,7 @@ struct Workspace {
 /// and any_grasp_limit() of the device there: what contradicts is doubtful.
 /// Filters of the wall are answered one direction at a time; with a damper in a loop of its own the limit for any user is not
 /// known, and absent. Throws Error (invalid_argument) where find_problem(options, device) finds one, and whatever
-/// options.progress throws. Source: theory, section 9.
+/// options.progress throws. Source: docs/theory.md, "Several axes".
 [[nodiscard]] Workspace workspace(const Device& device, const WorkspaceOptions& options = {});
 
 /// The device of a mechanism at another pose, its wall along a normal: what a device file of the worst pose holds.

@@ -38,7 +38,7 @@ struct MotionFit {
 /// the largest critical stiffness that the records allow, nobody holding, no damper.
 ///
 /// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.
-/// Source: theory, section 10; Venzon & Moolgavkar 1988.
+/// Source: docs/identification_method.md; Venzon & Moolgavkar 1988.
 [[nodiscard]] std::optional<MotionFit> fit_motion(std::span<const Recording> recordings,
                                                   const FrequencyResponse& response, const Device& structure,
                                                   const MotionFitOptions& options);

@@ -463,7 +463,7 @@ std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
 #else
 namespace zwidth::internal {
 
-std::unique_ptr<const MujocoFile> open_mujoco_file(const MechanismFile&) {
+std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile&) {
   refuse_key("mechanism.file", {.code = ProblemCode::built_without_mujoco});
 }
 

@@ -25,7 +25,7 @@ struct InnerLoop {
 //
 //     P_cl = P_outer / (1 + (K + (B c/T) delta / (delta + c)) P_inner)
 //
-// and of that every steps_within()-th sample behind a force that changes as often. Source: theory, section 8.
+// and of that every steps_within()-th sample behind a force that changes as often. Source: docs/theory.md, "Two rates".
 class PlantBehindLoop {
  public:
   // For inner loops of that period and delay. Throws Error (invalid_argument) for one outside its domain.

@@ -103,7 +103,7 @@ double nobody_of(const DirectionLimits& limits) {
   return limits.status == StiffnessStatus::refused ? std::numeric_limits<double>::infinity() : limits.nobody;
 }
 
-// The directions tried, refined: what is least by `value`, which is 1 for the least limit and -1 for the greatest.
+// The direction in which `value` is least, refined from those tried.
 template <typename Value>
 DirectionLimits refined(const std::vector<DirectionLimits>& tried, const Eigen::MatrixXd& moved,
                         const AnyDirection& any_direction, bool with_any_user, const Value& value) {

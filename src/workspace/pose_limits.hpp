@@ -23,7 +23,7 @@ namespace zwidth::internal {
 // The parameters of a device of a mechanism along another normal, which nobody holds.
 [[nodiscard]] DeviceParameters alone_along(DeviceParameters parameters, const Eigen::Vector3d& normal);
 
-// The limits along one normal as analyze() computes them. Throws Error as device_along().
+// The limits along one normal, each by the route of a single device. Throws Error as device_along().
 struct ExactLimits {
   CriticalStiffness nobody;
   std::optional<AbsoluteStabilityLimit> any_user;  // absent unless asked for and known

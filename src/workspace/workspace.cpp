@@ -265,9 +265,10 @@ class WorkspaceSearch {
       }
     }
     if (nobody_.empty()) return;
-    if (options_.any_user) {
-      result_.remarks.push_back(
-          note({.code = any_user_.empty() ? FindingCode::any_grasp_not_known : FindingCode::any_grasp_scanned}));
+    if (options_.any_user && any_user_.empty()) {
+      result_.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+    } else if (options_.any_user && result_.tip_directions > 1) {
+      result_.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
     }
     Finding tried{.code = FindingCode::workspace_of_tried_poses,
                   .evidence = {counted("poses", result_.poses.size()), counted("directions", result_.directions)}};

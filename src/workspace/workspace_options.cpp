@@ -86,7 +86,7 @@ std::optional<OptionProblem> too_many(const char* member, std::size_t poses, std
 // Of the largest spread where none is given.
 std::size_t directions_of(const WorkspaceOptions& options) {
   if (!options.normals.empty()) return options.normals.size();
-  return options.directions > 0 ? options.directions : usual_directions(1);
+  return options.directions > 0 ? options.directions : usual_directions(3);
 }
 
 std::optional<OptionProblem> problem_of_joint(const MechanismModel& mechanism, std::string member,

@@ -47,7 +47,7 @@ double nearest_to_circle(const Device& device, double stiffness, double damping)
   return least;
 }
 
-// theory, section 8.
+// docs/theory.md, "Two rates".
 TEST(TwoRateRegion, OfLhifamHasItsLimits) {
   const WallRegion fast = region(Device(lhifam_with_damper_at(1e-3, 1e-4)), walls_alone);
   ASSERT_EQ(fast.status, WallRegion::Status::bounded);

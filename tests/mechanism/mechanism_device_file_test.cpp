@@ -59,7 +59,7 @@ std::string replaced(std::string text, const std::string& one, const std::string
 
 TEST(MechanismDeviceFile, IsTheDeviceAlongTheNormal) {
   const Device device = arm();
-  EXPECT_NEAR(analyze(device).limits.nobody.critical_stiffness, 318.881897, 1e-6);  // theory, section 9
+  EXPECT_NEAR(analyze(device).limits.nobody.critical_stiffness, 318.881897, 1e-6);  // docs/theory.md, "Several axes"
   EXPECT_EQ(device.parameters().motion, Motion::linear);
   EXPECT_NEAR(analyze(arm({"mechanism.normal=[0,1,0]"})).limits.nobody.critical_stiffness, 1088.166236, 1e-6);
   const Device other = arm({"mechanism.pose.elbow=0.4"});
@@ -74,7 +74,7 @@ std::ptrdiff_t remarks_of(const Analysis& analysis, FindingCode code) {
                                [code](const Remark& each) { return each.finding && each.finding->code == code; });
 }
 
-// theory, section 9, to 1e-5: held along the normal alone the arm would allow more.
+// docs/theory.md, "Several axes", to 1e-5: held along the normal alone the arm would allow more.
 TEST(MechanismDeviceFile, AnyPassiveUserHoldsTheTipInEveryDirection) {
   const Analysis found = analyze(arm());
   ASSERT_TRUE(found.any_user);
@@ -119,7 +119,7 @@ TEST(MechanismDeviceFile, AnyPassiveUserBehindFilters) {
   EXPECT_LT(limit_behind("type = \"low_pass\"\nfrequency_hz = 100\n"), 200.0);
 }
 
-// theory, section 9: closed-loop eigenvalues.
+// docs/theory.md, "Several axes": closed-loop eigenvalues.
 TEST(MechanismDeviceFile, APointWallIsAnsweredByAnalyzeAlone) {
   const Device device = arm({"mechanism.normal=\"all\"", "wall.stiffness=200"});
   const Analysis found = analyze(device);

@@ -38,7 +38,7 @@ Device with_delays(const Device& device, double of_spring, double of_damper) {
 
 bool is_stable(const Device& device) { return wall_margins(device).stable; }
 
-// theory, section 8.
+// docs/theory.md, "Two rates".
 TEST(TwoRates, LhifamWithADamperOnTheDrive) {
   EXPECT_NEAR(critical_stiffness(lhifam(1e-3, 1e-4, 0.0)).stiffness, 8848.7087, 1e-4);
   EXPECT_NEAR(critical_stiffness(lhifam(1e-3, 1e-4, 100.0)).stiffness, 252107.311, 1e-3);
@@ -119,7 +119,7 @@ TEST(TwoRates, LimitsSayWhatIsLeftOut) {
   EXPECT_EQ(analysis.critical.limit->limited_by.kind, Mechanism::Kind::vibration_mode);
 }
 
-// theory, section 8.
+// docs/theory.md, "Two rates".
 TEST(TwoRates, AnyPassiveUserOfADamperOnTheDrive) {
   const std::pair<double, std::pair<double, double>> expected[] = {{50.0, {109169.96, 622.998}},
                                                                    {100.0, {218461.91, 837.748}}};

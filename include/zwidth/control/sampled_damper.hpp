@@ -12,7 +12,7 @@ namespace zwidth {
 /// Positions in m or rad, forces in N or N m. In a unilateral wall F is 0 where the measured position does not lie beyond
 /// the wall's; there the two forces may sum to one that pulls, which sum_of_paths() takes away.
 /// After construction nothing allocates, locks, logs or throws, as in SampledController.
-/// Source: theory, section 8.
+/// Source: docs/theory.md, "Two rates".
 class SampledDamper {
  public:
   /// Takes damping, velocity filter, place and contact of the options; T of the damper's own loop, s, > 0.

@@ -14,7 +14,7 @@ namespace zwidth {
 ///     M q'' + (sum d w w') q' + (sum k w w') q = S_a' f + J' f_h,   x = S_s q,   x_tip = J q
 ///
 /// f: the controller's force, x: the tip as the controller knows it, f_h: the user's force. World's frame, m and N. Source:
-/// theory, section 9 (S_s = J_e A, S_a = J_m A).
+/// docs/theory.md, "Several axes" (S_s = J_e A, S_a = J_m A).
 struct TipMotion {
   Eigen::MatrixXd mass;                        ///< M, n x n; symmetric and positive definite
   std::vector<Coordinates::Element> elements;  ///< all that is stiff or damped

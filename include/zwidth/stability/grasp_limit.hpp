@@ -49,8 +49,8 @@ struct NormalLimitsOptions {
 /// and sampled over the sum of the discs of its aliases, as absolute_stability_limit() for one axis, of which the user is
 /// held to the normal: he is one of these. The least over frequency is found by a scan that is refined where it is low, from
 /// w = 1e-3/T, 3e-4/T where the motion has slower corners, to pi/T: it is not shown to be the least in between
-/// (FindingCode::any_user_limit_scanned). The user of `loop` is left out. Throws Error (invalid_argument) as point_wall_limit(), and for a normal along which the tip cannot move.
-/// Source: theory, section 9.
+/// (FindingCode::any_grasp_scanned). The user of `loop` is left out. Throws Error (invalid_argument) as point_wall_limit(),
+/// and for a normal along which the tip cannot move. Source: docs/theory.md, "Several axes".
 [[nodiscard]] GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop,
                                          const Eigen::Vector3d& normal);
 
@@ -71,7 +71,7 @@ class GraspedPlant {
   /// 0 < frequency <= pi/T, rad/s.
   [[nodiscard]] Disc at(double frequency) const;
 
-  /// rad/s, rising: where a scan looks, from 1e-3/T to pi/T, and beside the poles.
+  /// rad/s, rising: where a scan looks, from 1e-3/T or 3e-4/T to pi/T, and beside the poles.
   [[nodiscard]] const std::vector<double>& frequencies() const;
 
   /// Nothing dissipates some motion of the tip: some grasp destabilises any wall.

@@ -30,7 +30,7 @@ struct PointWallLimit {
 /// interval of stable stiffnesses is certain by the small-gain theorem and touches the next; the last ends a relative 1e-7
 /// below K_CR, which closed-loop eigenvalues give to rounding. Positions in which the wall does not act stay free.
 /// Throws Error (invalid_argument) for filters of the wall, a damper in a loop of its own and impossible numbers, and where
-/// the tip cannot move. Source: theory, section 9.
+/// the tip cannot move. Source: docs/theory.md, "Several axes".
 [[nodiscard]] PointWallLimit point_wall_limit(const TipMotion& motion, const DeviceParameters& loop);
 
 /// Along one normal alone, in the same way: what critical_stiffness() says of that device, by another route.

@@ -15,6 +15,7 @@
 #include "design/synthesis/users_at_frequency.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "model/known_structure.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -126,10 +127,8 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
       diagnosis.remarks.push_back(left_out_beside_damper_loop("any_user"));
     }
   }
-  if (loop.device.parameters().mechanism) {
-    const bool is_known = knows_users_of(loop.device);
-    diagnosis.remarks.push_back(
-        note({.code = is_known ? FindingCode::any_grasp_scanned : FindingCode::any_grasp_not_known}));
+  if (const auto said = any_grasp_remark(loop.device, knows_users_of(loop.device))) {
+    diagnosis.remarks.push_back(*said);
   }
   if (!diagnosis.cause && diagnosis.nearest) {
     diagnosis.trust.doubt({.code = FindingCode::no_cause_fits});

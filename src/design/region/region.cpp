@@ -9,6 +9,7 @@
 
 #include "design/region/region_check.hpp"
 #include "design/region/region_structure.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
@@ -162,9 +163,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     result.force_per_count = force_per_count_rates(device.parameters().wall, period, resolution);
   }
   if (options.any_user && device.parameters().coordinates) {
-    const bool is_known = asks_any_user(device, options);
-    result.remarks.push_back(
-        note({.code = is_known ? FindingCode::any_grasp_scanned : FindingCode::any_grasp_not_known}));
+    if (const auto said = any_grasp_remark(device, asks_any_user(device, options))) result.remarks.push_back(*said);
   }
   if (asks_any_user(device, options) && result.region.most_damped && result.region.most_damped->damping > 0.0) {
     if (!bounds_all_users(device)) {

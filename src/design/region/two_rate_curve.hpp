@@ -18,7 +18,7 @@ namespace zwidth::internal {
 
 // The walls (K, B) of a device whose damper runs in a loop of its own that put a pole pair on the unit circle, z = e^{j angle}
 // of the longer period. The part of the wall that runs the oftener, spring or damper, is inside, its gain q; the other one,
-// of gain g, sees the plant of theory, section 8: with the N aliases z_k = e^{j(angle + 2 pi k)/N} of the shorter period,
+// of gain g, sees the plant of docs/theory.md, "Two rates": with the N aliases z_k = e^{j(angle + 2 pi k)/N} of the shorter period,
 //
 //     g = -1/(C_out P),   P = (1/N) sum_k h(z_k) P_out(z_k)/(1 + q C_in(z_k) P_in(z_k)),   h(z) = (1 - z^-N)/(1 - z^-1)
 //

@@ -21,6 +21,7 @@
 #include "design/synthesis/limit_along_parameter.hpp"
 #include "infinity.hpp"
 #include "model/known_structure.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
@@ -310,8 +311,8 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   const Progress while_judging = [&progress](double) { progress.go_on(); };
   const AbsoluteStabilityCheck users(device, options.limit_of, while_judging);
   result.absolute_stability_limit_now = users.now();
-  if (device.parameters().mechanism && users.now()) {
-    result.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
+  if (const auto said = any_grasp_remark(device, true); said && users.now()) {
+    result.remarks.push_back(*said);
   }
   double limit = own.value;
   if (options.goal == StiffnessGoal::absolute_stability_limit) {

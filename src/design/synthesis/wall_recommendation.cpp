@@ -14,6 +14,7 @@
 #include "design/synthesis/wall_lowering.hpp"
 #include "design/synthesis/wall_search.hpp"
 #include "model/known_structure.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -299,8 +300,8 @@ class Recommendation {
     if (!limits_.has_users()) {
       result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
     }
-    if (device_.parameters().mechanism && limits_.has_users()) {
-      result.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
+    if (const auto said = any_grasp_remark(device_, true); said && limits_.has_users()) {
+      result.remarks.push_back(*said);
     }
     if (!device_.parameters().wall.filters.empty()) {
       result.remarks.push_back(note({.code = FindingCode::filters_stay, .key = "wall.filter"}));

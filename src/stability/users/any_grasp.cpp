@@ -17,6 +17,13 @@ bool is_grasped_in_many_directions(const Device& device) {
   return motion && device.parameters().mechanism && tip_directions(*motion).cols() > 1;
 }
 
+std::optional<Remark> any_grasp_remark(const Device& device, bool is_known) {
+  if (!device.parameters().coordinates) return std::nullopt;
+  if (!is_known) return note({.code = FindingCode::any_grasp_not_known});
+  if (!is_grasped_in_many_directions(device)) return std::nullopt;
+  return note({.code = FindingCode::any_grasp_scanned});
+}
+
 std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
                                                                    const CriticalStiffness& nobody) {
   const std::optional<TipMotion> motion = tip_motion_of(device);

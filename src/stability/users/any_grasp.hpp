@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/remark.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -11,6 +12,10 @@ namespace zwidth::internal {
 // A device of a mechanism whose tip moves along several directions. Along one alone, however he grasps it, the user holds it as
 // that of bodies.
 [[nodiscard]] bool is_grasped_in_many_directions(const Device& device);
+
+// What is said of that limit beside it: that it is of a scan, or that it is not known. Nothing of bodies, and of a tip that moves along one
+// direction where it is known.
+[[nodiscard]] std::optional<Remark> any_grasp_remark(const Device& device, bool is_known);
 
 // The limit over all passive users of a device along a normal of a mechanism: they grasp its tip in any direction, not along
 // the normal alone. `damper` is closed in place of the wall's. Nothing of other devices, and where it is not known: a

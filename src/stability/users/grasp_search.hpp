@@ -9,7 +9,7 @@
 namespace zwidth::internal {
 
 // AbsoluteStabilitySearch of a device along a normal of a mechanism, whose users grasp its tip in every direction. The least over
-// frequency is that of a scan, refined where it is low, from w = 1e-3/T to pi/T, and beside the wall's filters; it is not
+// frequency is that of a scan, refined where it is low, from w = 1e-3/T or 3e-4/T to pi/T, and beside the wall's filters; it is not
 // shown to be the least in between.
 class GraspSearch {
  public:

@@ -16,7 +16,7 @@ namespace zwidth::internal {
 //
 //     p -> p/(1 + g p), g = B v:   centre (c + conj(g) A)/D,  radius r/D,   A = |c|² - r²,  D = 1 + 2 Re[g c] + |g|² A
 //
-// and the discs of the N aliases of the spring's rate add up: the user may be another at each. Source: theory, section 8.
+// and the discs of the N aliases of the spring's rate add up: the user may be another at each. Source: docs/theory.md, "Two rates".
 //
 // Where the delays differ by no whole periods of the damper, the spring's plant is apart from z^-m p by what the aliases beyond
 // the damper's rate turn by; a disc of its own holds that, and the limit is a bound: every K below is safe, some above may be.

@@ -3,7 +3,7 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double lag_typical = 2e-3;   // s, of current loops and amplifiers (theory, section 10)
+constexpr double lag_typical = 2e-3;   // s, of current loops and amplifiers (docs/identification_method.md)
 constexpr double lag_deviation = 1.0;  // of (lag / 2 ms)^2
 
 /// 1 / (tau s + 1) beside the delay, where that is free: the record tells delay + lag in the first order, each in the second.

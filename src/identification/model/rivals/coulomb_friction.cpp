@@ -4,7 +4,7 @@
 namespace zwidth::internal {
 namespace {
 
-/// Of the rms force: what the bearings and transmissions of haptic devices come to, 1 to 10 % (theory, section 10).
+/// Of the rms force: what the bearings and transmissions of haptic devices come to, 1 to 10 % (docs/identification_method.md).
 constexpr double friction_deviation = 0.1;
 
 /// Coulomb's dry friction of each moving body, which sticks: |force| <= limit, = limit against the motion.

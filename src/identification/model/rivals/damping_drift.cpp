@@ -14,7 +14,7 @@ LawForce damping_drift_law(const LawState& state, const double* numbers) {
   return {-drift * damping * gone, 0.0, -drift * damping * (state.share - middle), {-damping * gone, -drift * gone}};
 }
 
-/// Over the record (theory, section 10): a grease thins by 3 to 4 % a kelvin, and a motor that works hard warms by some kelvin.
+/// Over the record (docs/identification_method.md): a grease thins by 3 to 4 % a kelvin, and a motor that works hard warms by some kelvin.
 constexpr double drift_deviation = 0.2;
 
 /// All free dampings to the ground change alike: a record hardly tells whose does. A given one stays as given.

@@ -12,7 +12,7 @@ LawForce drag_law(const LawState& state, const double* numbers) {
   return {-numbers[0] * speed * state.velocity, 0.0, -2.0 * numbers[0] * speed, {-speed * state.velocity}};
 }
 
-/// As much as the linear damping at the record's largest speed (theory, section 10).
+/// As much as the linear damping at the record's largest speed (docs/identification_method.md).
 constexpr double drag_deviation = 1.0;
 
 void add_drag(const RivalSetting& setting, ModelParts& parts) {

@@ -3,7 +3,7 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double dead_band_deviation = 0.05;  // of the rms force (theory, section 10)
+constexpr double dead_band_deviation = 0.05;  // of the rms force (docs/identification_method.md)
 
 /// The drive gives nothing below this command, and less by it above.
 void add_drive_dead_band(const RivalSetting& setting, ModelParts& parts) {

@@ -3,7 +3,7 @@
 namespace zwidth::internal {
 namespace {
 
-// Of the rms force (theory, section 10). At no saturation the motion changes with nothing: a fit starts beside it.
+// Of the rms force (docs/identification_method.md). At no saturation the motion changes with nothing: a fit starts beside it.
 constexpr double saturation_deviation = 0.1;
 constexpr double saturation_start = 0.02;
 
