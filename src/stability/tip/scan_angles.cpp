@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "stability/tip/tip_response.hpp"
 
@@ -17,6 +18,7 @@ constexpr double least_lowest_angle = 3e-4;
 constexpr double below_corners = 0.01;
 constexpr double at_rest_below = 1e-9;  // |z - 1| of a pole that is at 1
 constexpr double angles_a_decade = 26;  // spaced evenly in their logarithm
+constexpr int even_angles = 200;        // spaced evenly: a damper leaves limits that are finite within 0.1 rad alone
 constexpr double same_angle = 1e-6;     // relative
 
 double lowest_of(const std::vector<std::complex<double>>& poles) {
@@ -46,7 +48,9 @@ std::vector<double> grasp_angles(const SampledTip& plant, const GraspDiscs& disc
   for (const std::complex<double>& each : discs.held_poles()) poles.push_back(each);
   const double lowest = lowest_of(poles);
   const double count = std::ceil(angles_a_decade * std::log10(pi / lowest));
-  return scan_angles(lowest, static_cast<int>(count), angles_around(poles));
+  std::vector<double> angles = angles_around(poles);
+  for (int i = 1; i < even_angles; ++i) angles.push_back(pi * i / even_angles);
+  return scan_angles(lowest, static_cast<int>(count), std::move(angles));
 }
 
 }  // namespace zwidth::internal

@@ -13,7 +13,7 @@ namespace zwidth::internal {
 namespace {
 
 constexpr double beside_filter[] = {0.5, 0.8, 0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.25, 2.0};  // times its frequency
-constexpr double constant_below = 1.001e-3;  // rad per sample: the scan's lowest
+constexpr double at_low_end = 1.001;  // times the scan's lowest frequency
 constexpr double worth_a_closer_look = 1.3;  // times the least of the scan
 constexpr int closer_bits = 26;
 constexpr std::uintmax_t most_closer_looks = 60;
@@ -70,7 +70,7 @@ AbsoluteStabilityLimit GraspSearch::limit(FreeGain gain, VirtualDamper damper, c
   if (!(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) return limit;
   if (limit.needs_no_user) {
     limit.frequency = free.limit->frequency;
-  } else if (at * period_ > constant_below) {
+  } else if (at > at_low_end * frequencies_.front()) {
     limit.frequency = at;
   }
   return limit;
