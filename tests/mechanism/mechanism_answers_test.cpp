@@ -89,6 +89,21 @@ TEST(MechanismAnswers, NoNarrowMinimumOverGraspsIsMissed) {
   EXPECT_NEAR(any_grasp_limit(motion, loop, {1.0, 0.0, 0.0}).stiffness / 13467.5761, 1.0, 1e-7);
 }
 
+// The tip hardly moves along the arm; who holds it there stops it all the same.
+TEST(MechanismAnswers, NearASingularPoseTheLimitOverGraspsStays) {
+  for (const double elbow : {1e-3, 1e-4, 1e-5, 3e-6}) {
+    SCOPED_TRACE(elbow);
+    DeviceParameters parameters = arm(0.0).parameters();
+    parameters.mechanism->mechanism.pose["elbow"] = elbow;
+    parameters.mechanism->normal = {-std::sin(0.3), std::cos(0.3), 0.0};
+    parameters.coordinates.reset();
+    const Device device = device_of_mechanism(parameters);
+    const GraspLimit limit =
+        any_grasp_limit(tip_motion_of(device).value(), device.parameters(), {-std::sin(0.3), std::cos(0.3), 0.0});
+    EXPECT_NEAR(limit.stiffness / 165.566, 1.0, 1e-4);
+  }
+}
+
 // The direction that the wall leaves free is a pole at z = 1, which rounding puts outside the circle or not.
 TEST(MechanismAnswers, ASimulationSettlesBelowTheLimitAndGrowsAbove) {
   for (const double share : {0.05, 0.3, 0.6, 0.8, 0.95, 0.97}) {

@@ -69,6 +69,9 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
       period_(loop.loop.sampling_period),
       delay_(loop.loop.delay),
       lag_(loop.actuator.time_constant) {
+  // A grasp in one basis of the tip's motions is one in any other: in an orthonormal one near a singular pose no row is small.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
+  of_.tip = (tip.householderQ() * Eigen::MatrixXd::Identity(of_.tip.cols(), of_.tip.rows())).transpose();
   const Eigen::VectorXd dampings = symmetric_eigenvalues(of_.damping);
   const Eigen::VectorXd stiffnesses = symmetric_eigenvalues(of_.stiffness);
   const double highest_mode = std::sqrt(std::max(stiffnesses.maxCoeff(), 0.0));

@@ -13,7 +13,7 @@ namespace zwidth::internal {
 namespace {
 
 constexpr double beside_filter[] = {0.5, 0.8, 0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.25, 2.0};  // times its frequency
-constexpr double at_low_end = 1.001;  // times the scan's lowest frequency
+constexpr double at_low_end = 1.001;         // times the scan's lowest frequency
 constexpr double worth_a_closer_look = 1.3;  // times the least of the scan
 constexpr int closer_bits = 26;
 constexpr std::uintmax_t most_closer_looks = 60;
