@@ -21,8 +21,7 @@
 #ifdef ZWIDTH_MUJOCO
 #include <mujoco/mujoco.h>
 
-namespace zwidth {
-namespace internal {
+namespace zwidth::internal {
 namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -203,7 +202,7 @@ class Posed {
     std::vector<int> read;
     for (const std::string& each : file.encoders) read.push_back(parts_.index("mechanism.encoders", mjOBJ_JOINT, each));
     for (int i = 0; file.encoders.empty() && i < model_->nu; ++i) {
-      const int joint = model_->actuator_trnid[2 * i];
+      const int joint = model_->actuator_trnid[std::ptrdiff_t{2} * i];
       const bool is_new = std::ranges::find(read, joint) == read.end();
       if (model_->actuator_trntype[i] == mjTRN_JOINT && is_new) read.push_back(joint);
     }
@@ -305,7 +304,7 @@ class Posed {
     std::vector<bool> is_driven(static_cast<std::size_t>(n), false);
     for (int i = 0; i < model_->nu; ++i) {
       if (model_->actuator_trntype[i] == mjTRN_JOINT)
-        is_driven[static_cast<std::size_t>(model_->actuator_trnid[2 * i])] = true;
+        is_driven[static_cast<std::size_t>(model_->actuator_trnid[std::ptrdiff_t{2} * i])] = true;
     }
     double open = 0.0;
     for (int step = 0; step < most_steps; ++step) {
@@ -320,7 +319,7 @@ class Posed {
       for (int tendon = 0; tendon < model_->ntendon; ++tendon) {
         if (!(model_->tendon_stiffness[tendon] > 0.0)) continue;
         off(loops + tendon) = data_->ten_length[tendon] - model_->tendon_lengthspring[tendon];
-        slopes.row(loops + tendon) = Eigen::Map<const Eigen::RowVectorXd>(data_->ten_J + tendon * n, n);
+        slopes.row(loops + tendon) = Eigen::Map<const Eigen::RowVectorXd>(data_->ten_J + std::ptrdiff_t{tendon} * n, n);
         for (int joint = 0; joint < n; ++joint) {
           if (!is_driven[static_cast<std::size_t>(joint)]) slopes(loops + tendon, joint) = 0.0;
         }
@@ -375,8 +374,8 @@ MujocoFile::At at_pose_of(const mjModel* model, mjData* data, const MechanismFil
 
 class OpenFile final : public MujocoFile {
  public:
-  OpenFile(const MechanismFile& file, const std::vector<MechanismText>& texts)
-      : file_(file), text_(one_text(texts)), model_(read_model(texts)) {}
+  OpenFile(MechanismFile file, const std::vector<MechanismText>& texts)
+      : file_(std::move(file)), text_(one_text(texts)), model_(read_model(texts)) {}
 
   // Whether what is read of the same texts for this file is the same.
   [[nodiscard]] bool is_for(const MechanismFile& file) const {
@@ -393,11 +392,12 @@ class OpenFile final : public MujocoFile {
       joint.name = Parts(model_.get()).name(mjOBJ_JOINT, i);
       joint.motion = model_->jnt_type[i] == mjJNT_SLIDE ? Motion::linear : Motion::rotary;
       joint.position = model_->qpos0[i];
-      if (model_->jnt_limited[i] != 0) joint.range = JointRange{model_->jnt_range[2 * i], model_->jnt_range[2 * i + 1]};
+      const mjtNum* range = model_->jnt_range + std::ptrdiff_t{2} * i;
+      if (model_->jnt_limited[i] != 0) joint.range = JointRange{range[0], range[1]};
     }
     for (int i = 0; i < model_->nu; ++i) {
       if (model_->actuator_trntype[i] != mjTRN_JOINT) continue;
-      joints[static_cast<std::size_t>(model_->actuator_trnid[2 * i])].is_driven = true;
+      joints[static_cast<std::size_t>(model_->actuator_trnid[std::ptrdiff_t{2} * i])].is_driven = true;
     }
     return joints;
   }
@@ -458,8 +458,7 @@ std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
   });
 }
 
-}  // namespace internal
-}  // namespace zwidth
+}  // namespace zwidth::internal
 #else
 namespace zwidth::internal {
 

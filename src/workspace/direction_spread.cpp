@@ -179,6 +179,7 @@ std::vector<Eigen::Vector3d> directions_beside(const Eigen::MatrixXd& all, const
 LeastDirection least_direction(const std::vector<Eigen::Vector3d>& tried, const std::vector<double>& values,
                                const Eigen::MatrixXd& moved, const Function& function) {
   std::vector<double> finite_values;
+  finite_values.reserve(values.size());
   for (const double each : values) finite_values.push_back(finite(each));
   const double spacing = spacing_of(moved.cols(), tried.size());
   const std::vector<std::size_t> low = lows(tried, finite_values, spacing);
