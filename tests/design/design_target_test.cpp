@@ -24,7 +24,8 @@ Device with(const Device& device, const std::string& key, double value) {
   return Device(std::move(parameters));
 }
 
-// K_CR = b²(1-a)/(m(1-a) - abT) of a rigid device without delay, a = e^{-bT/m} (theory, section 2): the needed b.
+// K_CR = b²(1-a)/(m(1-a) - abT) of a rigid device without delay, a = e^{-bT/m}
+// (docs/theory.md, "Critical stiffness"): the needed b.
 TEST(DesignTarget, NeededDampingOfARigidDeviceIsTheClosedForm) {
   const DesignTargets targets = design_targets(Device(test::rigid_parameters()), {.stiffness = 20e3});
   for (const DesignTarget& each : targets.targets) {

@@ -22,7 +22,7 @@ namespace {
 
 using std::numbers::pi;
 
-// theory, section 2: K_CR = 8848.7 at 38.6 rad/s; any user: 5776 at 260 rad/s.
+// docs/theory.md, "What is added": K_CR = 8848.7 at 38.6 rad/s; any user: 5776 at 260 rad/s.
 const Device& lhifam() {
   static const Device device(test::lhifam_parameters());
   return device;

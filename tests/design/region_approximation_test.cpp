@@ -16,12 +16,12 @@ TEST(RegionApproximation, AreTheFormulasOfTheLiterature) {
   const auto formulas = region_approximations(Device(parameters), 0.0);
   ASSERT_EQ(formulas.size(), 3U);
   EXPECT_EQ(formulas[0].formula, Formula::colgate_schenkel);
-  EXPECT_NEAR(stiffness_at(formulas[0], 1.0), 5000.0, 1e-9);  // theory, section 5: B = 1
+  EXPECT_NEAR(stiffness_at(formulas[0], 1.0), 5000.0, 1e-9);  // 2 b/T - 2 B/T, b = 3.5, B = 1
   EXPECT_EQ(stiffness_at(formulas[0], 3.6), 0.0);
   EXPECT_EQ(formulas[1].formula, Formula::gil_hulin);
   EXPECT_NEAR(stiffness_at(formulas[1], 3.0), (5.5 + 3.0) / 1.5e-3, 1e-9);
   EXPECT_EQ(formulas[2].formula, Formula::diolaiti);
-  EXPECT_NEAR(stiffness_at(formulas[2], 0.0), 2333.3333333333335, 1e-9);  // theory, section 5
+  EXPECT_NEAR(stiffness_at(formulas[2], 0.0), 2333.3333333333335, 1e-9);  // b/(T/2 + t_d)
   EXPECT_EQ(stiffness_at(formulas[2], 0.1), 0.0);
 }
 

@@ -175,7 +175,7 @@ TEST(SafeWall, IsAShareOfTheLesserLimitOfNobodyAndTheFilesUser) {
 TEST(SafeWall, IsAShareOfTheCriticalStiffnessWhereThereIsNoUser) {
   const SafeWall wall = safe_wall(Device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)));
   EXPECT_EQ(wall.basis, SafeWall::Basis::device);
-  EXPECT_NEAR(wall.stiffness, 0.5 * 2.16395341373865, 1e-12);  // theory, section 6
+  EXPECT_NEAR(wall.stiffness, 0.5 * 2.16395341373865, 1e-12);  // of 1/(s + 1), T = 1 s: (e + 1)/(e - 1)
 }
 
 TEST(SafeWall, TakesTheLowerEndOfTheInterval) {

@@ -61,7 +61,7 @@ TEST(StableRegion, OfAMassHasTheExtremesAndTheAreaOfItsClosedForm) {
 
 TEST(StableRegion, MeetsTheCriticalStiffnessAtZeroDamping) {
   const StableRegion region = stable_region(walls_of(test::lhifam_parameters()));
-  EXPECT_NEAR(region.critical_stiffness / 8848.70869499712, 1.0, 1e-12);  // theory, section 2
+  EXPECT_NEAR(region.critical_stiffness / 8848.70869499712, 1.0, 1e-12);  // docs/theory.md, "The paper's errata", 1
 }
 
 TEST(StableRegion, OutlineIsClosedAndRunsCounterClockwise) {
@@ -151,7 +151,7 @@ TEST(StableRegion, OfAnUnstablePlantBeginsWhereAPolePassesRest) {
 // A first-order plant e^{-T} = q without damper: one pole q - K (1 - q), stable for -1 < . < 1 (Nyquist first).
 TEST(StableRegion, OfAFirstOrderPlantEndsAtNyquist) {
   const StableRegion region = stable_region(walls_of(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)));
-  EXPECT_NEAR(region.critical_stiffness, 2.16395341373865, 1e-12);  // theory, section 6
+  EXPECT_NEAR(region.critical_stiffness, 2.16395341373865, 1e-12);  // of 1/(s + 1), T = 1 s: (e + 1)/(e - 1)
   bool nyquist = false;
   for (const BoundaryArc& arc : region.components.at(0).outline.arcs) nyquist |= arc.kind == BoundaryKind::nyquist;
   EXPECT_TRUE(nyquist);

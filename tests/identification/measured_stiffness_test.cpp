@@ -81,7 +81,7 @@ TEST(MeasuredStiffness, IntervalsAllowForTheDistanceBetweenLines) {
 }
 
 TEST(MeasuredStiffness, FindsACrossoverAtTheNyquistFrequency) {
-  // The zero-order hold of 1/(s + 1), T = 1 s: its only crossover is at Nyquist, K = 2.16395 (theory, section 6).
+  // The zero-order hold of 1/(s + 1), T = 1 s: its only crossover is at Nyquist, K = (e + 1)/(e - 1) = 2.16395.
   const Device device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0));
   FrequencyResponse response = exact_response(device, 0.01, 0.5, 0.005);
   response.points.back().frequency = std::numbers::pi;

@@ -28,7 +28,7 @@ double stiffest(double spring_period, double damper_period, double damping) {
   return critical_stiffness(rigid_of_rates(spring_period, damper_period, damping)).stiffness;
 }
 
-/// theory, section 2.
+/// docs/theory.md, "Critical stiffness".
 double closed_form(double period) {
   const auto& body = test::rigid_parameters().bodies[0];
   const double decay = std::exp(-body.damping * period / body.mass);

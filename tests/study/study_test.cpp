@@ -107,7 +107,7 @@ TEST(Study, HistogramSaysWhatShareReachesEachEdge) {
 }
 
 // A rigid device without delay: K_CR = b²(1-a)/(m(1-a) - abT), a = exp(-bT/m), which for a small bT/m is 2b/T to a part
-// in bT/m (theory, section 2). With b uniform, P(K_CR >= K) is linear in the b at which K_CR = K.
+// in bT/m (docs/theory.md, "Critical stiffness"). With b uniform, P(K_CR >= K) is linear in the b at which K_CR = K.
 TEST(Study, YieldOfARigidDeviceIsInClosedForm) {
   const Device device(test::rigid_parameters());
   const auto limit = [](double b) {

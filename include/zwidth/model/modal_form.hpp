@@ -66,7 +66,7 @@ enum class ActuatorLag { included, left_out };
 /// Modal form of the device from actuated to sensed body (user and actuator lag included).
 ///
 /// Throws Error (did_not_converge) when the poles cannot be found to the documented accuracy.
-/// Source: theory, section 1 ("Which mechanism limits"); eqs. 5-9 of Díaz & Gil are the two-body case.
+/// Source: docs/theory.md, "Critical stiffness"; eqs. 5-9 of Díaz & Gil are the two-body case.
 [[nodiscard]] ModalForm modal_form(const Device& device);
 
 /// The same for any pair of bodies, for instance held -> held for the paper's G_d.

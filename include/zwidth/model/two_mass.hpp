@@ -24,7 +24,7 @@ struct TwoMassFactors {
   double z_1;      ///< 1/s
   double z_2;      ///< 1/s
   double z_n;      ///< 1/s
-  /// Error of the denominator's s² coefficient relative to the exact one (theory, section 3.4).
+  /// Error of the denominator's s² coefficient relative to the exact one (docs/theory.md, "The paper's errata").
   double relative_error;
 };
 [[nodiscard]] TwoMassFactors two_mass_factors(const TwoMass& device);  ///< eqs. 11-16

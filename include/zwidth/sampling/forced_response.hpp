@@ -30,7 +30,7 @@ class ForcedMotion {
   std::size_t oldest_ = 0;
 };
 
-/// The positions y[0], y[1], ... under these forces, from rest. Source: theory, section 1 ("Delay").
+/// The positions y[0], y[1], ... under these forces, from rest. Source: docs/theory.md, "The loop".
 [[nodiscard]] std::vector<double> forced_response(const DiscreteStateSpace& system, std::span<const double> force);
 
 }  // namespace zwidth

@@ -69,7 +69,7 @@ class FilteredPlant : public SampledPlant {
 /// per modal term, in closed form built on expm1, so that phase and magnitude keep full relative accuracy from
 /// 1e-3 rad/s to Nyquist for T from 10 us to 10 ms, modes far above Nyquist included.
 /// Throws Error (invalid_argument) for a period or delay outside its domain.
-/// Source: eqs. 22, 28 of Díaz & Gil; theory, section 1 ("Delay").
+/// Source: eqs. 22, 28 of Díaz & Gil; docs/theory.md, "The loop".
 [[nodiscard]] SampledPlant sample(const ModalForm& form, Sampling sampling);
 
 /// modal_form() and sample() of a device with its own period and delay.

@@ -68,7 +68,7 @@ struct CycleBand {
 /// strong for the relay) has no prediction. A damper that loop.damper runs apart, no slower than the relay, is closed; a
 /// slower one, or one beside friction, leaves no prediction. With friction only the 50 softest crossovers are followed: a long delay has
 /// thousands. By rising frequency of the cycles without friction.
-/// Source: Åström & Hägglund 1995; theory, section 4.
+/// Source: Åström & Hägglund 1995; docs/theory.md, "Formulas of the literature".
 [[nodiscard]] std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, const Relay& relay,
                                                                        const Progress& progress = {});
 

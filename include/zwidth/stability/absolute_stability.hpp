@@ -47,7 +47,7 @@ struct AbsoluteStabilityLimit {
 /// hundred digits and seen however narrow. The tip of a mechanism is grasped in any direction: any_grasp_limit(), a scan.
 /// Never above the critical stiffness of the free device. The device's [operator] is left out: it is one of
 /// the users. Throws Error (needs_bodies) for a transfer function, and what critical_stiffness() throws. Source:
-/// theory, section 5; Colgate & Schenkel 1997 is the rigid case without delay.
+/// docs/theory.md, "What is added"; Colgate & Schenkel 1997 is the rigid case without delay.
 [[nodiscard]] AbsoluteStabilityLimit absolute_stability_limit(const Device& device, VirtualDamper damper = {},
                                                               const Progress& progress = {});
 

@@ -42,7 +42,8 @@ struct RigidApproximation {
 /// Eq. 24 of Díaz & Gil: Q = m_m z_n w_n, the stiffness that the resonance peak of a two-body device sits at.
 ///
 /// The mode matters when Q is similar to or *smaller* than the rigid critical stiffness (the paper prints "larger": see
-/// theory, section 3.3). Q is about the least stiffness of the resonance branch over all delays. An approximation.
+/// docs/theory.md, "The paper's errata"). Q is about the least stiffness of the resonance branch over all delays. An
+/// approximation.
 struct QCriterion {
   double stiffness = 0.0;  ///< Q
   /// Q <= rigid critical stiffness; absent unless the actuated body is sensed, that stiffness is finite and the

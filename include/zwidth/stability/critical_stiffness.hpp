@@ -76,7 +76,7 @@ struct VirtualDamper {
 /// between crossovers follows from the direction of every crossing.
 /// The trust stays sound: this route is not checked by another, nor does a plant know where its numbers come from.
 /// Throws Error (invalid_argument) for negative or non-finite B or f_c, (did_not_converge) when subdivision hits its
-/// cap. Source: eqs. 21-23, 27-28 of Díaz & Gil; theory, section 1.
+/// cap. Source: eqs. 21-23, 27-28 of Díaz & Gil; docs/theory.md, "Critical stiffness".
 [[nodiscard]] CriticalStiffness critical_stiffness(const FilteredPlant& plant, VirtualDamper damper = {});
 
 }  // namespace zwidth

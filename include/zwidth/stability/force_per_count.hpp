@@ -26,7 +26,7 @@ struct ForcePerCountRates {
 /// `wall` without stiffness counts as K = 0. With filters the response is followed for at least 40 of the slowest
 /// filter's time constants, at most a million samples.
 /// Requires period > 0, resolution >= 0; throws Error (invalid_argument) where a filter has a problem.
-/// Source: theory, section 7.
+/// Source: the backward difference of one count q over a period, (1 - z^-1)/T, through the filters.
 [[nodiscard]] ForcePerCount force_per_count(const Wall& wall, double period, double resolution);
 
 /// The same of the device's own wall; absent without sensor.resolution or wall.stiffness.
