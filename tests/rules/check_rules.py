@@ -221,12 +221,14 @@ def included_by(path, include, seen):
 
 
 def headers(root):
-    """zwidth.hpp has every public header; each includes what it names of the standard library (the build compiles each alone, but with
-    the standard library's headers compiled before)."""
+    """zwidth.hpp has every public header; each includes what it names of the standard library and of Eigen (the build compiles each
+    alone, but with their headers compiled before)."""
     include = root / "include"
     for path in files(root, "include"):
         included = included_by(path, include, set())
         for number, line in lines(path):
+            if "Eigen::" in line.partition("//")[0] and "Eigen/Core" not in included:
+                yield path, number, "Eigen:: without <Eigen/Core>"
             for name in re.findall(r"\bstd::(\w+)", line.partition("//")[0]):
                 if name not in STANDARD:
                     yield path, number, f"std::{name} is not in the table STANDARD of check_rules.py"
