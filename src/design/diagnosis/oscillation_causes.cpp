@@ -141,13 +141,14 @@ void look_for_nearest_user(const ObservedLoop& loop, const UsersAtFrequency& use
 /// Of the sensed position, where the bodies that rub move at V = 4/(pi share): by the ratio of the responses to the
 /// actuator; the geometric mean over the bodies that rub.
 double friction_amplitude(const Device& device, double share, double frequency) {
-  const auto response_of = [&](std::size_t body) {
+  const auto response_of = [&](std::size_t body, double tracking_bandwidth = 0.0) {
     DeviceParameters parameters = device.parameters();
     parameters.loop.sensed = body;
+    parameters.sensor.tracking_bandwidth = tracking_bandwidth;
     const Device seen(std::move(parameters));
     return std::abs(response(sample(state_space(seen), {device.loop().sampling_period, 0.0}), frequency));
   };
-  const double sensed = response_of(device.loop().sensed);
+  const double sensed = response_of(device.loop().sensed, device.parameters().sensor.tracking_bandwidth);
   double logarithm = 0.0;
   double rubbing = 0.0;
   for (std::size_t i = 0; i < device.bodies().size(); ++i) {
