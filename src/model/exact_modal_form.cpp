@@ -11,8 +11,8 @@ struct ExactlyFound {
   KnownPoles poles;
 };
 
-ModalForm exact_modal_form(const Device& device, const WeightedPath& path, const DrivePath& drive, const PoleLabels& labels,
-                           std::shared_ptr<ExactlyFound>& found) {
+ModalForm exact_modal_form(const Device& device, const WeightedPath& path, const DrivePath& drive,
+                           const PoleLabels& labels, std::shared_ptr<ExactlyFound>& found) {
   if (!found) found = std::make_shared<ExactlyFound>();
   ExactFraction fraction = device.is_mechanical() ? exact_fraction(device, path, found->denominator)
                                                   : exact_fraction(*device.parameters().transfer_function);

@@ -258,12 +258,12 @@ ModalForm expand_bodies(const Device& device, const WeightedPath& path, const Dr
   }
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
   const auto exact = [&] { return exact_modal_form(device, path, drive, labels, found.exact); };
-  ModalForm form = is_small
-                       ? expand_poles(small_device_pencil<double>(device, path, drive),
-                                      small_device_pencil<Extended>(device, path, drive), std::move(start), labels,
-                                      nyquist, found, exact)
-                       : expand_poles(body_pencil<double>(device, path, drive), body_pencil<Extended>(device, path, drive),
-                                      std::move(start), labels, nyquist, found, exact);
+  ModalForm form =
+      is_small ? expand_poles(small_device_pencil<double>(device, path, drive),
+                              small_device_pencil<Extended>(device, path, drive), std::move(start), labels, nyquist,
+                              found, exact)
+               : expand_poles(body_pencil<double>(device, path, drive), body_pencil<Extended>(device, path, drive),
+                              std::move(start), labels, nyquist, found, exact);
   cancel_at_zero(form, poles_at_zero_seen(device, path));
   return form;
 }
@@ -337,7 +337,9 @@ ModalForm internal::ModalForms::along(Path path) {
       WeightedPath{internal::weights_of(device_, path.force_at), internal::weights_of(device_, path.position_of)});
 }
 
-ModalForm internal::ModalForms::along(const WeightedPath& path) { return expand_bodies(device_, path, drive_, *found_); }
+ModalForm internal::ModalForms::along(const WeightedPath& path) {
+  return expand_bodies(device_, path, drive_, *found_);
+}
 
 std::complex<double> response(const ModalTerm& term, double frequency) {
   if (term.degree == 2) {  // nearly all: without the loop, and without the library's division where it is safe

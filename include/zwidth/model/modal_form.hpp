@@ -51,8 +51,8 @@ struct Mode {
 /// not carry (many poles close together) they are isolated with proof from the exact polynomial, and terms that cancel
 /// are joined.
 struct ModalForm {
-  std::vector<ModalTerm> terms;              ///< rigid body first, then modes by rising frequency, lag and tracking last
-  std::vector<Mode> modes;                   ///< vibration modes only, by rising frequency
+  std::vector<ModalTerm> terms;  ///< rigid body first, then modes by rising frequency, lag and tracking last
+  std::vector<Mode> modes;       ///< vibration modes only, by rising frequency
   std::optional<Mode> suspended_rigid_body;  ///< the rigid-body motion where springs tie it to ground
 };
 

@@ -71,8 +71,8 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
   const Eigen::VectorXd dampings = symmetric_eigenvalues(of_.damping);
   const Eigen::VectorXd stiffnesses = symmetric_eigenvalues(of_.stiffness);
   const double highest_mode = std::sqrt(std::max(stiffnesses.maxCoeff(), 0.0));
-  double highest_corner = std::max({highest_mode, dampings.maxCoeff(),
-                                    drive_.lag > 0.0 ? 1.0 / drive_.lag : 0.0, drive_.tracking});
+  double highest_corner =
+      std::max({highest_mode, dampings.maxCoeff(), drive_.lag > 0.0 ? 1.0 / drive_.lag : 0.0, drive_.tracking});
   for (const Coordinates::Element& each : motion.elements) {
     if (each.damping > 0.0) highest_corner = std::max(highest_corner, each.stiffness / each.damping);
   }

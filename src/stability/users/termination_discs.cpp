@@ -219,7 +219,8 @@ TerminationDiscs::OtherAliases TerminationDiscs::sum_of_aliases(double frequency
       const double at_alias = node.number * spacing + side * frequency;
       const std::complex<double> disc = disc_density(at_alias);
       const std::complex<double> s(0.0, at_alias);
-      const std::complex<double> centre = node.turning * (response(through_, at_alias) / s * drive_.response(at_alias) - disc);
+      const std::complex<double> centre =
+          node.turning * (response(through_, at_alias) / s * drive_.response(at_alias) - disc);
       others.centre += side > 0.0 ? centre : std::conj(centre);
       others.radius += node.still * size_of(disc);
     }
@@ -386,8 +387,8 @@ TerminationDiscs::Alias TerminationDiscs::alias(double frequency, int k, double 
   const std::complex<double> density = disc_density(positive);
   const std::complex<double> filters = filter_response(plant_, frequency * period_);
   const double hold = 2.0 * std::sin(0.5 * frequency * period_) / period_;
-  const std::complex<double> through = response(sensed_motion_, positive) * response(actuated_motion_, positive) *
-                                       drive_.response(positive);
+  const std::complex<double> through =
+      response(sensed_motion_, positive) * response(actuated_motion_, positive) * drive_.response(positive);
   // The term is -f q_s q_a/(Y + 1/Z), f = F (1 - e^{-jwT})/T e^{-jw_k t_d}; with Z = jX, towards the direction,
   //     q_s q_a/(Y + 1/Z) = g (1 - e^{j turn}),   1/(1 - e^{j turn}) = (1 + j cot(turn/2))/2,   q_s q_a/g = 2 Re Y.
   // At a negative frequency all of it is conjugate.
