@@ -250,7 +250,8 @@ void add_export(CLI::App& app) {
   command
       ->add_option("--estimator-bandwidth", arguments->drive_loop.estimator_bandwidth,
                    "--units odrive: encoder.config.bandwidth; 1000 unless given;\n"
-                   "moteus: 2 pi times pll_filter_hz; of 400 Hz unless given")
+                   "moteus: 2 pi times pll_filter_hz; of 400 Hz unless given;\n"
+                   "sensor.tracking_bandwidth of the file goes before these")
       ->type_name("RAD/S");
   command->add_option("-o,--output", arguments->output, "File to write; standard output unless given")
       ->type_name("FILE");

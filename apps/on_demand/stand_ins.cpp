@@ -81,9 +81,9 @@ tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
   return loaded<on_demand::Fits>().open_mat73_file(path);
 }
 
-ModalForm exact_modal_form(const Device& device, const WeightedPath& path, double lag, const PoleLabels& labels,
-                           std::shared_ptr<ExactlyFound>& found) {
-  return loaded<on_demand::Digits>().exact_modal_form(device, path, lag, labels, found);
+ModalForm exact_modal_form(const Device& device, const WeightedPath& path, const DrivePath& drive,
+                           const PoleLabels& labels, std::shared_ptr<ExactlyFound>& found) {
+  return loaded<on_demand::Digits>().exact_modal_form(device, path, drive, labels, found);
 }
 
 ExtendedTerm sample_exactly(const ModalTerm& term, const SamplingInstants& instants) {

@@ -197,6 +197,7 @@ TextTable parameters(const AnalysedDevice& analysed) {
   add_if("actuator time constant", device.actuator.time_constant, "s");
   if (device.actuator.force_limit) add("actuator force limit", *device.actuator.force_limit, units.force);
   add_if("encoder step", device.sensor.resolution, units.length);
+  add_if("tracking of the position by the drive", device.sensor.tracking_bandwidth, "rad/s");
   add_if("operator: mass", device.user.mass, units.mass);
   add_if("operator: damping", device.user.damping, units.damping);
   add_if("operator: stiffness", device.user.stiffness, units.stiffness);

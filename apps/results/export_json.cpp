@@ -59,6 +59,10 @@ Json state_names(const Device& device) {
   for (const Body& body : device.bodies()) names.push_back("position of " + body.name);
   for (const Body& body : device.bodies()) names.push_back("velocity of " + body.name);
   if (device.parameters().actuator.time_constant > 0.0) names.push_back("lagged force");
+  if (device.parameters().sensor.tracking_bandwidth > 0.0) {
+    names.push_back("tracked position");
+    names.push_back("tracked velocity over the bandwidth");
+  }
   return names;
 }
 

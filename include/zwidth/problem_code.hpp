@@ -363,6 +363,7 @@ enum class ProblemCode : std::uint16_t {
   no_whole_ratio,                  ///< a damper's period is no whole part or multiple of the loop's
   filters_beside_damper_loop,      ///< filters of the wall's force, whose damper runs in a loop of its own
   damper_loop_not_known,           ///< a computation that knows one rate alone
+  tracking_not_known,              ///< a computation that knows positions that are read as they are alone
   travel_per_turn_missing,         ///< a linear device's drive without its travel per turn
   no_letter,                       ///< a drive's command is not one letter
   filter_not_stable,               ///< a filter's pole does not die out

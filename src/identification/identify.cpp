@@ -105,6 +105,7 @@ Identification identify(const Recording& recording, const Device& structure, con
 Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
   require_no_coordinates(structure);
+  require_no_tracking(structure);
   require_open_damper(structure);
   require_valid(find_problem(options));
   require_motion(recordings, structure, options);
@@ -117,6 +118,7 @@ Identification identify(std::span<const Recording> recordings, const Device& str
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
   require_no_coordinates(structure);
+  require_no_tracking(structure);
   require_open_damper(structure);
   require_valid(find_problem(options));
   return identified_by_lines(measured, structure, options);
@@ -124,6 +126,7 @@ Identification identify(const MeasuredResponse& measured, const Device& structur
 
 Identification identify_from_limits(const Device& structure, const IdentifyOptions& options) {
   require_no_coordinates(structure);
+  require_no_tracking(structure);
   require_one_rate(structure);
   require_valid(find_problem(options));
   if (options.limits.empty()) refuse_member("limits", {.code = ProblemCode::no_values});

@@ -401,6 +401,13 @@ void require_no_coordinates(const Device& device) {
     throw Error(ErrorCode::needs_bodies, {.code = ProblemCode::coordinates_not_known});
 }
 
+void require_no_tracking(const Device& device) {
+  if (device.parameters().sensor.tracking_bandwidth > 0.0) {
+    require_valid(
+        std::optional(device_problem("sensor.tracking_bandwidth", {.code = ProblemCode::tracking_not_known})));
+  }
+}
+
 std::size_t Device::body_index(const std::string& name) const {
   const auto& bodies = parameters_.bodies;
   const auto found = std::ranges::find(bodies, name, &Body::name);

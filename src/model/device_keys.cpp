@@ -139,6 +139,11 @@ constexpr auto made_rows() {
         "Position of one count of the encoder. No limit depends on it."},
        &Sensor::resolution,
        nothing},
+      {{sensor, "tracking_bandwidth", number, angular_frequency, from_0, "0", "0: it reads the position as it is",
+        "Bandwidth w of the drive's tracking of the position, (2 w s + w²)/(s + w)²."},
+       &Sensor::tracking_bandwidth,
+       limits,
+       true},
 
       {{wall, "stiffness", number, stiffness, from_0, "none", "", "Stiffness K of the virtual wall that is judged."},
        &Wall::stiffness,

@@ -11,12 +11,12 @@ struct ExactlyFound {
   KnownPoles poles;
 };
 
-ModalForm exact_modal_form(const Device& device, const WeightedPath& path, double lag, const PoleLabels& labels,
-                           std::shared_ptr<ExactlyFound>& found) {
+ModalForm exact_modal_form(const Device& device, const WeightedPath& path, const DrivePath& drive,
+                           const PoleLabels& labels, std::shared_ptr<ExactlyFound>& found) {
   if (!found) found = std::make_shared<ExactlyFound>();
   ExactFraction fraction = device.is_mechanical() ? exact_fraction(device, path, found->denominator)
                                                   : exact_fraction(*device.parameters().transfer_function);
-  return exact_partial_fractions(std::move(fraction), lag, labels, found->poles);
+  return exact_partial_fractions(std::move(fraction), drive, labels, found->poles);
 }
 
 }  // namespace zwidth::internal

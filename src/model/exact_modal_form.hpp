@@ -20,7 +20,7 @@ struct ExactlyFound;
 // `path`: of a device with bodies or coordinates. `found`: empty for the first path of a device, and given again for its others.
 // Throws Error (did_not_converge) for more bodies than the exact determinant can take, and where terms of
 // ModalTerm::max_degree still cancel too much.
-ModalForm exact_modal_form(const Device& device, const WeightedPath& path, double lag, const PoleLabels& labels,
-                           std::shared_ptr<ExactlyFound>& found);
+ModalForm exact_modal_form(const Device& device, const WeightedPath& path, const DrivePath& drive,
+                           const PoleLabels& labels, std::shared_ptr<ExactlyFound>& found);
 
 }  // namespace zwidth::internal

@@ -228,31 +228,33 @@ std::optional<ModalTerm> rounded_term(const Fraction& fraction, const std::vecto
 
 // Which poles share a term to begin with, and its mode: the groups of the ordinary route. Poles that the path does not
 // see are in no fraction.
-std::vector<Fraction> group(const std::vector<ExactPole>& seen, const std::vector<ExactPole>& all, double lag,
-                            const PoleLabels& labels, ModalForm& form) {
+std::vector<Fraction> group(const std::vector<ExactPole>& seen, const std::vector<ExactPole>& all,
+                            const DrivePath& drive, const PoleLabels& labels, ModalForm& form) {
   std::vector<ComplexX> poles;
   std::size_t zeros = 0;
-  const ComplexX lag_pole = lag > 0.0 ? ComplexX(Extended(-1.0) / Extended(lag)) : ComplexX();
-  const ExactPole* of_lag = nullptr;  // of the exact poles the one that is the lag's
-  if (lag > 0.0) {
-    for (const ExactPole& pole : all) {
-      if (of_lag == nullptr || magnitude(pole.rounded - lag_pole) < magnitude(of_lag->rounded - lag_pole)) {
-        of_lag = &pole;
-      }
+  const std::vector<DrivePole> of_drive = poles_of(drive);
+  std::vector<slong> left;  // of each pole's copies those that are the device's own
+  for (const ExactPole& pole : all) left.push_back(pole.multiplicity);
+  for (const DrivePole& each : of_drive) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      if (magnitude(all[i].rounded - each.at) < magnitude(all[nearest].rounded - each.at)) nearest = i;
     }
+    left[nearest] -= static_cast<slong>(each.copies);
   }
-  for (const ExactPole& pole : all) {
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const ExactPole& pole = all[k];
     if (magnitude(pole.rounded) == 0.0) {
       zeros = static_cast<std::size_t>(pole.multiplicity);
       continue;
     }
-    for (slong i = &pole == of_lag ? 1 : 0; i < pole.multiplicity; ++i) {
+    for (slong i = 0; i < left[k]; ++i) {
       poles.push_back(pole.rounded);
       if (!pole.is_real) poles.push_back(conj(pole.rounded));
     }
   }
   std::vector<PoleGroup> groups = group_poles(poles, zeros, labels, form);
-  if (lag > 0.0) add_lag_pole(groups, lag_pole);
+  for (const DrivePole& each : of_drive) add_drive_pole(groups, each);
 
   std::vector<Fraction> fractions(groups.size());
   for (std::size_t k = 0; k < groups.size(); ++k) fractions[k].mode = groups[k].mode;
@@ -275,7 +277,7 @@ std::vector<Fraction> group(const std::vector<ExactPole>& seen, const std::vecto
 }
 
 // All terms at a given precision; nothing where it does not suffice.
-std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction& seen, double lag,
+std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction& seen, const DrivePath& drive,
                                 const PoleLabels& labels, slong precision, KnownPoles& known) {
   const std::optional<std::vector<ExactPole>>& all = known.of(whole.denominator, precision);
   const bool some_unseen = fmpz_poly_degree(seen.denominator) < fmpz_poly_degree(whole.denominator);
@@ -283,7 +285,7 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
   if (!all || !found) return std::nullopt;
   const std::vector<ExactPole>& poles = *found;
   ModalForm form;
-  std::vector<Fraction> fractions = group(poles, *all, lag, labels, form);
+  std::vector<Fraction> fractions = group(poles, *all, drive, labels, form);
   for (Fraction& fraction : fractions) {
     Fraction sum;
     sum.mode = fraction.mode;
@@ -314,22 +316,50 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
 
 }  // namespace
 
-ModalForm exact_partial_fractions(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known) {
-  if (lag > 0.0) {  // times 1 / (lag s + 1)
-    RealBallPolynomial factor;
-    RealBall coefficient;
-    arb_set_d(coefficient, lag);
+namespace {
+
+// (slope s + constant) 2^shift, whole for the shift that is returned.
+long whole_factor(double slope, double constant, IntegerPolynomial& result) {
+  long shift = 0;
+  for (const double each : {slope, constant}) {
     int exponent = 0;
-    std::frexp(lag, &exponent);
-    const long shift = std::max(53 - exponent, 0);  // makes it whole
-    arb_poly_set_coeff_arb(factor, 1, coefficient);
-    arb_poly_set_coeff_si(factor, 0, 1);
-    arb_poly_scalar_mul_2exp_si(factor, factor, shift);
-    IntegerPolynomial exact;
-    arb_poly_get_unique_fmpz_poly(exact, factor);
-    fmpz_poly_mul(fraction.denominator, fraction.denominator, exact);
-    fraction.exponent += shift;
+    std::frexp(each, &exponent);
+    shift = std::max(shift, 53L - exponent);
   }
+  RealBallPolynomial factor;
+  RealBall coefficient;
+  arb_set_d(coefficient, slope);
+  arb_poly_set_coeff_arb(factor, 1, coefficient);
+  arb_set_d(coefficient, constant);
+  arb_poly_set_coeff_arb(factor, 0, coefficient);
+  arb_poly_scalar_mul_2exp_si(factor, factor, shift);
+  arb_poly_get_unique_fmpz_poly(result, factor);
+  return shift;
+}
+
+// Times E(s).
+void pass(ExactFraction& fraction, const DrivePath& drive) {
+  IntegerPolynomial factor;
+  if (drive.lag > 0.0) {
+    fraction.exponent += whole_factor(drive.lag, 1.0, factor);
+    fmpz_poly_mul(fraction.denominator, fraction.denominator, factor);
+  }
+  if (drive.tracking > 0.0) {  // w (2 s + w) / (s + w)²
+    fraction.exponent += 2 * whole_factor(1.0, drive.tracking, factor);
+    fmpz_poly_mul(fraction.denominator, fraction.denominator, factor);
+    fmpz_poly_mul(fraction.denominator, fraction.denominator, factor);
+    fraction.exponent -= whole_factor(2.0, drive.tracking, factor);
+    fmpz_poly_mul(fraction.numerator, fraction.numerator, factor);
+    fraction.exponent -= whole_factor(0.0, drive.tracking, factor);
+    fmpz_poly_mul(fraction.numerator, fraction.numerator, factor);
+  }
+}
+
+}  // namespace
+
+ModalForm exact_partial_fractions(ExactFraction fraction, const DrivePath& drive, const PoleLabels& labels,
+                                  KnownPoles& known) {
+  pass(fraction, drive);
   // What numerator and denominator have in common the path does not see.
   ExactFraction seen = fraction;
   IntegerPolynomial common;
@@ -339,9 +369,9 @@ ModalForm exact_partial_fractions(ExactFraction fraction, double lag, const Pole
     fmpz_poly_div(seen.denominator, fraction.denominator, common);
   }
   for (slong precision = first_precision; precision <= most_precision; precision *= 2) {
-    std::optional<ModalForm> form = expand(fraction, seen, lag, labels, precision, known);
+    std::optional<ModalForm> form = expand(fraction, seen, drive, labels, precision, known);
     if (!form) continue;
-    partial_fractions::share_lag(*form, lag);
+    partial_fractions::share_drive(*form, drive);
     return *form;
   }
   throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::modes_not_told_apart});

@@ -16,6 +16,7 @@ inline constexpr double joined_above = 1e3;
 
 // `known`: poles that were found before, and will be. Throws Error (did_not_converge) where terms of
 // ModalTerm::max_degree still cancel too much.
-ModalForm exact_partial_fractions(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known);
+ModalForm exact_partial_fractions(ExactFraction fraction, const DrivePath& drive, const PoleLabels& labels,
+                                  KnownPoles& known);
 
 }  // namespace zwidth::internal

@@ -69,7 +69,7 @@ struct FeedbackPencil {
   std::vector<Real> fed_back;
   std::size_t late = 0;
   Real at_once{0.0};
-  Real lag{0.0};
+  DrivePath drive;  // none
   std::size_t zero_roots = 0;
 
   [[nodiscard]] Complex<Real> newton_step(const Complex<Real>& x) const {

@@ -23,7 +23,7 @@ namespace zwidth {
 
 // What all paths of a device have in common, as far as it is known.
 struct internal::FoundPoles {
-  std::optional<std::vector<Complex<Extended>>> poles;  // those that are not 0, nor the lag's
+  std::optional<std::vector<Complex<Extended>>> poles;  // those that are not 0, nor the drive's
   bool do_not_converge = false;                         // in double-double
   std::shared_ptr<ExactlyFound> exact;
 };
@@ -146,7 +146,7 @@ ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vecto
 }
 
 template <typename Real>
-BodyPencil<Real> body_pencil(const Device& device, const WeightedPath& path, double lag) {
+BodyPencil<Real> body_pencil(const Device& device, const WeightedPath& path, const DrivePath& drive) {
   DeviceMatrices<Real> matrices = device_matrices<Real>(device);
   BodyPencil<Real> pencil;
   pencil.bodies = matrices.mass.size();
@@ -156,17 +156,17 @@ BodyPencil<Real> body_pencil(const Device& device, const WeightedPath& path, dou
   pencil.coupling = std::move(matrices.coupling);
   pencil.damping = std::move(matrices.damping);
   pencil.stiffness = std::move(matrices.stiffness);
-  pencil.lag = lag;
+  pencil.drive = drive;
   pencil.zero_roots = poles_at_zero(device);
   return pencil;
 }
 
 // One or two bodies as polynomials (eqs. 5-9 of Díaz & Gil): fewer operations than the matrix.
 template <typename Real>
-PolynomialPencil<Real> small_device_pencil(const Device& device, const WeightedPath& path, double lag) {
+PolynomialPencil<Real> small_device_pencil(const Device& device, const WeightedPath& path, const DrivePath& drive) {
   const DeviceMatrices<Real> d = device_matrices<Real>(device);
   PolynomialPencil<Real> pencil;
-  pencil.lag = lag;
+  pencil.drive = drive;
   pencil.zero_roots = poles_at_zero(device);
   if (d.mass.size() == 1) {
     pencil.numerator = {Real(1.0)};
@@ -214,11 +214,11 @@ ModalForm single_body(const DeviceMatrices<double>& matrices, std::size_t zeros)
   return form;
 }
 
-ModalForm expand_bodies(const Device& device, const WeightedPath& path, double lag, FoundPoles& found) {
+ModalForm expand_bodies(const Device& device, const WeightedPath& path, const DrivePath& drive, FoundPoles& found) {
   const DeviceMatrices<double> matrices = device_matrices<double>(device);
   const std::size_t zeros = poles_at_zero(device);
   const bool is_small = device.has_bodies() && matrices.mass.size() <= 2;
-  if (is_small && matrices.mass.size() == 1 && lag == 0.0) return single_body(matrices, zeros);
+  if (is_small && matrices.mass.size() == 1 && drive.is_ideal()) return single_body(matrices, zeros);
   double mass = 0.0;
   double damping = device.parameters().user.damping;
   for (double m : matrices.mass) mass += m;
@@ -257,20 +257,20 @@ ModalForm expand_bodies(const Device& device, const WeightedPath& path, double l
     if (!(magnitude(s) > 0.0)) s = ComplexD(-1e-3, 1e-3);
   }
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
-  const auto exact = [&] { return exact_modal_form(device, path, lag, labels, found.exact); };
-  ModalForm form = is_small
-                       ? expand_poles(small_device_pencil<double>(device, path, lag),
-                                      small_device_pencil<Extended>(device, path, lag), std::move(start), labels,
-                                      nyquist, found, exact)
-                       : expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
-                                      std::move(start), labels, nyquist, found, exact);
+  const auto exact = [&] { return exact_modal_form(device, path, drive, labels, found.exact); };
+  ModalForm form =
+      is_small ? expand_poles(small_device_pencil<double>(device, path, drive),
+                              small_device_pencil<Extended>(device, path, drive), std::move(start), labels, nyquist,
+                              found, exact)
+               : expand_poles(body_pencil<double>(device, path, drive), body_pencil<Extended>(device, path, drive),
+                              std::move(start), labels, nyquist, found, exact);
   cancel_at_zero(form, poles_at_zero_seen(device, path));
   return form;
 }
 
 ModalForm expand_transfer_function(const Device& device) {
   const TransferFunction& transfer_function = *device.parameters().transfer_function;
-  const double lag = device.parameters().actuator.time_constant;
+  const DrivePath drive = drive_path_of(device.parameters());
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
   std::vector<double> numerator(transfer_function.numerator.rbegin(), transfer_function.numerator.rend());
   std::vector<double> denominator(transfer_function.denominator.rbegin(), transfer_function.denominator.rend());
@@ -288,8 +288,8 @@ ModalForm expand_transfer_function(const Device& device) {
   PolynomialPencil<Extended> extended;
   PolynomialPencil<double> pencil;
   pencil.zero_roots = extended.zero_roots = zeros;
-  pencil.lag = lag;
-  extended.lag = lag;
+  pencil.drive = drive;
+  extended.drive = drive;
   // Exact scaling by a power of two keeps products of extreme coefficients in range.
   int exponent = 0;
   std::frexp(denominator.back(), &exponent);
@@ -302,7 +302,7 @@ ModalForm expand_transfer_function(const Device& device) {
   FoundPoles found;
   const PoleLabels labels;
   return expand_poles(pencil, extended, newton_polygon_start(denominator), labels, nyquist, found,
-                      [&] { return exact_modal_form(device, {}, lag, labels, found.exact); });
+                      [&] { return exact_modal_form(device, {}, drive, labels, found.exact); });
 }
 
 }  // namespace
@@ -319,9 +319,9 @@ ModalForm modal_form(const Device& device, Path path, ActuatorLag lag) {
   return ModalForms(device, lag).along(path);
 }
 
-internal::ModalForms::ModalForms(const Device& device, ActuatorLag lag)
+internal::ModalForms::ModalForms(const Device& device, ActuatorLag parts)
     : device_(device),
-      lag_(lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0),
+      drive_(parts == ActuatorLag::included ? drive_path_of(device.parameters()) : DrivePath{}),
       found_(std::make_unique<FoundPoles>()) {}
 
 internal::ModalForms::~ModalForms() = default;
@@ -337,7 +337,9 @@ ModalForm internal::ModalForms::along(Path path) {
       WeightedPath{internal::weights_of(device_, path.force_at), internal::weights_of(device_, path.position_of)});
 }
 
-ModalForm internal::ModalForms::along(const WeightedPath& path) { return expand_bodies(device_, path, lag_, *found_); }
+ModalForm internal::ModalForms::along(const WeightedPath& path) {
+  return expand_bodies(device_, path, drive_, *found_);
+}
 
 std::complex<double> response(const ModalTerm& term, double frequency) {
   if (term.degree == 2) {  // nearly all: without the loop, and without the library's division where it is safe

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "model/device_lengths.hpp"
+#include "model/drive_path.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
 
@@ -14,7 +15,7 @@ struct FoundPoles;
 class ModalForms {
  public:
   // A device with bodies or coordinates, which must outlive this.
-  ModalForms(const Device& device, ActuatorLag lag);
+  ModalForms(const Device& device, ActuatorLag parts);
   ModalForms(const ModalForms&) = delete;
   ModalForms& operator=(const ModalForms&) = delete;
   ~ModalForms();
@@ -26,7 +27,7 @@ class ModalForms {
 
  private:
   const Device& device_;
-  double lag_;
+  DrivePath drive_;
   std::unique_ptr<FoundPoles> found_;
 };
 

@@ -176,15 +176,60 @@ void clear_unseen(ModalForm& form) {
   }
 }
 
-void share_lag(ModalForm& form, double lag) {
-  if (!(lag > 0.0)) return;
+namespace {
+
+// c0 + c1 s modulo a term's denominator s² + d1 s + d0.
+struct Remainder {
+  double c0 = 0.0;
+  double c1 = 0.0;
+
+  [[nodiscard]] double at(double s) const { return c0 + c1 * s; }
+};
+
+Remainder multiply(const Remainder& a, const Remainder& b, const ModalTerm& term) {
+  const double square = a.c1 * b.c1;
+  return {a.c0 * b.c0 - square * term.denominator[0], a.c0 * b.c1 + a.c1 * b.c0 - square * term.denominator[1]};
+}
+
+// 1/(1 + a s)
+Remainder inverse(double a, const ModalTerm& term) {
+  const double norm = 1.0 - a * term.denominator[1] + a * a * term.denominator[0];
+  return {(1.0 - a * term.denominator[1]) / norm, -a / norm};
+}
+
+// The mode's numerator without the drive: N/E mod D.
+Remainder without_drive(const ModalTerm& term, const DrivePath& drive) {
+  Remainder n{term.numerator[0], term.numerator[1]};
+  n = multiply(n, {1.0, drive.lag}, term);
+  if (drive.tracking == 0.0) return n;
+  const Remainder below{1.0, 1.0 / drive.tracking};
+  return multiply(multiply(n, multiply(below, below, term), term), inverse(2.0 / drive.tracking, term), term);
+}
+
+}  // namespace
+
+void share_drive(ModalForm& form, const DrivePath& drive) {
+  if (drive.is_ideal()) return;
   for (ModalTerm& term : form.terms) {
     if (term.mode < 0 || term.degree != 2) continue;
-    // The mode without the lag is N (lag s + 1) mod D; its residue at s = -1/lag is its part of the lag's term.
-    const double n0 = term.numerator[0] - lag * term.numerator[1] * term.denominator[0];
-    const double n1 = term.numerator[1] + lag * (term.numerator[0] - term.numerator[1] * term.denominator[1]);
-    const double s = -1.0 / lag;
-    term.lag_numerator = (n0 + n1 * s) / (term.denominator[0] + s * (term.denominator[1] + s)) / lag;
+    const Remainder n = without_drive(term, drive);
+    const auto below = [&](double s) { return term.denominator[0] + s * (term.denominator[1] + s); };
+    if (drive.lag > 0.0) {  // the residue of N E/D at s = -1/lag
+      const double s = -1.0 / drive.lag;
+      const double ratio = drive.tracking > 0.0 ? s / drive.tracking : 0.0;
+      const double tracked = (1.0 + 2.0 * ratio) / ((1.0 + ratio) * (1.0 + ratio));
+      term.lag_numerator = n.at(s) / below(s) * tracked / drive.lag;
+    }
+    if (drive.tracking > 0.0) {  // g + g' (s + w) at s = -w, g = N/D (2 w s + w²)/(lag s + 1)
+      const double w = drive.tracking;
+      const double d = below(-w);
+      const double lagged = 1.0 - drive.lag * w;
+      const double g = -w * w * n.at(-w) / d / lagged;
+      const double slope = -w * w * (n.c1 - n.at(-w) * (term.denominator[1] - 2.0 * w) / d) / d / lagged +
+                           n.at(-w) / d * (2.0 * w / lagged + w * w * drive.lag / (lagged * lagged));
+      term.tracking_numerator[0] = g + w * slope;
+      term.tracking_numerator[1] = slope;
+    }
   }
 }
 

@@ -61,8 +61,8 @@ void cancel_common_factors(PolynomialX& numerator, PolynomialX& denominator, dou
 ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX denominator);
 // Clears numerators of modes that the path does not see.
 void clear_unseen(ModalForm& form);
-// Says how much of the lag's term stems from each mode.
-void share_lag(ModalForm& form, double lag);
+// Says how much of the terms of lag and tracking stems from each mode.
+void share_drive(ModalForm& form, const DrivePath& drive);
 
 template <typename Pencil>
 ComplexX analytic_part(const Pencil& pencil, const PoleGroup& group, const ComplexX& s) {
@@ -135,6 +135,7 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, const std::
   std::vector<ComplexX> points = circle_directions<contour_points>();
   std::vector<ComplexX> log_derivative(contour_points);
   std::vector<ComplexX> gain(contour_points);
+  const std::vector<DrivePole> of_drive = poles_of(pencil.drive);
   const ComplexX one{Extended(1.0)};
   for (std::size_t i = 0; i < contour_points; ++i) {
     points[i] = points[i] * radius;
@@ -142,7 +143,9 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, const std::
     gain[i] = pencil.gain(s);
     log_derivative[i] = one / pencil.newton_step(s);
     for (std::size_t zero = 0; zero < pencil.zero_roots; ++zero) log_derivative[i] += one / s;
-    if (leading(pencil.lag) > 0.0) log_derivative[i] += ComplexX(pencil.lag) / (one + s * pencil.lag);
+    for (const DrivePole& pole : of_drive) {
+      log_derivative[i] += ComplexX(Extended(static_cast<double>(pole.copies))) / (s - pole.at);
+    }
   }
   const auto moment = [&points](const std::vector<ComplexX>& values, std::size_t order) {
     ComplexX sum;
@@ -183,19 +186,18 @@ ModalTerm term_of(const Pencil& pencil, const PoleGroup& group, const std::vecto
   return real_term(group, std::move(numerator), std::move(denominator));
 }
 
-// Sum of terms from all non-zero poles (closed under conjugation to rounding); poles at zero and of the lag are added.
+// Sum of terms from all non-zero poles (closed under conjugation to rounding); poles at zero and of the drive are added.
 template <typename Pencil>
 ModalForm expand(const Pencil& pencil, std::vector<ComplexX> poles, const PoleLabels& labels) {
   ModalForm form;
   std::vector<PoleGroup> groups = group_poles(poles, pencil.zero_roots, labels, form);
-  const double lag = leading(pencil.lag);
-  if (lag > 0.0) {
-    poles.emplace_back(Extended(-1.0) / pencil.lag);
-    add_lag_pole(groups, poles.back());
+  for (const DrivePole& pole : poles_of(pencil.drive)) {
+    poles.insert(poles.end(), pole.copies, pole.at);
+    add_drive_pole(groups, pole);
   }
   for (const PoleGroup& group : groups) form.terms.push_back(term_of(pencil, group, poles));
   clear_unseen(form);
-  share_lag(form, lag);
+  share_drive(form, pencil.drive);
   return form;
 }
 

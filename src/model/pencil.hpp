@@ -1,23 +1,40 @@
 #pragma once
 
-// A plant G(s) = N(s) / (p(s) (lag s + 1)) by evaluation at complex s, in double or double-double. Roots of p at
-// exactly s = 0, known from the structure, are divided out of p: `zero_roots` counts them. The pole of the lag is known
+// A plant G(s) = N(s) / p(s) E(s), E of drive_path.hpp, by evaluation at complex s, in double or double-double. Roots of p at
+// exactly s = 0, known from the structure, are divided out of p: `zero_roots` counts them. The poles of E are known
 // and not among the roots sought.
 
 #include <cstddef>
 #include <vector>
 
 #include "model/device_lengths.hpp"
+#include "model/drive_path.hpp"
 #include "model/extended_precision.hpp"
 
 namespace zwidth::internal {
+
+// `position` times E(s).
+template <typename Real>
+[[nodiscard]] Complex<Real> behind_drive(const Complex<Real>& position, const DrivePath& drive,
+                                         const Complex<Real>& s) {
+  if (drive.is_ideal()) return position;
+  Complex<Real> lagged = s * Real(drive.lag);
+  lagged.re += Real(1.0);
+  if (drive.tracking == 0.0) return position / lagged;
+  const Complex<Real> ratio = s * (Real(1.0) / Real(drive.tracking));
+  Complex<Real> below = ratio;
+  below.re += Real(1.0);
+  Complex<Real> above = ratio + ratio;
+  above.re += Real(1.0);
+  return position * above / (lagged * below * below);
+}
 
 // Polynomials, ascending powers. p carries no root at zero any more.
 template <typename Real>
 struct PolynomialPencil {
   std::vector<Real> numerator;
   std::vector<Real> denominator;
-  Real lag{0.0};
+  DrivePath drive;
   std::size_t zero_roots = 0;
 
   // p / p' at s.
@@ -35,9 +52,7 @@ struct PolynomialPencil {
   [[nodiscard]] Complex<Real> gain(const Complex<Real>& s) const {
     Complex<Real> p = horner(denominator, s);
     for (std::size_t i = 0; i < zero_roots; ++i) p *= s;
-    Complex<Real> lag_denominator = s * lag;
-    lag_denominator.re += Real(1.0);
-    return horner(numerator, s) / (p * lag_denominator);
+    return behind_drive(horner(numerator, s) / p, drive, s);
   }
 
  private:
@@ -51,7 +66,7 @@ struct PolynomialPencil {
   }
 };
 
-// p(s) = det Q(s) s^-zero_roots, Q(s) = M s² + D s + K; G(s) = w_position' Q(s)^-1 w_force / (lag s + 1).
+// p(s) = det Q(s) s^-zero_roots, Q(s) = M s² + D s + K; G(s) = w_position' Q(s)^-1 w_force E(s).
 template <typename Real>
 class BodyPencil {
  public:
@@ -62,7 +77,7 @@ class BodyPencil {
   std::vector<Real> coupling;   // the rest of M, bodies x bodies; empty: none
   std::vector<Real> damping;    // bodies x bodies, row by row
   std::vector<Real> stiffness;  // bodies x bodies
-  Real lag{0.0};
+  DrivePath drive;
   std::size_t zero_roots = 0;
 
   // p / p' = 1 / ((det Q)' / det Q - zero_roots / s), (det Q)' / det Q = sum u_kk' / u_kk over the pivots of Q = P L U:
@@ -108,9 +123,7 @@ class BodyPencil {
     solve(column_);
     Complex<Real> position;
     for (const auto& [body, weight] : position_of) position += column_[body] * Real(weight);
-    Complex<Real> lag_denominator = s * lag;
-    lag_denominator.re += Real(1.0);
-    return position / lag_denominator;
+    return behind_drive(position, drive, s);
   }
 
  private:

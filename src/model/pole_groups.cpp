@@ -11,8 +11,6 @@ namespace {
 
 using ComplexX = Complex<Extended>;
 
-bool close(const ComplexX& a, const ComplexX& b) { return magnitude(a - b) <= cluster_tolerance * magnitude(a); }
-
 // A cluster takes in poles until the next one is this many times its radius away.
 constexpr double isolated_beyond = 8.0;
 // Real poles gather sooner: three or four of them lose digits with the square or cube of their distance.
@@ -191,16 +189,21 @@ bool asks_for_exact(const std::vector<ComplexX>& poles, const PoleLabels& labels
   return false;
 }
 
-void add_lag_pole(std::vector<PoleGroup>& groups, const ComplexX& pole) {
+void add_drive_pole(std::vector<PoleGroup>& groups, const DrivePole& pole) {
+  // With a double one a third that is near loses digits with the square of their distance.
+  const double tolerance = pole.copies > 1 ? real_cluster_tolerance : cluster_tolerance;
+  const auto is_near = [&](const ComplexX& a, const ComplexX& b) {
+    return magnitude(a - b) <= tolerance * magnitude(a);
+  };
   PoleGroup own;
-  own.mode = -1;
+  own.mode = pole.mode;
   for (PoleGroup& group : groups) {
     if (!group.closed) continue;
     for (std::size_t i = 0; i < group.poles.size(); ++i) {
-      if (!close(pole, group.poles[i])) continue;
+      if (!is_near(pole.at, group.poles[i])) continue;
       own.mode = group.mode;
-      if (group.cluster || close(group.poles.front(), group.poles.back())) {  // all of them lie here
-        group.poles.push_back(pole);
+      if (group.cluster || is_near(group.poles.front(), group.poles.back())) {  // all of them lie here
+        group.poles.insert(group.poles.end(), pole.copies, pole.at);
         group.cluster = true;
         return;
       }
@@ -211,8 +214,15 @@ void add_lag_pole(std::vector<PoleGroup>& groups, const ComplexX& pole) {
     if (!own.poles.empty()) break;
   }
   own.cluster = !own.poles.empty();
-  own.poles.push_back(pole);
+  own.poles.insert(own.poles.end(), pole.copies, pole.at);
   groups.push_back(std::move(own));
+}
+
+std::vector<DrivePole> poles_of(const DrivePath& drive) {
+  std::vector<DrivePole> poles;
+  if (drive.lag > 0.0) poles.push_back({ComplexX(Extended(-1.0) / Extended(drive.lag)), 1, -1});
+  if (drive.tracking > 0.0) poles.push_back({ComplexX(Extended(-drive.tracking)), 2, -2});
+  return poles;
 }
 
 }  // namespace zwidth::internal

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "model/drive_path.hpp"
 #include "model/extended_precision.hpp"
 #include "zwidth/model/modal_form.hpp"
 
@@ -43,7 +44,15 @@ std::vector<PoleGroup> group_poles(std::vector<Complex<Extended>>& poles, std::s
 // and which of several alike modes the path sees.
 [[nodiscard]] bool asks_for_exact(const std::vector<Complex<Extended>>& poles, const PoleLabels& labels);
 
-// Adds the pole of the actuator's lag as the last group, or to a real pole that it nearly coincides with.
-void add_lag_pole(std::vector<PoleGroup>& groups, const Complex<Extended>& pole);
+// Adds a real pole of the drive, so many times, as the last group of that mode, or to a real pole that it nearly coincides with.
+struct DrivePole {
+  Complex<Extended> at;
+  std::size_t copies = 1;
+  int mode = -1;  // as ModalTerm::mode
+};
+void add_drive_pole(std::vector<PoleGroup>& groups, const DrivePole& pole);
+
+// Those of the actuator's lag and of the tracking, as far as there are any.
+[[nodiscard]] std::vector<DrivePole> poles_of(const DrivePath& drive);
 
 }  // namespace zwidth::internal

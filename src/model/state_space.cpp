@@ -77,6 +77,19 @@ ContinuousStateSpace of_transfer_function(const TransferFunction& transfer_funct
   return system;
 }
 
+// Appends the drive's tracking as states p and q: p' = w (2 (y - p) + q), q' = w (y - p); p is read.
+ContinuousStateSpace with_tracking(const ContinuousStateSpace& system, double bandwidth) {
+  const Eigen::Index n = system.A.rows();
+  ContinuousStateSpace tracked{Eigen::MatrixXd::Zero(n + 2, n + 2), Eigen::VectorXd::Zero(n + 2),
+                               Eigen::RowVectorXd::Zero(n + 2)};
+  tracked.A.topLeftCorner(n, n) = system.A;
+  tracked.A.bottomLeftCorner(2, n) << 2.0 * bandwidth * system.C, bandwidth * system.C;
+  tracked.A.bottomRightCorner(2, 2) << -2.0 * bandwidth, bandwidth, -bandwidth, 0.0;
+  tracked.B.head(n) = system.B;
+  tracked.C(n) = 1.0;
+  return tracked;
+}
+
 }  // namespace
 
 ContinuousStateSpace state_space(const Device& device) {
@@ -84,7 +97,9 @@ ContinuousStateSpace state_space(const Device& device) {
                                 : device.is_mechanical() ? of_coordinates(device)
                                                          : of_transfer_function(*device.parameters().transfer_function);
   const double lag = device.parameters().actuator.time_constant;
-  return lag > 0.0 ? with_lag(system, lag) : system;
+  if (lag > 0.0) system = with_lag(system, lag);
+  const double bandwidth = device.parameters().sensor.tracking_bandwidth;
+  return bandwidth > 0.0 ? with_tracking(system, bandwidth) : system;
 }
 
 }  // namespace zwidth

@@ -81,6 +81,21 @@ bool is_near_circle(const ModalTerm& term, double period) {
          4.0 * term.denominator[0] > term.denominator[1] * term.denominator[1];
 }
 
+// What of the tracking's term stems from each mode.
+void share_tracking(const ModalForm& form, const SamplingInstants& instants, SampledPlant& plant) {
+  const auto tracking = std::ranges::find_if(form.terms, [](const ModalTerm& term) { return term.mode == -2; });
+  if (tracking == form.terms.end() || tracking->degree != 2) return;
+  auto sampled = plant.terms.begin();
+  for (const ModalTerm& term : form.terms) {
+    if (!is_seen(term)) continue;
+    ModalTerm part = *tracking;
+    std::copy_n(term.tracking_numerator, 2, part.numerator);
+    SampledTerm of_part;
+    sample_second_order(part, instants, plant.period, of_part);
+    std::copy_n(of_part.numerator, 3, (sampled++)->tracking_numerator);
+  }
+}
+
 // Fills in what rounding to double left out of the coefficients.
 void keep_rests(const ModalForm& form, const SamplingInstants& instants, SampledPlant& plant) {
   auto sampled = plant.terms.begin();
@@ -101,7 +116,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
   bool near_circle = false;
   double lag_numerator = 0.0;
   for (const ModalTerm& term : form.terms)
-    if (term.mode < 0) lag_numerator = term.numerator[0];
+    if (term.mode == -1) lag_numerator = term.numerator[0];
   for (const ModalTerm& term : form.terms) {
     if (!is_seen(term)) continue;
     SampledTerm sampled;
@@ -127,6 +142,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     check_range(sampled);
     plant.terms.push_back(sampled);
   }
+  share_tracking(form, instants, plant);
   // Near an antiresonance between modes the terms cancel too. As products of small factors they tell more of an interval
   // than one polynomial does, as long as their own digits suffice.
   const double at_poles = crowded || plant.terms.size() > 2 ? cancellation_at_poles(plant) : 1.0;

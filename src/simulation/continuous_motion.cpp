@@ -32,6 +32,9 @@ ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside, s
     actuated_ = device.loop().actuated;
     size_ = 2 * bodies_;
     lag_ = device.parameters().actuator.time_constant > 0.0 ? size_++ : no_state;
+    bandwidth_ = device.parameters().sensor.tracking_bandwidth;
+    tracked_ = bandwidth_ > 0.0 ? size_ : no_state;
+    if (bandwidth_ > 0.0) size_ += 2;
   } else {
     const ContinuousStateSpace system = state_space(device);
     output_ = system.C.transpose();
@@ -98,6 +101,10 @@ void ContinuousMotion::set_motion(const double* positions, const double* velocit
   for (std::size_t i = 0; i < bodies_; ++i) {
     state_.data()[i] = positions[i] - (i == 0 ? 0.0 : positions[0]);
     state_.data()[bodies_ + i] = velocities[i];
+  }
+  if (tracked_ != no_state) {  // as after a long motion at that velocity
+    state_.data()[tracked_] = positions[sensed_];
+    state_.data()[tracked_ + 1] = velocities[sensed_] / bandwidth_;
   }
   for (FrictionBody& each : friction_) {
     const double velocity = this->velocity(each.body);

@@ -21,7 +21,7 @@ struct OutsideForce {
 
 /// The continuous device between two changes of the commanded force, moved exactly.
 ///
-///     x' = A x,   x = (q_0, q_i - q_0, v_i, lagged force, commanded force, friction forces, w0, w1)
+///     x' = A x,   x = (q_0, q_i - q_0, v_i, lagged force, tracked p and q, commanded force, friction forces, w0, w1)
 ///
 /// by e^{Ah} for the recurring lengths h (matrices made once) and by its Taylor series in between: no fixed-step
 /// integrator. Positions are kept relative to body 0, so that a link's small extension keeps its digits far from zero.
@@ -68,7 +68,11 @@ class ContinuousMotion {
     return body == 0 ? state_.data()[0] : state_.data()[0] + state_.data()[body];
   }
   [[nodiscard]] double velocity(std::size_t body) const noexcept { return state_.data()[bodies_ + body]; }
-  [[nodiscard]] double sensed() const noexcept { return bodies_ > 0 ? position(sensed_) : output(); }
+  /// As the drive reads it.
+  [[nodiscard]] double sensed() const noexcept {
+    if (tracked_ != no_state) return state_.data()[tracked_];
+    return bodies_ > 0 ? position(sensed_) : output();
+  }
   /// Position of the actuated body; of a transfer function, its output.
   [[nodiscard]] double actuated() const noexcept { return bodies_ > 0 ? position(actuated_) : output(); }
   [[nodiscard]] bool has_friction() const noexcept { return !friction_.empty(); }
@@ -142,6 +146,8 @@ class ContinuousMotion {
   Eigen::VectorXd output_;  // of a transfer function
   std::size_t command_ = 0;
   std::size_t lag_ = no_state;
+  std::size_t tracked_ = no_state;  // and the one behind; of a transfer function they are among its own
+  double bandwidth_ = 0.0;
   std::size_t outside_ = no_state;
   std::size_t size_ = 0;
   std::size_t moving_ = 0;  // of the state, those before the constant ones

@@ -129,6 +129,7 @@ class FrictionBalance {
   [[nodiscard]] double sliding_damping(const Device& device, std::size_t k, double frequency, double share) const {
     DeviceParameters seen = device.parameters();
     seen.loop.sensed = rubbing_[k];
+    seen.sensor.tracking_bandwidth = 0.0;  // what the body does, not what the drive reads of it
     const double mobility = frequency * std::abs(response(modal_form(Device(std::move(seen))), frequency));
     return share * device_.bodies()[rubbing_[k]].coulomb / (relay_.amplitude * mobility);
   }

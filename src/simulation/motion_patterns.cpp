@@ -93,6 +93,16 @@ Eigen::MatrixXd ContinuousMotion::matrix_of(const Device& device, OutsideForce o
     matrix(lag, lag) = -1.0 / parameters.actuator.time_constant;
     matrix(lag, command) = 1.0 / parameters.actuator.time_constant;
   }
+  if (tracked_ != no_state) {  // p' = w (2 (y - p) + q), q' = w (y - p)
+    const auto p = static_cast<Eigen::Index>(tracked_);
+    for (const Eigen::Index part : {Eigen::Index{0}, static_cast<Eigen::Index>(sensed_)}) {  // y, once of body 0
+      matrix(p, part) = 2.0 * bandwidth_;
+      matrix(p + 1, part) = bandwidth_;
+    }
+    matrix(p, p) = -2.0 * bandwidth_;
+    matrix(p, p + 1) = bandwidth_;
+    matrix(p + 1, p) = -bandwidth_;
+  }
   if (outside_ != no_state) {
     const auto w = static_cast<Eigen::Index>(outside_);
     matrix(w, w + 1) = outside.rise;

@@ -15,6 +15,7 @@
 namespace zwidth::internal {
 namespace {
 
+constexpr double on_circle = 1e-9;        // | |z| - 1 | of a pole that may be on the unit circle
 constexpr double steps_of_chatter = 2.0;  // encoder steps: a swing of so much, either way, is of the encoder's making
 
 bool has_wall(const Simulation& result) { return result.loop.controller.kind == ControllerOptions::Kind::wall; }
@@ -47,6 +48,12 @@ bool must_grow(const Simulation& result) {
   return has_wall(result) && result.loop.controller.stiffness > 0.0 && !result.linear.wall_stable.value_or(true) &&
          result.linear.spectral_radius.value_or(0.0) > 1.0 &&
          std::all_of(result.nonlinear_parts.begin(), result.nonlinear_parts.end(), is_encoder);
+}
+
+/// Nothing in the loop keeps an oscillation up that neither grows nor dies out: it is linear, and no pole is on the unit circle.
+bool cannot_swing_on(const Simulation& result) {
+  return has_wall(result) && result.loop.controller.stiffness > 0.0 && result.nonlinear_parts.empty() &&
+         result.linear.spectral_radius && std::abs(*result.linear.spectral_radius - 1.0) > on_circle;
 }
 
 /// Whether the motion at the end is so small, or so steady a drift, that the encoder's steps are what moves the force.
@@ -180,6 +187,7 @@ void compare_with_linear(Simulation& result, const Device& device, std::span<con
   result.nonlinear_parts = nonlinear_parts(result, device);
   const bool is_quiet = result.verdict == LoopVerdict::settles || result.verdict == LoopVerdict::forced;
   if (is_quiet && must_grow(result)) result.verdict = LoopVerdict::undecided;
+  if (result.verdict == LoopVerdict::limit_cycle && cannot_swing_on(result)) result.verdict = LoopVerdict::undecided;
   if (result.linear.wall_stable && result.verdict != LoopVerdict::undecided) {
     const bool moves_on = result.verdict == LoopVerdict::limit_cycle || result.verdict == LoopVerdict::unstable;
     result.linear.agrees = *result.linear.wall_stable != moves_on;

@@ -57,6 +57,8 @@ std::string words_of(const DiagnosisChange& change) {
       return "half the damper's delay";
     case twice_damper_rate:
       return "twice the damper's rate";
+    case twice_tracking:
+      return "twice the drive's tracking bandwidth";
     case notch:
       break;
   }

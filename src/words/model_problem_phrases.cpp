@@ -170,6 +170,8 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "leave out one of the two"},
       ProblemPhrase{damper_loop_not_known, "damper_loop_not_known", "runs the damper in a loop of its own",
                     "this computation knows one loop for both: leave [loop.damper] out for its answer"},
+      ProblemPhrase{tracking_not_known, "tracking_not_known", "has the drive track the position",
+                    "this computation knows positions that are read as they are: leave it out for its answer"},
       ProblemPhrase{travel_per_turn_missing, "travel_per_turn_missing", "is missing",
                     "must be given: how far the device moves in a turn, such as \"25 mm\""},
       ProblemPhrase{no_letter, "no_letter", "is no letter", "must be one letter, such as \"M\""},

@@ -12,6 +12,8 @@ std::string_view words_of(UnmetAssumption assumption) {
       return "a delay";
     case UnmetAssumption::actuator_lag:
       return "an actuator lag";
+    case UnmetAssumption::tracking:
+      return "a drive that tracks the position";
     case UnmetAssumption::velocity_filter:
       return "a velocity filter";
     case UnmetAssumption::virtual_damper:

@@ -201,6 +201,24 @@ TEST(DriveGains, TheLimitWithAnOdrivesEstimatorIsWhereItsEquationsBeginToGrow) {
   EXPECT_FALSE(drive_gains(device, DriveFirmware::odrive).on_drive.trust.sound());
 }
 
+// What the host reads positions by is that estimator: it stands in the loop once.
+TEST(DriveGains, TheFilesTrackingIsTheEstimators) {
+  const auto limit_of = [](DriveFirmware firmware, double tracking, const DriveLoopOptions& options) {
+    DeviceParameters parameters = knob();
+    parameters.sensor.tracking_bandwidth = tracking;
+    return drive_gains(Device(parameters), firmware, options).on_drive.critical.stiffness;
+  };
+  constexpr double corner = 2.48;
+  EXPECT_EQ(limit_of(DriveFirmware::odrive, 700.0, {}),
+            limit_of(DriveFirmware::odrive, 0.0, {.estimator_bandwidth = 700.0}));
+  EXPECT_EQ(limit_of(DriveFirmware::odrive, 1000.0, {}), limit_of(DriveFirmware::odrive, 0.0, {}));
+  EXPECT_EQ(limit_of(DriveFirmware::moteus, 700.0, {}),
+            limit_of(DriveFirmware::moteus, 0.0, {.estimator_bandwidth = corner * 700.0}));
+  EXPECT_EQ(limit_of(DriveFirmware::odrive, 1000.0, {.estimator_bandwidth = 500.0}),
+            limit_of(DriveFirmware::odrive, 0.0, {.estimator_bandwidth = 500.0}));
+  EXPECT_LT(limit_of(DriveFirmware::vesc, 1000.0, {}), limit_of(DriveFirmware::vesc, 0.0, {}));
+}
+
 TEST(DriveGains, TheLimitWithSimplefocsLowPassIsWhereItsEquationsBeginToGrow) {
   DeviceParameters parameters = knob();
   parameters.wall.velocity_filter_hz = 1.0 / (2.0 * pi * 0.005);  // its default, Tf = 5 ms

@@ -138,6 +138,10 @@ std::string what_turns_unstable(const Device& analysed, const std::string& mecha
   if (device.actuator.time_constant > 0.0) {
     causes.push_back(fmt::format("the actuator's lag of {}", quantity(device.actuator.time_constant, "s")));
   }
+  if (device.sensor.tracking_bandwidth > 0.0) {
+    causes.push_back(
+        fmt::format("the drive's tracking of the position at {}", quantity(device.sensor.tracking_bandwidth, "rad/s")));
+  }
   if (const double lag = lag_of_filters(device, frequency); lag > 0.0) {
     causes.push_back(fmt::format("the wall's filters, {:.3g}° behind there", lag));
   }

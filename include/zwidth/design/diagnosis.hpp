@@ -82,6 +82,7 @@ struct DiagnosisChange {
     damper_on_drive,      ///< with_damper_on_drive(), with the best of some virtual dampers
     half_damper_delay,    ///< half the delay of a damper in a loop of its own
     twice_damper_rate,    ///< twice the rate of a damper in a loop of its own
+    twice_tracking,       ///< twice the bandwidth of the drive's tracking of the position
   };
   Kind kind = Kind::more_body_damping;   ///< which change
   std::optional<std::size_t> link = {};  ///< of stiffer_link: from 0

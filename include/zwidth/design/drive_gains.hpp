@@ -31,8 +31,8 @@ struct DriveNumber {
 struct DriveLoopOptions {
   std::optional<double> sampling_period = {};  ///< s; > 0
   std::optional<double> delay = {};            ///< s; >= 0; absent: one sampling period
-  /// rad/s: encoder.config.bandwidth of an odrive, 2 pi motor_position.sources.N.pll_filter_hz of a moteus; absent: 1000,
-  /// 2 pi 400
+  /// rad/s: encoder.config.bandwidth of an odrive, 2 pi motor_position.sources.N.pll_filter_hz of a moteus; absent: what
+  /// makes sensor.tracking_bandwidth, where there is none 1000, 2 pi 400
   std::optional<double> estimator_bandwidth = {};
 };
 
@@ -41,7 +41,7 @@ struct DriveGains {
   std::vector<DriveNumber> numbers;  ///< to be set; integral gains and what else would act beside it among them, as 0
   double stiffness = 0.0;            ///< K that these numbers make: less than asked for where the firmware rounds; of a
                                      ///< damper alone the host's
-  /// The device with this wall closed on the drive, with the firmware's estimator of position and velocity. Doubtful,
+  /// The device with this wall closed on the drive, with the firmware's estimator in place of sensor.tracking_bandwidth. Doubtful,
   /// always: the drive's current loop is not in it, so that its limits bound those of the drive from above.
   Analysis on_drive;
   double sampling_period = 0.0;  ///< s, of that loop

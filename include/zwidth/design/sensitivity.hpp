@@ -28,7 +28,7 @@ struct Sensitivity {
 ///
 /// P_p comes from the Frechet derivative of the matrix exponential, for all parameters at once by its adjoint; L_p is
 /// exact up to rounding: 1e-9 of K/p or better for T from 10 us to 10 ms.
-/// By rising order of the device file: body.*, link.*, loop.sampling_period and delay, actuator.time_constant,
+/// By rising order of the device file: body.*, link.*, loop.sampling_period and delay, actuator.time_constant, sensor.tracking_bandwidth,
 /// wall.damping, velocity_filter_hz (where there is one), wall.filter.*, operator.*. Left out: what K_CR does not
 /// depend on (friction, force limit, encoder step, wall.stiffness). Where p is 0 the slope is that of growing p; so it
 /// is for the delay of whole samples and the period of a transfer function of relative degree 1, which jump there.

@@ -69,6 +69,8 @@ struct Actuator {
 /// What is between the position and what is read of it.
 struct Sensor {
   double resolution = 0.0;  ///< m or rad, encoder step; >= 0; no limit depends on it
+  /// w, rad/s; > 0: the drive reads the position through (2 w s + w^2)/(s + w)^2, as its tracking of the encoder; 0: as it is
+  double tracking_bandwidth = 0.0;
 };
 
 /// The virtual wall C(z) = F(z) (K + B v(z)), where v is the backward difference (1 - z^-1)/T, optionally followed by
@@ -96,7 +98,7 @@ struct DeviceParameters {
   std::optional<TransferFunction> transfer_function;  ///< instead of bodies and links
   Loop loop;                                          ///< how it is sampled, and where
   Actuator actuator;                                  ///< lag and limit of the force
-  Sensor sensor;                                      ///< step of the encoder
+  Sensor sensor;                                      ///< step of the encoder, and how a drive tracks it
   Wall wall;                                          ///< to judge
   User user;                                          ///< at the held body
   std::optional<Uncertainty> uncertainty;             ///< of some of the numbers above
@@ -180,5 +182,8 @@ class Device {
 
 /// Throws Error (needs_bodies) for a device of coordinates: for computations that know bodies and transfer functions alone.
 void require_no_coordinates(const Device& device);
+
+/// Throws Error (invalid_argument) for a drive that tracks the position: for computations that know positions as they are.
+void require_no_tracking(const Device& device);
 
 }  // namespace zwidth

@@ -23,10 +23,12 @@ struct ModalTerm {
   /// What rounding to double left out of each coefficient, for sums of terms that nearly cancel
   double numerator_rest[max_degree] = {};
   double denominator_rest[max_degree] = {};  ///< by rising powers, without the leading 1
-  /// 0: rigid body; i > 0: vibration mode i, by rising frequency; -1: actuator lag
+  /// 0: rigid body; i > 0: vibration mode i, by rising frequency; -1: actuator lag; -2: the drive's tracking
   int mode = 0;
   /// The part of the lag term's numerator that stems from this mode: lag_numerator / (s + 1/tau)
   double lag_numerator = 0.0;
+  /// The part of the tracking's numerator that stems from this mode, over (s + w)²; by rising powers
+  double tracking_numerator[2] = {};
   int integrators = 0;              ///< poles at s = 0
   int unstable_poles = 0;           ///< poles with positive real part (of a transfer function)
   int undamped_pairs = 0;           ///< pole pairs on the imaginary axis, s != 0
@@ -49,8 +51,8 @@ struct Mode {
 /// not carry (many poles close together) they are isolated with proof from the exact polynomial, and terms that cancel
 /// are joined.
 struct ModalForm {
-  std::vector<ModalTerm> terms;              ///< rigid body first, then modes by rising frequency, lag last
-  std::vector<Mode> modes;                   ///< vibration modes only, by rising frequency
+  std::vector<ModalTerm> terms;  ///< rigid body first, then modes by rising frequency, lag and tracking last
+  std::vector<Mode> modes;       ///< vibration modes only, by rising frequency
   std::optional<Mode> suspended_rigid_body;  ///< the rigid-body motion where springs tie it to ground
 };
 
@@ -60,10 +62,10 @@ struct Path {
   std::size_t position_of = 0;  ///< the body that is seen
 };
 
-/// Whether the actuator's lag is part of a model.
+/// Whether the actuator's lag and the drive's tracking of the position are part of a model.
 enum class ActuatorLag { included, left_out };
 
-/// Modal form of the device from actuated to sensed body (user and actuator lag included).
+/// Modal form of the device from actuated to sensed body (user, actuator lag and tracking included).
 ///
 /// Throws Error (did_not_converge) when the poles cannot be found to the documented accuracy.
 /// Source: docs/theory.md, "Critical stiffness"; eqs. 5-9 of Díaz & Gil are the two-body case.

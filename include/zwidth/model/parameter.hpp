@@ -11,7 +11,7 @@ namespace zwidth {
 
 /// The numbers of a device by their keys, as in `--set`: body.NAME.mass, .damping, .stiffness, .coulomb;
 /// link.INDEX.stiffness, .damping (plain link where there is one); loop.sampling_period, .delay;
-/// actuator.time_constant, .force_limit; sensor.resolution; wall.stiffness, .damping, .velocity_filter_hz;
+/// actuator.time_constant, .force_limit; sensor.resolution, .tracking_bandwidth; wall.stiffness, .damping, .velocity_filter_hz;
 /// wall.filter.INDEX.frequency_hz, .damping_ratio, .depth, .ratio as its kind has them (plain wall.filter where there
 /// is one); operator.mass, .damping, .stiffness.
 

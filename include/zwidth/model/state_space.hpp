@@ -14,11 +14,12 @@ struct ContinuousStateSpace {
   Eigen::RowVectorXd C;  ///< n, to the sensed position
 };
 
-/// The device in physical coordinates: positions of all bodies, their velocities, then the lagged force if any.
+/// The device in physical coordinates: positions of all bodies, their velocities, then the lagged force and the two states of the drive's
+/// tracking if any.
 ///
 ///     M x'' + D x' + K x = e_actuated F,   y = e_sensed x
 ///
-/// A transfer-function device comes in controllable canonical form. Operator and actuator lag included.
+/// A transfer-function device comes in controllable canonical form. Operator, actuator lag and tracking included.
 [[nodiscard]] ContinuousStateSpace state_space(const Device& device);
 
 }  // namespace zwidth

@@ -26,6 +26,7 @@ struct SampledTerm {
   double denominator[ModalTerm::max_degree] = {};    ///< monic; the leading 1 is not stored
   int mode = 0;                                      ///< as in ModalTerm
   double lag_share = 0.0;                            ///< the part of the lag's term (mode -1) that stems from this one
+  double tracking_numerator[3] = {};                 ///< that of the tracking's (mode -2), over its denominator
   int integrators = 0;                               ///< poles at z = 1
   int unstable_poles = 0;                            ///< poles with |z| > 1 (of a transfer function)
   int undamped_pairs = 0;                            ///< pole pairs with |z| = 1, z != 1

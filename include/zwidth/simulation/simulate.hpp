@@ -15,9 +15,9 @@
 
 namespace zwidth {
 
-/// What a simulated loop did, judged from its sensed position alone (as on a real device), but for one thing: a run in
-/// which linear analysis sees a pole outside the unit circle, and nothing that could hold its motion down, never
-/// settles; it is undecided where no growth shows.
+/// What a simulated loop did, judged from its sensed position alone (as on a real device), but for what linear analysis sees:
+/// with a pole outside the unit circle, and nothing that could hold its motion down, a run never settles; with no pole
+/// on that circle, and nothing that is not linear, it never swings on for ever. It is undecided where that does not show.
 enum class LoopVerdict {
   settles,      ///< the oscillation dies out, or there is none and the device has come to rest
   limit_cycle,  ///< it neither grows nor dies out

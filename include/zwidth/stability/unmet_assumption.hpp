@@ -13,6 +13,7 @@ enum class UnmetAssumption {
   springs_to_ground,  ///< at a body
   delay,              ///< of the force
   actuator_lag,       ///< of the force
+  tracking,           ///< of the position, by the drive
   velocity_filter,    ///< of the virtual damper
   virtual_damper,     ///< beside the wall's spring
   wall_filters,       ///< on the wall's force

@@ -38,11 +38,13 @@ struct GroupOf {
 KernelColumns::KernelColumns(const DeviceParameters& base, std::span<const ParameterValues> changes) {
   const std::size_t bodies = base.bodies.size();
   if (base.transfer_function || bodies == 0 || bodies > 2 || base.links.size() != bodies - 1 ||
-      !base.wall.filters.empty() || base.loop.damper) {
+      !base.wall.filters.empty() || base.loop.damper || base.sensor.tracking_bandwidth > 0.0) {
     return;
   }
-  const auto is_of_damper = [](const ParameterValues& each) { return each.key.starts_with("loop.damper."); };
-  if (std::ranges::any_of(changes, is_of_damper)) return;
+  const auto is_unknown = [](const ParameterValues& each) {
+    return each.key.starts_with("loop.damper.") || each.key == "sensor.tracking_bandwidth";
+  };
+  if (std::ranges::any_of(changes, is_unknown)) return;
   suits_ = true;
   two_bodies_ = bodies == 2;
   collocated_ = base.loop.sensed == base.loop.actuated;

@@ -25,6 +25,7 @@ namespace {
 
 constexpr double more = 1.2;
 constexpr double half = 0.5;
+constexpr double twice = 2.0;
 constexpr double finer = 0.25;
 constexpr double softer = 0.5;                                                    // of the limit: 6 dB
 constexpr std::array dampers{0.5, 0.8, 1.25, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};  // times B, or the device's damping
@@ -89,6 +90,10 @@ class Changes {
     if (now.actuator.time_constant > 0.0) {
       add(Kind::half_actuator_lag, "actuator.time_constant", now.actuator.time_constant,
           half * now.actuator.time_constant, [](DeviceParameters& then) { then.actuator.time_constant *= half; });
+    }
+    if (const double bandwidth = now.sensor.tracking_bandwidth; bandwidth > 0.0) {
+      add(Kind::twice_tracking, "sensor.tracking_bandwidth", bandwidth, twice * bandwidth,
+          [](DeviceParameters& then) { then.sensor.tracking_bandwidth *= twice; });
     }
     if (now.wall.damping > 0.0 && now.wall.velocity_filter_hz > 0.0) {
       add(Kind::no_velocity_filter, "wall.velocity_filter_hz", now.wall.velocity_filter_hz, 0.0,

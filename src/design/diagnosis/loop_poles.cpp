@@ -29,8 +29,9 @@ std::size_t free_positions(const Device& device) {
   const std::size_t seen = poles_at_zero_seen(device, path);
   // Those that are no states already.
   const std::size_t lag = device.parameters().actuator.time_constant > 0.0 ? 1 : 0;
+  const std::size_t tracking = device.parameters().sensor.tracking_bandwidth > 0.0 ? 2 : 0;
   const auto states = static_cast<std::size_t>(state_space(device).A.rows());
-  const std::size_t left_out = 2 * device.degrees_of_freedom() + lag - states;
+  const std::size_t left_out = 2 * device.degrees_of_freedom() + lag + tracking - states;
   const std::size_t unseen = poles_at_zero(device) - seen;
   return unseen - std::min(unseen, left_out) + (seen > 0 ? held_by_wall : 0);
 }

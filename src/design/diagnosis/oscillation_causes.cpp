@@ -151,9 +151,10 @@ std::vector<Coordinates::Friction> frictions_of(const Device& device) {
   return frictions;
 }
 
-/// With the position of what rubs in place of the sensed one.
+/// With the position of what rubs, as it is, in place of the sensed one.
 Device with_sensed(const Device& device, const Coordinates::Friction& rubbing) {
   DeviceParameters parameters = device.parameters();
+  parameters.sensor.tracking_bandwidth = 0.0;
   if (parameters.coordinates) {
     parameters.loop.sensed = parameters.coordinates->points.size();
     parameters.coordinates->points.push_back({"rubbing", rubbing.weights});

@@ -72,6 +72,7 @@ std::vector<UnmetAssumption> unmet_assumptions(Formula formula, const Device& de
                                 [](const Body& body) { return body.stiffness > 0.0; });
   if (tied) unmet.push_back(UnmetAssumption::springs_to_ground);
   if (parameters.actuator.time_constant > 0.0) unmet.push_back(UnmetAssumption::actuator_lag);
+  if (parameters.sensor.tracking_bandwidth > 0.0) unmet.push_back(UnmetAssumption::tracking);
   if (formula == Formula::colgate_schenkel && parameters.loop.delay > 0.0) unmet.push_back(UnmetAssumption::delay);
   if (formula == Formula::gil_hulin && parameters.wall.velocity_filter_hz > 0.0)
     unmet.push_back(UnmetAssumption::velocity_filter);

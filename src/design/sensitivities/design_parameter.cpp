@@ -61,6 +61,9 @@ std::vector<DesignParameter> design_parameters(const Device& device) {
   parameters.push_back({Kind::sampling_period, 0, "loop.sampling_period", d.loop.sampling_period});
   parameters.push_back({Kind::delay, 0, "loop.delay", d.loop.delay});
   parameters.push_back({Kind::time_constant, 0, "actuator.time_constant", d.actuator.time_constant});
+  if (d.sensor.tracking_bandwidth > 0.0) {
+    parameters.push_back({Kind::tracking_bandwidth, 0, "sensor.tracking_bandwidth", d.sensor.tracking_bandwidth});
+  }
   parameters.push_back({Kind::wall_damping, 0, "wall.damping", d.wall.damping});
   if (d.wall.velocity_filter_hz > 0.0) {
     parameters.push_back({Kind::velocity_filter_hz, 0, "wall.velocity_filter_hz", d.wall.velocity_filter_hz});

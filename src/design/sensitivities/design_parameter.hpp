@@ -19,6 +19,7 @@ struct DesignParameter {
     sampling_period,
     delay,
     time_constant,
+    tracking_bandwidth,
     wall_damping,
     velocity_filter_hz,
     filter_frequency_hz,
@@ -37,7 +38,7 @@ struct DesignParameter {
   double value = 0.0;
 };
 
-/// In the order of the device file. A velocity filter of 0 Hz is none: no number that could grow.
+/// In the order of the device file. A velocity filter of 0 Hz, and a tracking of 0 rad/s, is none: no number that could grow.
 [[nodiscard]] std::vector<DesignParameter> design_parameters(const Device& device);
 
 }  // namespace zwidth::internal

@@ -8,6 +8,7 @@
 #include "design/sensitivities/controller_sensitivity.hpp"
 #include "design/sensitivities/plant_sensitivity.hpp"
 #include "model/device_matrices.hpp"
+#include "model/drive_path.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -28,7 +29,7 @@ constexpr double far_away = 1e8;  // times the last alias summed: where a densit
 class Density {
  public:
   explicit Density(const Device& free)
-      : free_(free), matrices_(device_matrices<Real>(free)), lag_(Real(free.parameters().actuator.time_constant)) {}
+      : free_(free), matrices_(device_matrices<Real>(free)), drive_(drive_path_of(free.parameters())) {}
 
   void move_to(Real frequency) {
     frequency_ = frequency;
@@ -54,7 +55,7 @@ class Density {
     through_ = solver.solve(unit(loop.sensed)) / sensed + solver.solve(unit(loop.actuated)) / actuated;
     damped_ = solver.solve(force);
     value_ =
-        sensed * actuated / Number(Real(1.0), lag_ * frequency) / (Real(2.0) * frequency * frequency * dissipation_);
+        sensed * actuated * drive_.response<Number>(frequency) / (Real(2.0) * frequency * frequency * dissipation_);
   }
 
   [[nodiscard]] Number value() const { return value_; }
@@ -81,7 +82,12 @@ class Density {
                                                       : of_damper(q, through, damped);
       }
       case Kind::time_constant:
-        return Number(Real(0.0), -w) / Number(Real(1.0), lag_ * w);
+        return Number(Real(0.0), -w) / Number(Real(1.0), Real(drive_.lag) * w);
+      case Kind::tracking_bandwidth: {  // of (2 b s + b²)/(s + b)²
+        const Real b(drive_.tracking);
+        const Number s(Real(0.0), w);
+        return Real(2.0) * (s + b) / (b * (Real(2.0) * s + b)) - Real(2.0) / (s + b);
+      }
       default:
         return Real(0.0);
     }
@@ -99,7 +105,7 @@ class Density {
 
   const Device& free_;
   DeviceMatrices<Real> matrices_;
-  Real lag_;
+  DrivePath drive_;
   Real frequency_ = Real(0.0);
   Real dissipation_ = Real(0.0);  // Q
   Number value_;
@@ -195,7 +201,8 @@ DiscSensitivity disc_sensitivity(const Device& free, const TerminationDiscs& dis
                          : each.kind == Kind::body_damping || each.kind == Kind::link_damping ||
                                  each.kind == Kind::delay || each.kind == Kind::time_constant
                              ? 1.0
-                             : 0.0;
+                         : each.kind == Kind::tracking_bandwidth ? -1.0
+                                                                 : 0.0;
     in_time += power * each.value * by;
     radius_in_time += power * each.value * radius_slope;
     centre_by.push_back(by);

@@ -116,9 +116,17 @@ std::vector<DriveNumber> numbers_of_damper(DriveFirmware firmware, const Device&
 
 bool has_loop(DriveFirmware firmware) { return firmware == DriveFirmware::odrive || firmware == DriveFirmware::moteus; }
 
-/// rad/s, of a phase-locked loop: as given, or the firmware's default.
-double bandwidth_of(DriveFirmware firmware, const DriveLoopOptions& options) {
-  return options.estimator_bandwidth.value_or(firmware == DriveFirmware::moteus ? turn * 400.0 : 1000.0);
+bool states_bandwidth(const DriveLoopOptions& options, const Device& device) {
+  return options.estimator_bandwidth || device.parameters().sensor.tracking_bandwidth > 0.0;
+}
+
+/// rad/s, of a phase-locked loop: as given, as the host reads positions by it, or the firmware's default.
+double bandwidth_of(DriveFirmware firmware, const DriveLoopOptions& options, const Device& device) {
+  const bool is_moteus = firmware == DriveFirmware::moteus;
+  const double tracking = device.parameters().sensor.tracking_bandwidth;
+  if (options.estimator_bandwidth) return *options.estimator_bandwidth;
+  if (tracking > 0.0) return is_moteus ? moteus_corner * tracking : tracking;
+  return is_moteus ? turn * 400.0 : 1000.0;
 }
 
 /// The low-pass exp(-2 pi f T) whose pole is a.
@@ -145,9 +153,9 @@ Wall wall_on_drive(DriveFirmware firmware, Wall wall, double period, double band
 
 /// What is not in the analysis, whatever it says.
 /// Where the firmware has position and velocity from.
-std::optional<Finding> estimator_of(DriveFirmware firmware, const DriveLoopOptions& options) {
-  const double bandwidth = bandwidth_of(firmware, options);
-  const std::string by = options.estimator_bandwidth ? "as given" : "its default";
+std::optional<Finding> estimator_of(DriveFirmware firmware, const DriveLoopOptions& options, const Device& device) {
+  const double bandwidth = bandwidth_of(firmware, options, device);
+  const std::string by = states_bandwidth(options, device) ? "as given" : "its default";
   switch (firmware) {
     case DriveFirmware::odrive:
       return Finding{
@@ -166,7 +174,8 @@ std::optional<Finding> estimator_of(DriveFirmware firmware, const DriveLoopOptio
   return std::nullopt;
 }
 
-std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, const DriveLoopOptions& options) {
+std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, const DriveLoopOptions& options,
+                               const Device& device) {
   std::vector<Remark> remarks;
   if (firmware == DriveFirmware::simplefoc && !options.sampling_period) {
     remarks.push_back(note({.code = FindingCode::sketch_rate_assumed, .key = "loop.sampling_period"}));
@@ -176,7 +185,7 @@ std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, 
                  .subjects = {{"by", options.sampling_period ? "as given" : "its default"}}};
     remarks.push_back(note(std::move(loop)));
   }
-  if (auto estimator = estimator_of(firmware, options)) remarks.push_back(note(*std::move(estimator)));
+  if (auto estimator = estimator_of(firmware, options, device)) remarks.push_back(note(*std::move(estimator)));
   if (firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc) {
     remarks.push_back(note({.code = FindingCode::drive_velocity_limit}));
   }
@@ -317,7 +326,7 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
     if (!options.estimator_bandwidth) return std::nullopt;
     return option_problem("estimator_bandwidth", {.code = ProblemCode::no_estimator});
   }
-  const double bandwidth = bandwidth_of(firmware, options);
+  const double bandwidth = bandwidth_of(firmware, options, device);
   const double most = firmware == DriveFirmware::moteus ? 0.25 * turn / period : 0.5 / period;
   if (bandwidth > 0.0 && bandwidth < most) return std::nullopt;
   return option_problem("estimator_bandwidth", {.code = ProblemCode::estimator_bandwidth_out_of_range,
@@ -342,11 +351,12 @@ DriveGains drive_gains(const Device& device, DriveFirmware firmware, const Drive
   gains.stiffness = *parameters.wall.stiffness;
   parameters.loop.sampling_period = gains.sampling_period;
   parameters.loop.delay = gains.delay;
-  parameters.wall =
-      wall_on_drive(firmware, std::move(parameters.wall), gains.sampling_period, bandwidth_of(firmware, options));
+  parameters.wall = wall_on_drive(firmware, std::move(parameters.wall), gains.sampling_period,
+                                  bandwidth_of(firmware, options, device));
+  if (has_loop(firmware)) parameters.sensor.tracking_bandwidth = 0.0;  // it is in the wall
   gains.on_drive = analyze(Device(std::move(parameters)));
   gains.on_drive.trust.doubt({.code = FindingCode::current_loop_not_modelled});
-  gains.remarks = remarks_of(firmware, gains, options);
+  gains.remarks = remarks_of(firmware, gains, options, device);
   return gains;
 }
 

@@ -36,8 +36,10 @@ typename P::Matrix generator_of_bodies(const Device& device) {
   using Real = typename P::Real;
   const DeviceMatrices<Real> matrices = device_matrices<Real>(device);
   const double lag = device.parameters().actuator.time_constant;
+  const double bandwidth = device.parameters().sensor.tracking_bandwidth;
   const auto n = static_cast<Index>(matrices.mass.size());
-  const Index states = 2 * n + (lag > 0.0 ? 1 : 0);
+  const Index before = 2 * n + (lag > 0.0 ? 1 : 0);  // the states of the tracking
+  const Index states = before + (bandwidth > 0.0 ? 2 : 0);
   typename P::Matrix m = P::Matrix::Zero(states + 1, states + 1);
   for (Index i = 0; i < n; ++i) {
     const Real mass = matrices.mass[static_cast<std::size_t>(i)];
@@ -50,10 +52,19 @@ typename P::Matrix generator_of_bodies(const Device& device) {
   }
   const auto actuated = static_cast<Index>(device.loop().actuated);
   // The force is the input, or the lag's state beside it.
-  m(n + actuated, 2 * n) = Real(1.0) / matrices.mass[device.loop().actuated];
+  m(n + actuated, lag > 0.0 ? 2 * n : states) = Real(1.0) / matrices.mass[device.loop().actuated];
   if (lag > 0.0) {
     m(2 * n, 2 * n) = Real(-1.0) / Real(lag);
-    m(2 * n, 2 * n + 1) = Real(1.0) / Real(lag);
+    m(2 * n, states) = Real(1.0) / Real(lag);
+  }
+  if (bandwidth > 0.0) {  // as state_space()
+    const auto sensed = static_cast<Index>(device.loop().sensed);
+    const Real w(bandwidth);
+    m(before, sensed) = Real(2.0) * w;
+    m(before, before) = Real(-2.0) * w;
+    m(before, before + 1) = w;
+    m(before + 1, sensed) = w;
+    m(before + 1, before) = -w;
   }
   return m;
 }
@@ -66,7 +77,8 @@ Generator<P> generator_of(const Device& device) {
   if (device.has_bodies()) {
     result.m = generator_of_bodies<P>(device);
     result.output = P::Vector::Zero(result.m.rows() - 1);
-    result.output(static_cast<Index>(device.loop().sensed)) = Real(1.0);
+    const bool is_tracked = device.parameters().sensor.tracking_bandwidth > 0.0;
+    result.output(is_tracked ? result.output.size() - 2 : static_cast<Index>(device.loop().sensed)) = Real(1.0);
   } else {
     const ContinuousStateSpace system = state_space(device);
     const Index n = system.A.rows();
@@ -261,7 +273,14 @@ class PlantDerivatives {
   [[nodiscard]] Complex by_lag() const {
     const double lag = device_.parameters().actuator.time_constant;
     // A short lag is a short delay.
-    return lag > 0.0 ? by_divisor(n_ - 1, Real(lag)) : by_delay();
+    const Index tracked = device_.parameters().sensor.tracking_bandwidth > 0.0 ? 2 : 0;
+    return lag > 0.0 ? by_divisor(n_ - 1 - tracked, Real(lag)) : by_delay();
+  }
+
+  /// Its two rows of M are proportional to it.
+  [[nodiscard]] Complex by_tracking() const {
+    const Real bandwidth(device_.parameters().sensor.tracking_bandwidth);
+    return -by_divisor(n_ - 2, bandwidth) - by_divisor(n_ - 1, bandwidth);
   }
 
   [[nodiscard]] Complex by(const DesignParameter& parameter) const {
@@ -284,6 +303,8 @@ class PlantDerivatives {
         return by_delay();
       case Kind::time_constant:
         return by_lag();
+      case Kind::tracking_bandwidth:
+        return by_tracking();
       case Kind::user_mass:
         return by_mass(held);
       case Kind::user_damping:
@@ -340,8 +361,9 @@ PlantSensitivity derivatives_up_to(const Device& device, double angle, std::span
 PlantSensitivity plant_sensitivity(const Device& device, double angle, std::span<const DesignParameter> parameters,
                                    std::optional<std::complex<double>> reference) {
   require_no_coordinates(device);
-  const auto size = device.has_bodies() ? 2 * device.bodies().size() + 2
-                                        : device.parameters().transfer_function->denominator.size() + 1;
+  const std::size_t tracking = device.parameters().sensor.tracking_bandwidth > 0.0 ? 2 : 0;
+  const auto size = tracking + (device.has_bodies() ? 2 * device.bodies().size() + 2
+                                                    : device.parameters().transfer_function->denominator.size() + 1);
   return size <= static_cast<std::size_t>(small_size)
              ? derivatives_up_to<static_cast<int>(small_size)>(device, angle, parameters, reference)
              : derivatives_up_to<Eigen::Dynamic>(device, angle, parameters, reference);

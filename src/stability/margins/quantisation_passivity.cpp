@@ -24,6 +24,7 @@ std::optional<QuantisationPassivity> quantisation_passivity(const Device& device
   }
   if (parameters.loop.delay > 0.0) bound.not_met.push_back(UnmetAssumption::delay);
   if (parameters.actuator.time_constant > 0.0) bound.not_met.push_back(UnmetAssumption::actuator_lag);
+  if (parameters.sensor.tracking_bandwidth > 0.0) bound.not_met.push_back(UnmetAssumption::tracking);
   if (parameters.wall.damping > 0.0) bound.not_met.push_back(UnmetAssumption::virtual_damper);
   if (!parameters.wall.filters.empty()) bound.not_met.push_back(UnmetAssumption::wall_filters);
   return bound;

@@ -61,10 +61,10 @@ void set_coupled(Continuous& system, const DeviceMatrices<Ball>& matrices, const
   for (const auto& [i, weight] : weights_of(device, device.loop().sensed)) system.output[i] = Ball(weight);
 }
 
-Continuous of_bodies(const Device& device, bool lag) {
+Continuous of_bodies(const Device& device, std::size_t more) {
   const DeviceMatrices<Ball> matrices = device_matrices<Ball>(device);
   const std::size_t n = matrices.mass.size();
-  Continuous system(2 * n + (lag ? 1 : 0));
+  Continuous system(2 * n + more);
   if (!matrices.coupling.empty()) {
     set_coupled(system, matrices, device);
     return system;
@@ -82,9 +82,9 @@ Continuous of_bodies(const Device& device, bool lag) {
   return system;
 }
 
-Continuous of_transfer_function(const TransferFunction& function, bool lag) {
+Continuous of_transfer_function(const TransferFunction& function, std::size_t more) {
   const std::size_t n = function.denominator.size() - 1;
-  Continuous system(n + (lag ? 1 : 0));
+  Continuous system(n + more);
   const Ball leading_coefficient(function.denominator[0]);
   for (std::size_t i = 0; i + 1 < n; ++i) system(i, i + 1) = Ball(1.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -99,14 +99,32 @@ Continuous of_transfer_function(const TransferFunction& function, bool lag) {
 
 Continuous continuous(const Device& device) {
   const double tau = device.parameters().actuator.time_constant;
-  const bool lag = tau > 0.0;
-  Continuous system = device.is_mechanical() ? of_bodies(device, lag)
-                                             : of_transfer_function(*device.parameters().transfer_function, lag);
-  if (lag) {
-    const std::size_t last = system.output.size() - 1;
+  const double bandwidth = device.parameters().sensor.tracking_bandwidth;
+  const std::size_t tracked = bandwidth > 0.0 ? 2 : 0;
+  const std::size_t more = (tau > 0.0 ? 1 : 0) + tracked;
+  Continuous system = device.is_mechanical() ? of_bodies(device, more)
+                                             : of_transfer_function(*device.parameters().transfer_function, more);
+  const std::size_t states = system.output.size();
+  const std::size_t last = states - 1 - tracked;  // before those of the tracking
+  if (tau > 0.0) {
     system(last, last) = Ball(-1.0) / Ball(tau);
-    system(last, last + 1) = Ball(1.0) / Ball(tau);
+    system(last, states) = Ball(1.0) / Ball(tau);
+  } else if (tracked > 0) {  // the input stands behind the tracking
+    for (std::size_t i = 0; i <= last; ++i) std::swap(system(i, last + 1), system(i, states));
   }
+  if (tracked == 0) return system;
+  // p' = w (2 (y - p) + q), q' = w (y - p); p is read.
+  const std::size_t p = last + 1;
+  const Ball w(bandwidth);
+  for (std::size_t i = 0; i <= last; ++i) {
+    system(p + 1, i) = w * system.output[i];
+    system(p, i) = Ball(2.0) * system(p + 1, i);
+    system.output[i] = Ball(0.0);
+  }
+  system(p, p) = Ball(-2.0) * w;
+  system(p, p + 1) = w;
+  system(p + 1, p) = -w;
+  system.output[p] = Ball(1.0);
   return system;
 }
 

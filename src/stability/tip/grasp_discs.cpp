@@ -68,14 +68,15 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
       response_(plant),
       period_(loop.loop.sampling_period),
       delay_(loop.loop.delay),
-      lag_(loop.actuator.time_constant) {
+      drive_(drive_path_of(loop)) {
   // A grasp in one basis of the tip's motions is one in any other: in an orthonormal one near a singular pose no row is small.
   const Eigen::HouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
   of_.tip = (tip.householderQ() * Eigen::MatrixXd::Identity(of_.tip.cols(), of_.tip.rows())).transpose();
   const Eigen::VectorXd dampings = symmetric_eigenvalues(of_.damping);
   const Eigen::VectorXd stiffnesses = symmetric_eigenvalues(of_.stiffness);
   const double highest_mode = std::sqrt(std::max(stiffnesses.maxCoeff(), 0.0));
-  double highest_corner = std::max({highest_mode, dampings.maxCoeff(), lag_ > 0.0 ? 1.0 / lag_ : 0.0});
+  double highest_corner =
+      std::max({highest_mode, dampings.maxCoeff(), drive_.lag > 0.0 ? 1.0 / drive_.lag : 0.0, drive_.tracking});
   for (const Coordinates::Element& each : motion.elements) {
     if (each.damping > 0.0) highest_corner = std::max(highest_corner, each.stiffness / each.damping);
   }
@@ -121,10 +122,10 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   const Eigen::Matrix3cd left = both.leftCols<3>();
   const Eigen::Matrix3cd right = both.rightCols<3>();
   Alias alias{1.0, left.adjoint() * right, left.adjoint() * left, right.adjoint() * right};
-  if (lag_ > 0.0) {
-    const ComplexNumber lagged = 1.0 / ComplexNumber(1.0, lag_ * frequency);
-    alias.shift *= lagged;
-    alias.right *= std::norm(lagged);
+  if (!drive_.is_ideal()) {
+    const ComplexNumber passed = drive_.response(frequency);
+    alias.shift *= passed;
+    alias.right *= std::norm(passed);
   }
   return alias;
 }

@@ -4,6 +4,7 @@
 #include <complex>
 #include <vector>
 
+#include "model/drive_path.hpp"
 #include "stability/tip/tip_response.hpp"
 #include "stability/tip/tip_states.hpp"
 #include "stability/users/alias_sum_quadrature.hpp"
@@ -59,7 +60,7 @@ class GraspDiscs {
   TipResponse response_;
   double period_ = 0.0;
   double delay_ = 0.0;
-  double lag_ = 0.0;
+  DrivePath drive_;
   bool undamped_ = false;
   AliasSumQuadrature rule_;
 };

@@ -66,7 +66,7 @@ TipCoordinates tip_coordinates(const TipMotion& motion, const Eigen::MatrixXd& d
 }
 
 // Positions and velocities times T, both times |sensed|; then the forces behind the actuator's lag times the motion that they
-// make in T: states are of one size, and eigenvalues keep their digits.
+// make in T, and the two states of each tracked position, over `seen`: states are of one size, and eigenvalues keep their digits.
 SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   const double period = loop.loop.sampling_period;
   const double lag = loop.actuator.time_constant;
@@ -77,7 +77,10 @@ SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   const Eigen::Index m = of.sensed.rows();
   const Eigen::Index positions = n - of.unseen;
   const Eigen::Index lags = lag > 0.0 ? m : 0;
-  const Eigen::Index states = positions + n + lags;
+  const double bandwidth = loop.sensor.tracking_bandwidth;
+  const Eigen::Index tracked = bandwidth > 0.0 ? m : 0;
+  const Eigen::Index mechanical = positions + n + lags;
+  const Eigen::Index states = mechanical + 2 * tracked;
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(states, states);
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(states, m);
   a.block(0, positions + of.unseen, positions, positions).diagonal().setConstant(1.0 / period);
@@ -85,8 +88,8 @@ SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   a.block(positions, positions, n, n) = -of.damping;
   if (lags > 0) {
     a.block(positions, positions + n, n, lags) = period / moved * of.pushed.transpose();
-    a.bottomRightCorner(lags, lags).diagonal().setConstant(-1.0 / lag);
-    b.bottomRows(lags).diagonal().setConstant(seen * moved / lag);
+    a.block(positions + n, positions + n, lags, lags).diagonal().setConstant(-1.0 / lag);
+    b.middleRows(positions + n, lags).diagonal().setConstant(seen * moved / lag);
   } else {
     b.middleRows(positions, n) = seen * period * of.pushed.transpose();
   }
@@ -94,7 +97,17 @@ SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   plant.period = period;
   plant.delay_samples = static_cast<Eigen::Index>(instants.whole_samples);
   plant.C = Eigen::MatrixXd::Zero(m, states);
-  plant.C.leftCols(positions) = of.sensed.rightCols(positions) / seen;
+  const Eigen::MatrixXd read = of.sensed.rightCols(positions) / seen;
+  if (tracked == 0) {
+    plant.C.leftCols(positions) = read;
+  } else {  // p' = w (2 (y - p) + q), q' = w (y - p)
+    a.block(mechanical, 0, m, positions) = 2.0 * bandwidth * read;
+    a.block(mechanical + m, 0, m, positions) = bandwidth * read;
+    a.block(mechanical, mechanical, m, m).diagonal().setConstant(-2.0 * bandwidth);
+    a.block(mechanical, mechanical + m, m, m).diagonal().setConstant(bandwidth);
+    a.block(mechanical + m, mechanical, m, m).diagonal().setConstant(-bandwidth);
+    plant.C.middleCols(mechanical, m).setIdentity();
+  }
   plant.Phi = step(a, b, period).Phi;
   const Step with_new = step(a, b, instants.with_new);
   plant.Gamma1 = with_new.Gamma;

@@ -184,9 +184,10 @@ DiscPieces::DiscPieces(const TerminationDiscs& discs, const Device& device)
     slowest = std::min({slowest, lowest, mean});
   }
   for (const Singularity& each : singularities_) slowest = std::min(slowest, std::hypot(each.position, each.depth));
-  if (device.parameters().actuator.time_constant > 0.0) {
-    slowest = std::min(slowest, 1.0 / device.parameters().actuator.time_constant);
-  }
+  // Of |E| the poles, and the zero of the tracking.
+  const DrivePath drive = drive_path_of(device.parameters());
+  if (drive.lag > 0.0) slowest = std::min(slowest, 1.0 / drive.lag);
+  if (drive.tracking > 0.0) slowest = std::min(slowest, 0.5 * drive.tracking);
   most_width_ = most_turning / (device.loop().delay + period_);
   std::vector<double> images;
   for (const TerminationDiscs::SharpImage& each : discs.sharp_images()) {

@@ -112,8 +112,8 @@ std::optional<std::vector<DissipationZeros::Zero>> zeros_of_two_bodies(const Dev
 /// Sorts the roots of the dissipation in X = w² into sharp zeros and others.
 class ZeroSearch {
  public:
-  ZeroSearch(DissipationZeros& zeros, const MotionsInDigits& of, double nyquist, double lag)
-      : zeros_(zeros), of_(of), nyquist_(nyquist), lag_(lag) {}
+  ZeroSearch(DissipationZeros& zeros, const MotionsInDigits& of, double nyquist, const DrivePath& drive)
+      : zeros_(zeros), of_(of), nyquist_(nyquist), drive_(drive) {}
 
   void run() {
     // In units of the geometric mean of the roots.
@@ -198,7 +198,7 @@ class ZeroSearch {
     if (away > sharp_depth * std::min(frequency, nyquist_)) {
       zeros_.others.push_back({frequency, away});
     } else {
-      zeros_.sharp.push_back(sharp_zero(of_, w0, depth, lag_));
+      zeros_.sharp.push_back(sharp_zero(of_, w0, depth, drive_));
     }
     return true;
   }
@@ -206,7 +206,7 @@ class ZeroSearch {
   DissipationZeros& zeros_;
   const MotionsInDigits& of_;
   double nyquist_;
-  double lag_;
+  DrivePath drive_;
   DigitPolynomial p_;
   long double unit_ = 1.0L;
   std::vector<Root> roots_;
@@ -234,10 +234,11 @@ DissipationZeros::DissipationZeros(const Device& device, double nyquist) {
                            motion_of(weights_of(device, loop.actuated), motions), motions.determinant,
                            dissipation_of(device, motions)};
   if (is_zero(of.dissipation) || is_zero(of.sensed) || is_zero(of.actuated)) return;
-  const double lag = device.parameters().actuator.time_constant;
+  const DrivePath drive = drive_path_of(device.parameters());
+  const int falls = (drive.lag > 0.0 ? 1 : 0) + (drive.tracking > 0.0 ? 1 : 0);  // as 1/w each
   const auto degree = [](const DigitPolynomial& p) { return static_cast<int>(p.size()) - 1; };
-  discs_diverge = degree(of.sensed) + degree(of.actuated) - 2 - 2 * degree(of.dissipation) - (lag > 0.0 ? 1 : 0) >= -1;
-  ZeroSearch(*this, of, nyquist, lag).run();
+  discs_diverge = degree(of.sensed) + degree(of.actuated) - 2 - 2 * degree(of.dissipation) - falls >= -1;
+  ZeroSearch(*this, of, nyquist, drive).run();
   std::sort(sharp.begin(), sharp.end(),
             [](const SharpZero& a, const SharpZero& b) { return a.frequency < b.frequency; });
   const auto same = std::adjacent_find(

@@ -112,7 +112,7 @@ void TerminationDiscs::add_sharp_aliases(const Place& place, Disc& disc) const {
     const double at_alias = number * spacing + side * place.frequency();
     const ScaledDensity density = scaled_density(place, number, side);
     const std::complex<double> s(0.0, at_alias);
-    const std::complex<double> free = response(through_, at_alias) / (s * (1.0 + lag_ * s));
+    const std::complex<double> free = response(through_, at_alias) / s * drive_.response(at_alias);
     const std::complex<double> turn = std::polar(1.0, -number * spacing * delay_);
     const std::complex<double> term = turn * (density.measure * free - density.value);
     const std::complex<double> centre = shared * (side > 0.0 ? term : std::conj(term));

@@ -52,7 +52,7 @@ ScaledTaylor scaled_taylor(const EvenAndOdd& parts, std::size_t zeros) {
 
 }  // namespace
 
-SharpZero sharp_zero(const MotionsInDigits& of, const ManyDigits& w0, const ManyDigits& depth, double lag) {
+SharpZero sharp_zero(const MotionsInDigits& of, const ManyDigits& w0, const ManyDigits& depth, const DrivePath& drive) {
   SharpZero zero;
   zero.frequency = w0.convert_to<double>();
   zero.depth = depth.convert_to<double>();
@@ -88,7 +88,7 @@ SharpZero sharp_zero(const MotionsInDigits& of, const ManyDigits& w0, const Many
   zero.dissipation = q.coefficients;
   zero.of_density = ManyDigits(s.scale * a.scale / (2.0 * w0 * w0 * q.scale)).convert_to<double>();
   zero.of_dissipation = ManyDigits(w0 * w0 * q.scale / (d.scale * d.scale)).convert_to<double>();
-  zero.lag = lag * zero.frequency;
+  zero.drive = {drive.lag * zero.frequency, drive.tracking / zero.frequency};
   return zero;
 }
 
@@ -119,7 +119,7 @@ SharpZero::Density SharpZero::density(double e) const {
   const double r = at(dissipation, false).real();
   std::complex<double> value =
       of_density * at(sensed, true) * at(actuated, true) * (std::conj(d) / d) / ((1.0 + e) * (1.0 + e) * r);
-  if (lag > 0.0) value /= std::complex<double>(1.0, lag * (1.0 + e));
+  value *= drive.response(1.0 + e);
   if (depth == 0.0) {
     if (order > 0 && order % 2 != 0 && e < 0.0) value = -value;
     if (order < 0) value *= std::pow(e, -order);

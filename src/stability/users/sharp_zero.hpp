@@ -3,12 +3,14 @@
 #include <complex>
 #include <vector>
 
+#include "model/drive_path.hpp"
+
 namespace zwidth::internal {
 
 /// A zero of Re Y on the axis of frequencies or close beside it, and the discs around it: there the bodies that are
 /// damped hardly move. With e = w/w0 - 1 and the depth d of the zero from the axis,
 ///
-///     g = D/(jw) = q_s q_a lag/(2 w² q^H Dmp q) = value/measure,   measure = e² + d²; |e|^order where d = 0
+///     g = D/(jw) = q_s q_a E/(2 w² q^H Dmp q) = value/measure,   measure = e² + d²; |e|^order where d = 0
 ///
 /// and value is smooth on either side. All from Taylor polynomials at the zero, rounded from a hundred digits, so that
 /// the parts that vanish keep their digits however near.
@@ -35,7 +37,7 @@ class SharpZero {
   Taylor dissipation;
   double of_density = 0.0;      ///< scale of q_s q_a/(2 w² q^H Dmp q)
   double of_dissipation = 0.0;  ///< scale of Re Y
-  double lag = 0.0;             ///< rad: w0 tau
+  DrivePath drive;              ///< its frequencies over w0
 };
 
 }  // namespace zwidth::internal

@@ -13,8 +13,8 @@ struct MotionsInDigits {
   DigitPolynomial dissipation;  // in X = w²
 };
 
-/// `depth`: relative to w0; 0 exactly for a zero on the axis. `lag`: in s.
+/// `depth`: relative to w0; 0 exactly for a zero on the axis.
 [[nodiscard]] SharpZero sharp_zero(const MotionsInDigits& of, const ManyDigits& w0, const ManyDigits& depth,
-                                   double lag);
+                                   const DrivePath& drive);
 
 }  // namespace zwidth::internal

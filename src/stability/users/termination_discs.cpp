@@ -60,7 +60,7 @@ TerminationDiscs::TerminationDiscs(const Device& device, const Progress& progres
     : sensed_(device.loop().sensed),
       actuated_(device.loop().actuated),
       held_(device.loop().held),
-      lag_(device.parameters().actuator.time_constant),
+      drive_(drive_path_of(device.parameters())),
       period_(device.loop().sampling_period),
       delay_(device.loop().delay),
       plant_(filtered_plant(device_without_user(device))) {
@@ -105,7 +105,7 @@ TerminationDiscs::TerminationDiscs(const Device& device, const Progress& progres
   if (undamped_) return;
   find_sharp_images();
   double highest_mode = 0.0;
-  double highest_corner = lag_ > 0.0 ? 1.0 / lag_ : 0.0;
+  double highest_corner = std::max(drive_.lag > 0.0 ? 1.0 / drive_.lag : 0.0, drive_.tracking);
   for (const Mode& mode : held_form().modes) {
     highest_mode = std::max(highest_mode, mode.frequency);
     highest_corner = std::max(highest_corner, mode.frequency * (1.0 + 2.0 * mode.damping_ratio));
@@ -168,7 +168,7 @@ TerminationDiscs::Density TerminationDiscs::density(double frequency) const {
   for (std::size_t i = 0; i < dampings_.size(); ++i) dissipation += dampings_[i] * std::norm(lengths[i] * unit);
   dissipation *= frequency * frequency;
   const std::complex<double> value = (sensed * unit) * (actuated * unit) / (2.0 * dissipation);
-  return {lag_ > 0.0 ? value / std::complex<double>(1.0, lag_ * frequency) : value, dissipation * largest * largest};
+  return {drive_.is_ideal() ? value : value * drive_.response(frequency), dissipation * largest * largest};
 }
 
 TerminationDiscs::Disc TerminationDiscs::at(double frequency) const {
@@ -219,7 +219,8 @@ TerminationDiscs::OtherAliases TerminationDiscs::sum_of_aliases(double frequency
       const double at_alias = node.number * spacing + side * frequency;
       const std::complex<double> disc = disc_density(at_alias);
       const std::complex<double> s(0.0, at_alias);
-      const std::complex<double> centre = node.turning * (response(through_, at_alias) / (s * (1.0 + lag_ * s)) - disc);
+      const std::complex<double> centre =
+          node.turning * (response(through_, at_alias) / s * drive_.response(at_alias) - disc);
       others.centre += side > 0.0 ? centre : std::conj(centre);
       others.radius += node.still * size_of(disc);
     }
@@ -282,8 +283,7 @@ std::complex<double> TerminationDiscs::kept_motion(double frequency) const {
 TerminationDiscs::Disc TerminationDiscs::near_zero(double frequency, const ScaledDensity& own,
                                                    const OtherAliases& others) const {
   const std::complex<double> factor = shared_factor(frequency);
-  const std::complex<double> lag(1.0, lag_ * frequency);
-  const std::complex<double> through = response(through_, frequency) / lag;
+  const std::complex<double> through = response(through_, frequency) * drive_.response(frequency);
   const std::complex<double> kept = kept_motion(frequency);
   const std::complex<double> held = std::conj(response(held_motion_, frequency));
   // Where the user hardly reaches the wall's loop, and at a frequency where it cannot, X and conj G_hh are nearly the
@@ -315,7 +315,7 @@ TerminationDiscs::Disc TerminationDiscs::clear_of_zero(double frequency, const S
                                                        const OtherAliases& others) const {
   const std::complex<double> shared = shared_factor(frequency);
   const std::complex<double> s(0.0, frequency);
-  const std::complex<double> free = response(through_, frequency) / (s * (1.0 + lag_ * s));
+  const std::complex<double> free = response(through_, frequency) / s * drive_.response(frequency);
   if (sharp_images_.empty()) {
     const std::complex<double> centre = shared * (free - own.value + others.centre);
     const double radius = std::abs(shared) * (std::abs(own.value) + others.radius);
@@ -387,8 +387,8 @@ TerminationDiscs::Alias TerminationDiscs::alias(double frequency, int k, double 
   const std::complex<double> density = disc_density(positive);
   const std::complex<double> filters = filter_response(plant_, frequency * period_);
   const double hold = 2.0 * std::sin(0.5 * frequency * period_) / period_;
-  const std::complex<double> through = response(sensed_motion_, positive) * response(actuated_motion_, positive) /
-                                       std::complex<double>(1.0, lag_ * positive);
+  const std::complex<double> through =
+      response(sensed_motion_, positive) * response(actuated_motion_, positive) * drive_.response(positive);
   // The term is -f q_s q_a/(Y + 1/Z), f = F (1 - e^{-jwT})/T e^{-jw_k t_d}; with Z = jX, towards the direction,
   //     q_s q_a/(Y + 1/Z) = g (1 - e^{j turn}),   1/(1 - e^{j turn}) = (1 + j cot(turn/2))/2,   q_s q_a/g = 2 Re Y.
   // At a negative frequency all of it is conjugate.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/device_matrices.hpp"
+#include "model/drive_path.hpp"
 #include "stability/users/alias_sum_quadrature.hpp"
 #include "stability/users/dissipation_zeros.hpp"
 #include "stability/users/shared_poles.hpp"
@@ -102,7 +103,7 @@ class TerminationDiscs {
     double conductance = 0.0;    // Re Y = w² q^H Dmp q
   };
 
-  /// g(w) = D(jw) / (jw) = q_s q_a lag / (2 w² q^H Dmp q).
+  /// g(w) = D(jw) / (jw) = q_s q_a E / (2 w² q^H Dmp q).
   [[nodiscard]] Density density(double frequency) const;
   [[nodiscard]] std::complex<double> disc_density(double frequency) const { return density(frequency).value; }
   [[nodiscard]] OtherAliases sum_of_aliases(double frequency, std::size_t first, std::size_t end) const;
@@ -129,7 +130,7 @@ class TerminationDiscs {
   ModalForm held_motion_;  // for a force at the held body, as the next two
   ModalForm sensed_motion_;
   ModalForm actuated_motion_;
-  ModalForm through_;  // actuated -> sensed, the lag left out
+  ModalForm through_;  // actuated -> sensed, the drive left out
   DeviceMatrices<long double> matrices_;
   std::vector<Weights> ports_;    // actuated, sensed and held
   std::vector<ModalTerm> poles_;  // the terms whose denominators are those of the device
@@ -139,7 +140,7 @@ class TerminationDiscs {
   std::size_t sensed_ = 0;
   std::size_t actuated_ = 0;
   std::size_t held_ = 0;
-  double lag_ = 0.0;
+  DrivePath drive_;
   double period_ = 0.0;
   double delay_ = 0.0;
   FilteredPlant plant_;  // of the free device

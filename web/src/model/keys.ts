@@ -42,6 +42,7 @@ const shown: Record<string, { label?: string; first?: Pair }> = {
   'actuator.time_constant': { label: 'lag' },
   'actuator.force_limit': { label: 'largest force' },
   'sensor.resolution': { label: 'encoder step' },
+  'sensor.tracking_bandwidth': { label: 'tracking by the drive', first: [1000, 1000] },
   'wall.stiffness': { label: 'stiffness K' },
   'wall.damping': { label: 'damping B' },
   'wall.velocity_filter_hz': { label: 'velocity filter' },
