@@ -31,7 +31,7 @@ bool names_file(std::string_view value) {
 std::vector<std::string> key_words() {
   std::vector<std::string> words;
   for (const DeviceTableKey& table : device_tables()) {
-    const std::string path = path_of(table.table) + (table.is_many ? ".0" : "");
+    const std::string path = path_of(table.table) + (table.is_many ? ".0" : table.is_by_name ? ".NAME" : "");
     for (const DeviceKey& key : device_keys()) {
       if (key.table == table.table) words.push_back(fmt::format("{}{}{}=", path, path.empty() ? "" : ".", key.name));
     }

@@ -19,7 +19,7 @@
 #include "cli/workspace_series.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/text_medium.hpp"
-#include "report/text/workspace_text.hpp"
+#include "report/workspace_report.hpp"
 #include "results/workspace_json.hpp"
 
 namespace zwidth::cli {
@@ -31,6 +31,7 @@ struct WorkspaceArguments {
   std::optional<double> stiffness;
   std::size_t threads = 0;
   bool all_directions = false;
+  std::string report;
   std::string worst;
   OutputArguments output;
 };
@@ -66,6 +67,7 @@ void run_workspace(const WorkspaceArguments& arguments) {
   const CLI::App& command = *arguments.devices.command;
   const std::string& file = arguments.devices.files.front();
   Outputs outputs(command, arguments.output);
+  outputs.add("--report", arguments.report, Ending::page);
   outputs.add(worst_option, arguments.worst);
   outputs.keep(arguments.devices.files, "device file");
   WorkspaceOptions options{.stiffness = arguments.stiffness, .threads = arguments.threads};
@@ -85,7 +87,7 @@ void run_workspace(const WorkspaceArguments& arguments) {
           : report::for_medium(report::workspace_text(device, found, arguments.output.findings));
   if (found.trust.refused()) {
     return print_refused(outputs, found.trust, device.name(), answer,
-                         {arguments.output.csv, arguments.output.figure, arguments.worst});
+                         {arguments.output.csv, arguments.output.figure, arguments.report, arguments.worst});
   }
   if (!arguments.worst.empty() && !found.least) {
     throw WorkFailed("--worst-to: no limit is known at any pose: there is no worst one");
@@ -96,6 +98,7 @@ void run_workspace(const WorkspaceArguments& arguments) {
     hand_over_device(command, worst);
   }
   outputs.put("--csv", [&] { return results::workspace_csv(found); });
+  outputs.put("--report", [&] { return report::workspace_page(device, found); });
   outputs.put(worst_option, [&] { return worst; });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_workspace(device, found, format); });
   outputs.commit();
@@ -137,6 +140,7 @@ void add_workspace(CLI::App& app) {
                       .explain = explain_help});
   command->add_flag("--all-directions", arguments->all_directions,
                     "With --json: each pose's limits in all directions tried, too");
+  command->add_option("--report", arguments->report, "Also write a page with the map: .html")->type_name("FILE");
   command
       ->add_option(worst_option, arguments->worst,
                    "Also write the device at the worst pose and normal, of any\npassive user where that is known")
@@ -149,7 +153,8 @@ void add_workspace(CLI::App& app) {
       "  zwidth workspace devices/mechanisms/planar_arm.toml --points 0.3,0.2,0 \\\n"
       "    --normals \"1,0,0;0,1,0\" --json\n"
       "  zwidth workspace devices/mechanisms/planar_arm.toml \\\n"
-      "    --poses \"shoulder=0.3,elbow=20:150:5 deg\" --output map.svg --worst-to worst.toml");
+      "    --poses \"shoulder=0.3,elbow=20:150:5 deg\" --output map.svg --worst-to worst.toml\n"
+      "  zwidth workspace devices/mechanisms/planar_arm.toml --report workspace.html");
   command->callback([arguments] { run_workspace(*arguments); });
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -29,7 +31,7 @@ constexpr const char* normal_form =
     "write NX,NY,NZ, for instance \"1,0,0;0,1,0\", or a whole number of directions, for instance 24";
 
 constexpr const char* list_form =
-    "write one value for each joint of a list, for instance \"shoulder=0,elbow=1;shoulder=1,elbow=2\"";
+    "write one value for each joint of a list, for instance \"shoulder=0,elbow=30 deg;shoulder=1,elbow=2\"";
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t";
@@ -89,8 +91,8 @@ PoseAxis pose_axis(std::string_view text) {
   return axis;
 }
 
-/// One of a list: a value for each joint.
-JointPositions listed_pose(std::string_view text) {
+/// One of a list: a value for each joint, and of which motion their units are.
+JointPositions listed_pose(std::string_view text, std::map<std::string, Motion>& units) {
   JointPositions pose;
   for (const std::string& part : parts_of(text, ',')) {
     const PoseAxis axis = pose_axis(trimmed(part));
@@ -98,7 +100,9 @@ JointPositions listed_pose(std::string_view text) {
     if (!pose.emplace(axis.joint, axis.first).second) {
       refuse_text(poses_option, text, "has a joint twice", list_form);
     }
-    if (axis.unit) refuse_text(poses_option, text, "has a unit in a list", "write numbers of rad or m alone");
+    if (axis.unit && units.emplace(axis.joint, *axis.unit).first->second != *axis.unit) {
+      refuse_text(poses_option, text, "has a joint that turns in one pose and slides in another", list_form);
+    }
   }
   return pose;
 }
@@ -153,10 +157,15 @@ Eigen::Vector3d normal_of(std::string_view text) {
   return normal;
 }
 
+/// A number of directions; nothing where the text is none.
 std::optional<std::size_t> count_in(std::string_view text) {
-  std::size_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  return error == std::errc{} && end == text.data() + text.size() ? std::optional(count) : std::nullopt;
+  const std::optional<double> number = number_in(text);
+  if (!number) return std::nullopt;
+  constexpr double largest = 9e15;
+  if (std::trunc(*number) != *number || *number < 1.0 || *number > largest) {
+    refuse_text(normals_option, text, "is no number of directions", normal_form);
+  }
+  return static_cast<std::size_t>(*number);
 }
 
 }  // namespace
@@ -165,7 +174,7 @@ void apply(const WorkspaceOptionTexts& texts, WorkspaceOptions& options) {
   for (const std::string& each : texts.poses) {
     if (each.find(';') != std::string::npos) {
       for (const std::string& pose : parts_of(each, ';')) {
-        if (!trimmed(pose).empty()) options.poses.push_back(listed_pose(pose));
+        if (!trimmed(pose).empty()) options.poses.push_back(listed_pose(pose, options.units_of_poses));
       }
       continue;
     }
@@ -175,7 +184,6 @@ void apply(const WorkspaceOptionTexts& texts, WorkspaceOptions& options) {
   const std::vector<std::string> normals = items_of(texts.normals);
   if (normals.size() == 1) {
     if (const auto count = count_in(normals.front())) {
-      if (*count == 0) throw BadInput(normals_option, "is 0", CommandText(std::string(normal_form)));
       options.directions = *count;
       return;
     }

@@ -34,7 +34,9 @@ std::string allowed_values(const DeviceKey& key) {
 Json key_json(const DeviceKey& key) {
   Json unit = nullptr;
   if (key.measure) {
-    const Motion linear = key.table == DeviceTable::transmission ? Motion::rotary : Motion::linear;  // behind a joint
+    const bool is_of_joint = key.table == DeviceTable::transmission || key.table == DeviceTable::mechanism_joint ||
+                             key.table == DeviceTable::mechanism_tendon;
+    const Motion linear = is_of_joint ? Motion::rotary : Motion::linear;
     unit = {{"linear", unit_of(*key.measure, linear)}, {"rotary", unit_of(*key.measure, Motion::rotary)}};
   }
   return {{"key", key.name},

@@ -13,13 +13,14 @@ enum class FindingCode : std::uint16_t {
   not_converged,   ///< a computation did not come to its end, for `reason`
 
   // model: the device's numbers
-  untrusted_without_reason,  ///< the device file doubts its numbers and gives no reason
-  assumed_numbers,           ///< numbers of the device that were assumed, not measured
-  period_too_short,          ///< a sampling period that no haptic device has
-  period_too_long,           ///< a sampling period that no haptic device has: the time is likely in `likely_unit`
-  late_beyond_drives,        ///< delay and lag of more sampling periods than drives have
-  mass_too_large,            ///< a mass that no haptic device has
-  inertia_too_large,         ///< an inertia that no haptic device has
+  untrusted_without_reason,   ///< the device file doubts its numbers and gives no reason
+  assumed_numbers,            ///< numbers of the device that were assumed, not measured
+  period_too_short,           ///< a sampling period that no haptic device has
+  period_too_long,            ///< a sampling period that no haptic device has: the time is likely in `likely_unit`
+  late_beyond_drives,         ///< delay and lag of more sampling periods than drives have
+  mass_too_large,             ///< a mass that no haptic device has
+  inertia_too_large,          ///< an inertia that no haptic device has
+  mechanism_number_replaced,  ///< a number of the mechanism's file is another in the device file
 
   // stability
   wall_not_surely_stable,        ///< the wall lies within the interval of the critical stiffness

@@ -67,6 +67,12 @@ class MechanismModel {
   /// What was read, with its pose.
   [[nodiscard]] const MechanismFile& file() const;
 
+  /// Numbers of the file that have keys, as the file says them, whatever file().numbers puts in their place.
+  ///
+  /// "joint.NAME.damping", "stiffness" and "armature" (inertia beside the bodies'); "tendon.NAME.stiffness" and "damping". A
+  /// joint or tendon without a name has none.
+  [[nodiscard]] const std::map<std::string, MechanismNumber>& file_numbers() const;
+
   /// What was read of the file and of those that it includes, as one text that names no file: `text` of a MechanismFile
   /// without a path. Each element of the file stands in its line; what does not count is left out.
   [[nodiscard]] std::string text() const;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,13 +33,17 @@ struct PoseAxis {
 /// Where in the workspace, and in which directions, the limits are asked.
 ///
 /// Of `grid`, `poses` and `points` one at most. None: a grid of the ranges that the file gives pose_joints(), of about 1000
-/// poses. Joints that are not given stay where the device's pose has them.
+/// poses, without those at which a joint that follows is beyond its own. Joints that are not given stay where the device's
+/// pose has them.
 struct WorkspaceOptions {
   std::vector<PoseAxis> grid = {};         ///< all combinations, the last axis fastest
   std::vector<JointPositions> poses = {};  ///< a list
+  /// linear: m, rotary: rad; of joints of `poses`, refused where the joint has the other motion
+  std::map<std::string, Motion> units_of_poses = {};
   std::vector<Eigen::Vector3d> points =
       {};  ///< m, world's frame: poses that bring the tip there, MechanismModel::reach()
-  std::vector<Eigen::Vector3d> normals = {};  ///< of the wall, world's frame, of any length; empty: `directions`
+  /// Of the wall, world's frame, of any length; empty: `directions`. Parallel ones are one wall, the first of them.
+  std::vector<Eigen::Vector3d> normals = {};
   /// So many normals at each pose, spread over the directions in which the tip can move there (n and -n are one), from
   /// which the least and the greatest limit are refined; 0: 12 in a plane, 48 in space, 1 along a line.
   std::size_t directions = 0;

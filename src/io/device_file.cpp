@@ -120,6 +120,9 @@ class DeviceReader {
     direction.is_point = reader.is_text("normal") && reader.text("normal") == "all";
     if (!direction.is_point) read_normal(reader, direction.normal);
     read_pose(reader, mechanism);
+    for (const DeviceTable kind : {DeviceTable::mechanism_joint, DeviceTable::mechanism_tendon}) {
+      read_file_numbers(reader, kind, mechanism);
+    }
     for (const std::string_view key : {"body", "link"}) {
       if (root_.has(key)) root_.refuse(key, {.code = ProblemCode::beside_mechanism});
     }
@@ -141,8 +144,28 @@ class DeviceReader {
     TableReader reader(reading_, *table, path_of(DeviceTable::mechanism_pose));
     for (const std::string& joint : reader.keys()) {
       std::optional<Motion> unit;
-      file.pose[joint] = reader.joint_position(joint, unit).value_or(0.0);
+      file.pose[joint] = reader.number_of_either_motion(joint, Measure::position, unit).value_or(0.0);
       if (unit) file.units_of_pose[joint] = *unit;
+    }
+  }
+
+  /// In either unit: the mechanism's file says which joints slide.
+  void read_file_numbers(TableReader& mechanism, DeviceTable kind, MechanismFile& file) {
+    const toml::table* tables = mechanism.table(kind);
+    if (!tables) return;
+    TableReader parts(reading_, *tables, path_of(kind));
+    for (const std::string& name : parts.keys()) {
+      const toml::table* table = parts.table(name, header_of(kind));
+      if (!table) continue;
+      TableReader reader(reading_, *table, fmt::format("{}.{}", path_of(kind), name));
+      reader.refuse_keys_not_of(kind);
+      for (const KeyRow& row : rows_of(kind)) {
+        std::optional<Motion> unit;
+        const auto value = reader.number_of_either_motion(row.key.name, *row.key.measure, unit);
+        const std::string key = fmt::format("{}.{}.{}", entry_of(kind).name, name, row.key.name);
+        if (value) file.numbers[key] = *value;
+        if (unit) file.units_of_numbers[key] = *unit;
+      }
     }
   }
 

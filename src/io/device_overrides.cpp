@@ -113,6 +113,20 @@ tl::expected<Target, InputError> target_in_table(toml::table& document, DeviceTa
   return Target{made_node(document, kind)->as_table(), std::string(key)};
 }
 
+/// Resolves mechanism.joint.NAME.key, making the tables that the file left out; mechanism.joint.NAME is a whole table.
+tl::expected<Target, InputError> target_by_name(toml::table& document, DeviceTable kind, std::string_view path,
+                                                std::string_view whole_key) {
+  const auto dot = path.rfind('.');
+  toml::table* parts = made_node(document, kind)->as_table();
+  if (dot == std::string_view::npos || !parts) return Target{parts, std::string(path)};
+  const std::string_view key = path.substr(dot + 1);
+  if (!is_key_of(kind, key)) return tl::unexpected(refusal(whole_key, unknown_key_of(kind, key)));
+  const std::string_view name = path.substr(0, dot);
+  toml::node* part = parts->get(name);
+  if (!part) part = &parts->insert_or_assign(toml::key(name, override_region()), toml::table{}).first->second;
+  return Target{part->as_table(), std::string(key)};
+}
+
 tl::expected<Target, InputError> find_target(toml::table& document, std::string_view whole_key) {
   const auto dot = whole_key.find('.');
   const std::string_view first = whole_key.substr(0, dot);
@@ -126,7 +140,8 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
   }
   if (table) {
     const std::string_view rest = whole_key.substr(path_of(table->table).size() + 1);
-    return (table->is_many ? target_in_tables : target_in_table)(document, table->table, rest, whole_key);
+    const auto target = table->is_many ? target_in_tables : table->is_by_name ? target_by_name : target_in_table;
+    return target(document, table->table, rest, whole_key);
   }
   return tl::unexpected(
       refusal(whole_key, {.code = ProblemCode::value_and_no_table, .subjects = {{"name", std::string(first)}}}));

@@ -209,20 +209,18 @@ std::optional<std::string> TableReader::lines(std::string_view key) {
   return std::nullopt;
 }
 
-std::optional<double> TableReader::joint_position(std::string_view joint, std::optional<Motion>& unit) {
-  const toml::node* node = find(joint);
-  if (node == nullptr || !node->is_string()) return number(joint);
+std::optional<double> TableReader::number_of_either_motion(std::string_view key, Measure measure,
+                                                           std::optional<Motion>& unit) {
+  const toml::node* node = find(key);
+  if (node == nullptr || !node->is_string()) return number(key);
   const std::string& text = node->as_string()->get();
   for (const Motion motion : {Motion::rotary, Motion::linear}) {
-    if (const auto value = number_with_unit(text, Measure::position, motion)) {
+    if (const auto value = number_with_unit(text, measure, motion)) {
       unit = motion;
       return *value;
     }
   }
-  auto problem = number_with_unit(text, Measure::position, Motion::rotary).error();
-  InputProblem told{{}, std::move(problem.what), std::move(problem.allowed), std::move(problem.suggestion)};
-  told.problem = std::move(problem.problem);
-  refuse(joint, std::move(told));
+  refuse(key, input_problem_of(number_with_unit(text, measure, Motion::rotary).error()));
   return std::nullopt;
 }
 

@@ -87,8 +87,9 @@ class TableReader {
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   /// The same over several lines.
   [[nodiscard]] std::optional<std::string> lines(std::string_view key);
-  /// In radians or metres, and which of the two its unit says, where it has one. Of a joint.
-  [[nodiscard]] std::optional<double> joint_position(std::string_view joint, std::optional<Motion>& unit);
+  /// Of a joint that turns or slides, and which of the two its unit says, where it has one.
+  [[nodiscard]] std::optional<double> number_of_either_motion(std::string_view key, Measure measure,
+                                                              std::optional<Motion>& unit);
   /// Every key that the table has.
   [[nodiscard]] std::vector<std::string> keys() const;
   /// All elements, each required to be what the name says; empty (and refused) when the key is missing.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -78,6 +79,8 @@ class Writer {
   explicit Writer(Motion motion) : motion_(motion) {}
   void header(DeviceTable kind) { text_ += fmt::format("\n{}\n", header_of(kind)); }
   void value(std::string_view key, std::string_view toml) { text_ += fmt::format("{} = {}\n", key, toml); }
+  /// As they stand in the file.
+  void whole_table(std::string_view header, std::string_view values) { text_ += fmt::format("{}{}", header, values); }
   /// Every key that has a member in the table's struct, and a value in it.
   template <typename Table>
   void members(DeviceTable kind, const Table& table) {
@@ -133,6 +136,15 @@ void write_mechanism(const DeviceParameters& device, Writer& out) {
   out.value("normal", is_point ? text_value("all") : array_value({normal.begin(), normal.end()}));
   if (!mechanism.pose.empty()) out.header(DeviceTable::mechanism_pose);
   for (const auto& [joint, position] : mechanism.pose) out.value(text_value(joint), number_value(position));
+  std::map<std::string, std::string> tables;  // of joints and tendons
+  for (const auto& [key, number] : mechanism.numbers) {
+    const std::size_t kind_end = key.find('.');
+    const std::size_t name_end = key.rfind('.');
+    const std::string name = text_value(key.substr(kind_end + 1, name_end - kind_end - 1));
+    const std::string header = fmt::format("\n[mechanism.{}.{}]\n", key.substr(0, kind_end), name);
+    tables[header] += fmt::format("{} = {}\n", key.substr(name_end + 1), number_value(number));
+  }
+  for (const auto& [header, values] : tables) out.whole_table(header, values);
   for (const Transmission& each : mechanism.transmissions) {
     out.header(DeviceTable::transmission);
     out.value("joint", text_value(each.joint));

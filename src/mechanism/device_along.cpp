@@ -84,7 +84,9 @@ Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameter
 
 void put_coordinates(DeviceParameters& parameters) {
   const MechanismDirection along = *parameters.mechanism;
-  const MechanismAtPose at = at_pose(along.mechanism);
+  const MechanismModel model(along.mechanism);
+  const MechanismAtPose at = model.at();
+  parameters.mechanism->mechanism.file_numbers = model.file_numbers();
   if (along.is_point) {
     parameters = point_device(at, std::move(parameters)).parameters();
   } else {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -105,6 +106,8 @@ std::vector<std::string> MechanismModel::pose_joints() const {
 }
 
 const MechanismFile& MechanismModel::file() const { return read_->file(); }
+
+const std::map<std::string, MechanismNumber>& MechanismModel::file_numbers() const { return read_->mujoco().numbers(); }
 
 std::string MechanismModel::text() const { return read_->mujoco().text(); }
 

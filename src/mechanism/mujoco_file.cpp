@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "mechanism/mechanism_text.hpp"
+#include "mechanism/mujoco_parts.hpp"
 #include "mechanism/trial_process.hpp"
 #include "zwidth/model/device_key.hpp"
 #include "zwidth/require_valid.hpp"
@@ -32,16 +34,8 @@ constexpr double most_of_a_way = 100.0;    // steps
 constexpr double farthest_position = 1e6;  // m or rad: angles beyond keep too few digits
 constexpr double settled = 1e-13;          // m or rad, of a step
 constexpr double closed = 1e-9;            // m or rad, of a loop
+constexpr int most_rows_of_loop = 6;       // of a weld
 constexpr double dependent_loops_below = 1e-9;  // relative, of the loops' equations
-
-// On one line, whatever names the file gives.
-std::string plain(const char* said) {
-  std::string text(said);
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.pop_back();
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return text;
-}
 
 // What is wrong with what is read, whichever key it came by.
 struct RefusedSource {
@@ -126,32 +120,6 @@ struct DeleteData {
 };
 using Data = std::unique_ptr<mjData, DeleteData>;
 
-// The parts of a model by name.
-class Parts {
- public:
-  explicit Parts(const mjModel* model) : model_(model) {}
-
-  [[nodiscard]] int index(const std::string& key, mjtObj kind, const std::string& wanted) const {
-    const int found = mj_name2id(model_, kind, wanted.c_str());
-    if (found >= 0) return found;
-    std::string names;
-    for (int i = 0; i < (kind == mjOBJ_JOINT ? model_->njnt : kind == mjOBJ_SITE ? model_->nsite : 0); ++i) {
-      names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", plain(name(kind, i).c_str()));
-    }
-    std::vector<Subject> subjects{{"kind", kind == mjOBJ_JOINT ? "joint" : "tip"}, {"name", wanted}};
-    if (!names.empty()) subjects.push_back({"names", names});
-    refuse_key(key, {.code = ProblemCode::no_such_part, .subjects = std::move(subjects)});
-  }
-
-  [[nodiscard]] std::string name(mjtObj kind, int of) const {
-    const char* found = mj_id2name(model_, kind, of);
-    return found != nullptr ? found : std::to_string(of);
-  }
-
- private:
-  const mjModel* model_;
-};
-
 // A state of a model, at a pose.
 class Posed {
  public:
@@ -164,12 +132,7 @@ class Posed {
       const int of = parts_.index(key, mjOBJ_JOINT, joint);
       if (!std::isfinite(to)) refuse_key(key, {.code = ProblemCode::not_finite});
       const bool slides = model_->jnt_type[of] == mjJNT_SLIDE;
-      const auto unit = file.units_of_pose.find(joint);
-      if (unit != file.units_of_pose.end() && slides != (unit->second == Motion::linear)) {
-        std::vector<Subject> subjects{{"name", joint}};
-        if (slides) subjects.push_back({"slides", "slides"});
-        refuse_key(key, {.code = ProblemCode::unit_of_other_joint, .subjects = std::move(subjects)});
-      }
+      check_unit(file.units_of_pose, joint, key, joint, slides);
       ways.push_back({.joint = of, .from = data_->qpos[of], .to = to});  // of hinges and slides, each has one
       is_given_[static_cast<std::size_t>(of)] = true;
     }
@@ -364,6 +327,9 @@ Model read_model(const std::vector<MechanismText>& texts) {
   }
   model->opt.jacobian = mjJAC_DENSE;
   model->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
+  // A state has room for so many, which each pose clears: without contacts, and of the loops alone.
+  model->nconmax = 0;
+  model->njmax = std::min(model->njmax, most_rows_of_loop * model->neq);
   return model;
 }
 
@@ -375,7 +341,18 @@ MujocoFile::At at_pose_of(const mjModel* model, mjData* data, const MechanismFil
 class OpenFile final : public MujocoFile {
  public:
   OpenFile(MechanismFile file, const std::vector<MechanismText>& texts)
-      : file_(std::move(file)), text_(one_text(texts)), model_(read_model(texts)) {}
+      : file_(std::move(file)), text_(one_text(texts)), model_(read_model(texts)), numbers_(numbers_of(*model_)) {}
+
+  // The same file with the numbers of this one in it.
+  OpenFile(MechanismFile file, const OpenFile& same)
+      : file_(std::move(file)),
+        text_(same.text_),
+        model_(mj_copyModel(nullptr, same.model_.get())),
+        numbers_(same.numbers_) {
+    replace_numbers(*model_, file_);
+    // What the reader computes of armatures once: inertias of joints that do not depend on the pose.
+    mj_setConst(model_.get(), Data(mj_makeData(model_.get())).get());
+  }
 
   // Whether what is read of the same texts for this file is the same.
   [[nodiscard]] bool is_for(const MechanismFile& file) const {
@@ -402,6 +379,8 @@ class OpenFile final : public MujocoFile {
     return joints;
   }
 
+  [[nodiscard]] const std::map<std::string, MechanismNumber>& numbers() const override { return numbers_; }
+
   [[nodiscard]] int joint(const std::string& key, const std::string& name) const override {
     return Parts(model_.get()).index(key, mjOBJ_JOINT, name);
   }
@@ -427,15 +406,14 @@ class OpenFile final : public MujocoFile {
   MechanismFile file_;
   std::string text_;
   Model model_;
+  std::map<std::string, MechanismNumber> numbers_;  // of the file
   mutable std::mutex mutex_;
   mutable std::vector<Data> idle_;  // that no thread uses just now
 };
 
-}  // namespace
-
 // What MuJoCo does not expect may crash it: a text is read in another process first. One text at a time. Devices made from one
-// another differ in pose and transmissions, and share what was read last.
-std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
+// another differ in pose, numbers and transmissions, and share what was read last.
+std::shared_ptr<const OpenFile> opened_as_it_stands(const MechanismFile& file) {
   const std::vector<MechanismText> texts = mechanism_texts(file);
   static std::mutex one_at_a_time;
   static std::vector<MechanismText> read_before;
@@ -444,7 +422,7 @@ std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
   const bool is_known = texts == read_before;
   if (is_known && opened && opened->is_for(file)) return opened;
   const Handlers handlers;
-  return reading(file, [&]() -> std::shared_ptr<const MujocoFile> {
+  return reading(file, [&] {
     const bool ends = is_known || ends_in_trial([&] {
                         const Model model = read_model(texts);
                         const Data data(mj_makeData(model.get()));
@@ -456,6 +434,15 @@ std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
     opened = std::make_shared<const OpenFile>(file, texts);
     return opened;
   });
+}
+
+}  // namespace
+
+std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file) {
+  std::shared_ptr<const OpenFile> opened = opened_as_it_stands(file);
+  if (file.numbers.empty()) return opened;
+  const Handlers handlers;
+  return reading(file, [&] { return std::make_shared<const OpenFile>(file, *opened); });
 }
 
 }  // namespace zwidth::internal

@@ -3,6 +3,7 @@
 // Mechanism files by MuJoCo, which no other file knows.
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ class MujocoFile {
   [[nodiscard]] virtual std::string text() const = 0;
   // But for which of them give a pose.
   [[nodiscard]] virtual std::vector<MechanismJoint> joints() const = 0;
+  // As MechanismModel::file_numbers()
+  [[nodiscard]] virtual const std::map<std::string, MechanismNumber>& numbers() const = 0;
   // The number of that joint; refuses, with the key, a name that no joint has.
   [[nodiscard]] virtual int joint(const std::string& key, const std::string& name) const = 0;
 
@@ -36,7 +39,7 @@ class MujocoFile {
   [[nodiscard]] virtual At at(const JointPositions& pose) const = 0;
 };
 
-// Throws Error as at_pose() does for what its text says.
+// With the numbers of `file` in it. Throws Error as at_pose() does for what its text says.
 [[nodiscard]] std::shared_ptr<const MujocoFile> open_mujoco_file(const MechanismFile& file);
 
 }  // namespace zwidth::internal

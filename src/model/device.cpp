@@ -16,6 +16,7 @@
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 #include "zwidth/require_valid.hpp"
 
 namespace zwidth {
@@ -79,17 +80,6 @@ class Checks {
     });
   }
 
-  void name(std::string key, const std::string& value) {
-    const bool has_control = std::ranges::any_of(value, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-    if (has_control) {
-      refuse(std::move(key), {.code = ProblemCode::control_character});
-    } else if (value.size() > max_name_size) {
-      refuse(std::move(key), {.code = ProblemCode::too_many_bytes,
-                              .evidence = {counted("bytes", value.size()), counted("most", max_name_size)}});
-    }
-  }
-
- private:
   template <typename Number>
   void number(std::string_view path, const DeviceKey& key, Number value) {
     const auto given = static_cast<double>(value);
@@ -101,6 +91,17 @@ class Checks {
                                                          : out_of_range(*key.range, key.type, given));
   }
 
+  void name(std::string key, const std::string& value) {
+    const bool has_control = std::ranges::any_of(value, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    if (has_control) {
+      refuse(std::move(key), {.code = ProblemCode::control_character});
+    } else if (value.size() > max_name_size) {
+      refuse(std::move(key), {.code = ProblemCode::too_many_bytes,
+                              .evidence = {counted("bytes", value.size()), counted("most", max_name_size)}});
+    }
+  }
+
+ private:
   std::vector<DeviceProblem> problems_;
 };
 
@@ -315,6 +316,16 @@ void check_mechanism(const DeviceParameters& parameters, Checks& checks) {
     checks.name(key, joint);
     if (!not_negative_numbers.contains(std::abs(position))) {
       checks.refuse(key, {.code = ProblemCode::value_not_finite});
+    }
+  }
+  for (const auto& [number, value] : file.numbers) {
+    const std::string key = fmt::format("{}.{}", path_of(DeviceTable::mechanism), number);
+    const KeyRow* row = is_key_of_mechanism_file(key) ? row_of(key) : nullptr;
+    checks.name(key, number);
+    if (row == nullptr) {
+      checks.refuse(key, {.code = ProblemCode::no_parameter_of_device, .subjects = {{"name", number}}});
+    } else {
+      checks.number(key.substr(0, key.rfind('.')), row->key, value);
     }
   }
   if (file.transmissions.size() > max_bodies) {

@@ -21,6 +21,9 @@ constexpr auto made_tables() {
       {mechanism_pose, mechanism, "pose", false, "none",
        "a key a joint, in rad, or m of a slide, or a text with its unit; others follow loops and cables, or stay as "
        "the file has them"},
+      {mechanism_joint, mechanism, "joint", false, "none",
+       "numbers in place of those of the mechanism's file, by the joint's name", "0.1", true},
+      {mechanism_tendon, mechanism, "tendon", false, "none", "the same of a tendon", "0.1", true},
       {transmission, root, "transmission", true, "none", "with `[mechanism]`: motors that its file does not have"},
       {loop, root, "loop", false, needed_key, ""},
       {loop_damper, loop, "damper", false, "none", "a damper that runs in a loop of its own"},
@@ -46,6 +49,7 @@ constexpr auto made_rows() {
   constexpr auto none = std::nullopt;
   constexpr NumberRange above_0 = positive_numbers;
   constexpr NumberRange from_0 = not_negative_numbers;
+  constexpr const char* as_file = "as the mechanism's file has it";
   return std::to_array<KeyRow>({
       {{root, "name", text, none, none, "the file's name without its end", "text, at most 200 bytes",
         "Name for people."}},
@@ -89,6 +93,20 @@ constexpr auto made_rows() {
       {{mechanism, "encoders", texts, none, none, "the joints that motors drive", "joints", "Joints that are read."}},
       {{mechanism, "normal", numbers, none, none, needed_key, "three numbers, not all 0, or \"all\"",
         "Normal of the wall in the world's frame."}},
+
+      {{mechanism_joint, "damping", number, damping, from_0, as_file, "of a slide N s/m",
+        "Viscous damping of the joint."}},
+      {{mechanism_joint, "stiffness", number, stiffness, from_0, as_file, "of a slide N/m", "Spring of the joint."}},
+      {{mechanism_joint, "armature", number, mass, from_0, as_file, "of a slide kg",
+        "Inertia of the joint beside that of the bodies, as of a rotor."}},
+
+      {{mechanism_tendon, "stiffness", number, stiffness, from_0, as_file, "0: no cable; by the unit of its length",
+        "Stiffness of the cable."},
+       {},
+       response,
+       true},
+      {{mechanism_tendon, "damping", number, damping, from_0, as_file, "by the unit of its length",
+        "Viscous damping of the cable."}},
 
       {{transmission, "joint", text, none, none, needed_key, "a joint of the mechanism",
         "Joint that the motor drives."}},
@@ -279,7 +297,8 @@ const KeyRow* row_of(std::string_view key) {
   for (const KeyRow& row : all_rows) {
     if (row.key.name != name) continue;
     const std::string path = path_of(row.key.table);
-    if (table == path || (entry_of(row.key.table).is_many && table.starts_with(path + "."))) return &row;
+    const DeviceTableKey& entry = entry_of(row.key.table);
+    if (table == path || ((entry.is_many || entry.is_by_name) && table.starts_with(path + "."))) return &row;
   }
   return nullptr;
 }
@@ -315,7 +334,9 @@ std::string path_of(DeviceTable table) {
 
 std::string header_of(DeviceTable table) {
   if (table == DeviceTable::root) return "the top level";
-  return fmt::format(fmt::runtime(entry_of(table).is_many ? "[[{}]]" : "[{}]"), path_of(table));
+  const DeviceTableKey& own = entry_of(table);
+  if (own.is_by_name) return fmt::format("[{}.NAME]", path_of(table));
+  return fmt::format(fmt::runtime(own.is_many ? "[[{}]]" : "[{}]"), path_of(table));
 }
 
 std::optional<Measure> measure_of(std::string_view key) {

@@ -1,5 +1,7 @@
 #include "model/implausible_numbers.hpp"
 
+#include <fmt/format.h>
+
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,6 +20,17 @@ Unit likely_unit(double time, double longest) {
     if (time * each.seconds <= longest) return each;
   }
   return {1e-9, "nanoseconds"};
+}
+
+/// What stands in the mechanism's file and does not hold.
+void add_replaced_numbers(const MechanismFile& mechanism, std::vector<Remark>& remarks) {
+  for (const auto& [key, value] : mechanism.numbers) {
+    const auto of_file = mechanism.file_numbers.find(key);
+    if (of_file == mechanism.file_numbers.end() || of_file->second.value == value) continue;
+    remarks.push_back(note({.code = FindingCode::mechanism_number_replaced,
+                            .evidence = {{"value", value}, {"of_file", of_file->second.value}},
+                            .key = fmt::format("mechanism.{}", key)}));
+  }
 }
 
 }  // namespace
@@ -76,6 +89,7 @@ std::vector<Remark> implausible_numbers(const Device& device) {
   if (auto remark = implausible_actuation_delay(device, period)) remarks.push_back(*std::move(remark));
   const double heaviest = device.parameters().motion == Motion::rotary ? 10.0 : 1000.0;
   for (Remark& remark : implausible_masses(device, heaviest)) remarks.push_back(std::move(remark));
+  if (device.parameters().mechanism) add_replaced_numbers(device.parameters().mechanism->mechanism, remarks);
   return remarks;
 }
 

@@ -13,10 +13,21 @@ bool is_key_of_mechanism(std::string_view key) {
 
 bool is_key_of_pose(std::string_view key) { return key.starts_with(path_of(DeviceTable::mechanism_pose) + "."); }
 
+bool is_key_of_mechanism_file(std::string_view key) {
+  return key.starts_with(path_of(DeviceTable::mechanism_joint) + ".") ||
+         key.starts_with(path_of(DeviceTable::mechanism_tendon) + ".");
+}
+
 Motion motion_of_key(const DeviceParameters& parameters, std::string_view key) {
   if (!is_key_of_mechanism(key)) return parameters.motion;
-  if (!parameters.mechanism || !is_key_of_pose(key)) return Motion::rotary;
-  const auto& units = parameters.mechanism->mechanism.units_of_pose;
+  if (!parameters.mechanism) return Motion::rotary;
+  const MechanismFile& file = parameters.mechanism->mechanism;
+  if (is_key_of_mechanism_file(key)) {
+    const auto number = file.file_numbers.find(std::string(key.substr(path_of(DeviceTable::mechanism).size() + 1)));
+    return number == file.file_numbers.end() ? Motion::rotary : number->second.motion;
+  }
+  if (!is_key_of_pose(key)) return Motion::rotary;
+  const auto& units = file.units_of_pose;
   const auto unit = units.find(std::string(key.substr(path_of(DeviceTable::mechanism_pose).size() + 1)));
   return unit == units.end() ? Motion::rotary : unit->second;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -12,6 +14,21 @@
 namespace zwidth {
 using namespace internal;
 namespace {
+
+/// The numbers of the mechanism's file, and those that are others here; what a visitor changes is another from then on.
+template <typename File, typename Visitor>
+void visit_file_numbers(File& mechanism, const Visitor& visit) {
+  std::map<std::string, double> numbers = mechanism.numbers;
+  for (const auto& [key, number] : mechanism.file_numbers) numbers.emplace(key, number.value);
+  for (auto& [key, value] : numbers) {
+    const double before = value;
+    const std::size_t dot = key.rfind('.');
+    visit(fmt::format("{}.{}", path_of(DeviceTable::mechanism), key.substr(0, dot)), key.substr(dot + 1), value);
+    if constexpr (!std::is_const_v<File>) {
+      if (value != before) mechanism.numbers[key] = value;
+    }
+  }
+}
 
 /// Calls visit(path, name, member) for every number that a key names; a member is a double or an optional<double>.
 template <typename Parameters, typename Visitor>
@@ -36,6 +53,7 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   if (parameters.mechanism) {
     auto& mechanism = parameters.mechanism->mechanism;
     for (auto& [joint, position] : mechanism.pose) visit(path_of(DeviceTable::mechanism_pose), joint, position);
+    visit_file_numbers(mechanism, visit);
     visit_tables(DeviceTable::transmission, mechanism.transmissions);
   }
   visit_table(DeviceTable::loop, "loop", parameters.loop);

@@ -3,6 +3,7 @@
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/design/region_approximation.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth {
 
@@ -36,6 +37,9 @@ std::string words_of(const DiagnosisChange& change) {
     case no_velocity_filter:
       return "no velocity filter";
     case stiffer_link:
+      if (is_key_of_mechanism_file(change.key)) {
+        return fmt::format("{} 20 % stiffer", change.key.substr(0, change.key.rfind('.')));
+      }
       return fmt::format("{} {} 20 % stiffer", change.key.starts_with("link.") ? "link" : "cable of transmission",
                          change.link.value_or(0));
     case finer_encoder:

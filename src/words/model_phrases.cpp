@@ -29,7 +29,9 @@ std::span<const Phrase> model_phrases() {
       Phrase{mass_too_large, "mass_too_large", warning, "{body} has a mass of {mass:.4g} kg",
              "few haptic devices are as heavy as that", "is it in g? It must be in kg: {likely:.4g}"},
       Phrase{inertia_too_large, "inertia_too_large", warning, "{body} has an inertia of {inertia:.4g} kg m^2",
-             "few haptic devices are as heavy as that", "is it in g m^2? It must be in kg m^2: {likely:.4g}"}};
+             "few haptic devices are as heavy as that", "is it in g m^2? It must be in kg m^2: {likely:.4g}"},
+      Phrase{mechanism_number_replaced, "mechanism_number_replaced", note,
+             "{key} is {value:.4g} here, and {of_file:.4g} in the mechanism's file", ""}};
   return phrases;
 }
 

@@ -79,7 +79,7 @@ std::span<const ProblemPhrase> model_problem_phrases() {
           "{!value|must be a file in MJCF or URDF}{?value|must be a finite number{?attribute=position| from "
           "-1e+06 to 1e+06}{!attribute=position|, 0 or from 1e-30 to 1e+30}}"},
       ProblemPhrase{no_such_part, "no_such_part",
-                    "the mechanism has no {?kind=joint|joint}{?kind=tip|site or body} \"{name}\"",
+                    "the mechanism has no {?kind=joint|joint}{?kind=tip|site or body}{?kind=tendon|tendon} \"{name}\"",
                     "{?names|must be one of {names}}"},
       ProblemPhrase{joint_of_many_motions, "joint_of_many_motions", "joint \"{name}\" is neither hinge nor slide",
                     "must be joints of one motion"},
@@ -102,10 +102,11 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "must be three: x, y and z in the world's frame"},
       ProblemPhrase{point_wall_not_known, "point_wall_not_known", "is a wall in every direction",
                     "must be one direction, such as [1, 0, 0]: analyze alone answers for all"},
-      ProblemPhrase{
-          unit_of_other_joint, "unit_of_other_joint",
-          "has a unit of {?slides|angle}{!slides|length}, and joint \"{name}\" {?slides|slides}{!slides|turns}",
-          "must be {?slides|a length}{!slides|an angle}"},
+      ProblemPhrase{unit_of_other_joint, "unit_of_other_joint",
+                    "has {!number|a unit of {?slides|angle}{!slides|length}}{?number|the unit of a joint that "
+                    "{?slides|turns}{!slides|slides}}, and joint \"{name}\" {?slides|slides}{!slides|turns}",
+                    "must {!number|be {?slides|a length}{!slides|an angle}}{?number|have the unit of one that "
+                    "{?slides|slides}{!slides|turns}}"},
       ProblemPhrase{file_beside_text, "file_beside_text", "names a file, and the device came as text",
                     "write what the file says as mechanism.text"},
       ProblemPhrase{mechanism_too_large, "mechanism_too_large", "{?line|line {line:n}: }more than {most:n} {what}",

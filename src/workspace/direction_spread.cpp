@@ -3,11 +3,14 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "mechanism/transmissions.hpp"
 
@@ -28,6 +31,7 @@ constexpr double finest_step = 2e-3;  // rad
 constexpr int most_sphere_steps = 16;
 constexpr double shrunk = 0.3;
 constexpr double axis_that_shows = 0.3;  // of a world's axis, in the plane
+constexpr double same_wall = 1e-9;       // rad
 
 double finite(double value) { return std::isfinite(value) ? value : std::numeric_limits<double>::max(); }
 
@@ -138,6 +142,21 @@ Eigen::MatrixXd moved_directions(const Eigen::MatrixXd& tip) {
   moved.col(0) = first;
   moved.col(1) = across.cross(first);
   return moved;
+}
+
+std::vector<Eigen::Vector3d> distinct_walls(const std::vector<Eigen::Vector3d>& normals) {
+  std::set<std::array<std::int64_t, 3>> seen;
+  std::vector<Eigen::Vector3d> walls;
+  for (const Eigen::Vector3d& each : normals) {
+    const Eigen::Vector3d normal = each.stableNormalized();
+    std::array<std::int64_t, 3> place{};
+    std::ranges::transform(normal, place.begin(), [](double part) { return std::llround(part / same_wall); });
+    const auto* const first = std::ranges::find_if(place, [](std::int64_t part) { return part != 0; });
+    const bool is_turned = first != place.end() && *first < 0;
+    if (is_turned) std::ranges::transform(place, place.begin(), std::negate{});
+    if (seen.insert(place).second) walls.push_back(each);
+  }
+  return walls;
 }
 
 std::size_t usual_directions(Eigen::Index moved) {

@@ -16,6 +16,9 @@ namespace zwidth::internal {
 // So many, n and -n being one: even on a half circle from the first column on, on a half sphere by Fibonacci's spiral.
 [[nodiscard]] std::vector<Eigen::Vector3d> spread_directions(const Eigen::MatrixXd& moved, std::size_t count);
 
+// Those of a list that are walls of their own, in their order: n, -n and 2 n are one.
+[[nodiscard]] std::vector<Eigen::Vector3d> distinct_walls(const std::vector<Eigen::Vector3d>& normals);
+
 // The spread that a count of 0 stands for.
 [[nodiscard]] std::size_t usual_directions(Eigen::Index moved);
 

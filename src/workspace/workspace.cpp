@@ -25,6 +25,7 @@ namespace {
 using internal::counted;
 
 constexpr double confirmed_within = 1e-3;  // relative, of the least limit by the other route
+constexpr double past_range = 1e-9;        // m or rad, that rounding leaves
 constexpr double in_the_plane = 1e-6;      // what of a direction may stand out of it
 constexpr std::array quantile_probabilities{0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};
 
@@ -98,11 +99,27 @@ class WorkspaceSearch {
         }
       }
       const MechanismAtPose at = mechanism_.at(pose.pose);
+      beside_[number].is_outside = is_of_ranges() && is_beyond_range(at);
+      if (beside_[number].is_outside) return;
       beside_[number].moved = internal::moved_directions(at.tip).cols();
       internal::add_limits(at, parameters_, options_, pose);
     } catch (const Error& error) {
       pose.problem = internal::problem_of(error);
     }
+  }
+
+  [[nodiscard]] bool is_of_ranges() const {
+    return options_.grid.empty() && options_.poses.empty() && options_.points.empty();
+  }
+
+  // Joints of the grid keep theirs; one that follows them may not.
+  [[nodiscard]] bool is_beyond_range(const MechanismAtPose& at) const {
+    for (std::size_t i = 0; i < result_.joints.size(); ++i) {
+      const std::optional<JointRange>& range = result_.joints[i].range;
+      const double position = at.joints(static_cast<Eigen::Index>(i));
+      if (range && (position < range->least - past_range || position > range->greatest + past_range)) return true;
+    }
+    return false;
   }
 
   // At a singular pose the tip cannot move in a direction in which it moves elsewhere.
@@ -132,7 +149,7 @@ class WorkspaceSearch {
       WorkspacePose& pose = result_.poses[i];
       if (beside_[i].short_of) {
         result_.unreached.push_back({*pose.point, options_.points[*pose.point], *beside_[i].short_of});
-      } else {
+      } else if (!beside_[i].is_outside) {
         reached.push_back(std::move(pose));
       }
     }
@@ -280,6 +297,7 @@ class WorkspaceSearch {
   struct Beside {
     Eigen::Index moved = 0;               // in how many directions the tip can move
     std::optional<double> short_of = {};  // m, of a point that is not reached
+    bool is_outside = false;              // a joint that follows the others is beyond its range
   };
 
   const DeviceParameters& parameters_;
@@ -296,7 +314,9 @@ class WorkspaceSearch {
 
 Workspace workspace(const Device& device, const WorkspaceOptions& options) {
   require_valid(find_problem(options, device));
-  return WorkspaceSearch(device, options).run();
+  WorkspaceOptions once = options;
+  once.normals = internal::distinct_walls(options.normals);
+  return WorkspaceSearch(device, once).run();
 }
 
 Device device_at(const Device& device, const JointPositions& pose, const Eigen::Vector3d& normal) {

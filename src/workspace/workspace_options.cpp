@@ -182,7 +182,12 @@ std::optional<OptionProblem> find_problem(const WorkspaceOptions& options, const
   }
   for (std::size_t i = 0; i < options.poses.size(); ++i) {
     for (const auto& [joint, position] : options.poses[i]) {
-      if (auto problem = problem_of_joint(mechanism, fmt::format("poses.{}", i), joint, std::nullopt)) return problem;
+      const auto unit = options.units_of_poses.find(joint);
+      if (auto problem =
+              problem_of_joint(mechanism, fmt::format("poses.{}", i), joint,
+                               unit == options.units_of_poses.end() ? std::nullopt : std::optional(unit->second))) {
+        return problem;
+      }
     }
   }
   if (!options.grid.empty() || !options.poses.empty() || !options.points.empty()) return std::nullopt;

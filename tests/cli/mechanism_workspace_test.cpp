@@ -227,7 +227,8 @@ TEST_F(MechanismWorkspace, RefusesWhatItCannotRead) {
     SCOPED_TRACE(points);
     expect_refusal(fmt::format("{} --points '{}'", of_arm, points), "--points");
   }
-  for (const char* normals : {"0,0,0", "1,0", "1,0,x", "0", "-3", "2.5", "1,0,0;", "1,0,0 m", "99999999999"}) {
+  for (const char* normals :
+       {"0,0,0", "1,0", "1,0,x", "0", "-3", "2.5", "1e9", "nan", "1,0,0;", "1,0,0 m", "99999999999"}) {
     SCOPED_TRACE(normals);
     expect_refusal(fmt::format("{}{} --normals '{}'", of_arm, pose_grid, normals), "--normals");
   }
@@ -236,12 +237,33 @@ TEST_F(MechanismWorkspace, RefusesWhatItCannotRead) {
     expect_refusal(fmt::format("{}{} --stiffness {}", of_arm, pose_grid, stiffness), "--stiffness");
   }
   expect_refusal(of_arm + pose_grid + " --points 0.3,0.2,0", "poses");
-  expect_refusal(of_arm, "shoulder");  // of which nothing says the range
   expect_refusal("zwidth workspace devices/lhifam.toml", "lhifam.toml");
   expect_refusal(of_arm + pose_grid + " --worst-to " + arm_file, "--worst-to");
   expect_refusal(of_arm + pose_grid + " --csv devices/mechanisms/planar_arm.xml", "--csv");
   expect_refusal(of_arm + pose_grid + " --csv a.csv --worst-to a.csv", "--worst-to");
   expect_refusal(of_arm + pose_grid + " --threads 100000", "--threads");
+}
+
+TEST_F(MechanismWorkspace, AListOfPosesHasUnits) {
+  const json in_degrees = asked(wall_normals + " --poses 'shoulder=0,elbow=40 deg; shoulder=30 deg,elbow=60 deg'");
+  const json grid = asked(wall_normals + " --poses 'shoulder=0,elbow=40 deg'");
+  ASSERT_EQ(in_degrees["poses"].size(), 2U);
+  EXPECT_EQ(in_degrees["poses"][0]["least"]["value"], grid["poses"][0]["least"]["value"]);
+  EXPECT_DOUBLE_EQ(in_degrees["poses"][1]["pose"][0].get<double>(), std::numbers::pi / 6.0);
+}
+
+TEST_F(MechanismWorkspace, WritesAPage) {
+  const Outcome outcome = run("zwidth workspace " + arm_file + pose_grid + " --normals 3 --report page.html");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string page = contents("page.html");
+  for (const char* part : {"<!DOCTYPE html>", "<svg", "class=\"value\"", "<h2>Poses with the least limits</h2>"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+  expect_refusal("zwidth workspace " + arm_file + pose_grid + " --report page.png", "--report");
+  const Outcome refused =
+      run("zwidth workspace " + arm_file + pose_grid + " --set uncertainty.verdict=refused --report none.html");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(contents("none.html"), IsEmpty());
 }
 
 TEST_F(MechanismWorkspace, IsTrustedNoMoreThanItsDevice) {

@@ -27,11 +27,17 @@ tl::expected<Device, InputError> with_key(const DeviceKey& key, const std::strin
   return parse_device(text, "f.toml", overrides);
 }
 
+/// Beside a mechanism alone.
+bool is_of_mechanism(const DeviceKey& key) {
+  return key.table == DeviceTable::mechanism_joint || key.table == DeviceTable::mechanism_tendon ||
+         key.table == DeviceTable::transmission;
+}
+
 TEST(DeviceKey, EveryNumberIsReadInItsUnitAndRefusedOutsideItsRange) {
   int count = 0;
   for (const DeviceKey& key : device_keys()) {
     if (key.type != KeyType::number || !key.measure || key.table == DeviceTable::filter) continue;
-    if (key.table == DeviceTable::transmission) continue;  // beside a mechanism alone
+    if (is_of_mechanism(key)) continue;
     ++count;
     const Motion motion = key.name == "inertia" ? Motion::rotary : Motion::linear;
     const std::string_view unit = si_unit(*key.measure, motion);
@@ -53,7 +59,7 @@ TEST(DeviceKey, EveryNumberOfTheLoopIsAParameter) {
   ASSERT_TRUE(device) << device.error().str();
   DeviceParameters parameters = device->parameters();
   for (const DeviceKey& key : device_keys()) {
-    const bool is_of_rig = key.table == DeviceTable::driver || key.table == DeviceTable::transmission;
+    const bool is_of_rig = key.table == DeviceTable::driver || is_of_mechanism(key);
     if (key.type != KeyType::number || key.table == DeviceTable::filter || is_of_rig || !key.same_as.empty()) continue;
     const std::string path = key.table == DeviceTable::body   ? "body.a"
                              : key.table == DeviceTable::link ? "link.0"
@@ -69,6 +75,8 @@ TEST(DeviceKey, IsFoundByItsTableAndItsName) {
   EXPECT_EQ(internal::row_of("body.a b.c.inertia")->key.same_as, "mass");
   EXPECT_EQ(internal::row_of("link.damping"), internal::row_of("link.12.damping"));
   EXPECT_EQ(internal::row_of("wall.filter.0.damping_ratio")->key.table, DeviceTable::filter);
+  EXPECT_EQ(internal::row_of("mechanism.joint.a.b.damping")->key.table, DeviceTable::mechanism_joint);
+  EXPECT_EQ(internal::row_of("mechanism.tendon.cable 1.armature"), nullptr);
   EXPECT_EQ(internal::row_of("operator.stiffness")->key.table, DeviceTable::user);
   for (const char* none : {"loop.mass", "wall.0.damping", "walls.damping", "wall.filter", "body.mass.", ""}) {
     EXPECT_EQ(internal::row_of(none), nullptr) << none;

@@ -159,7 +159,9 @@ TEST(MechanismModel, ReachesPoints) {
 }
 
 TEST(MechanismModel, SaysHowFarAPointIsOutOfReach) {
-  const MechanismModel model(file_of_device("planar_arm"));  // links of 0.2 m and 0.25 m, stretched out
+  MechanismFile file = file_of_device("planar_arm");
+  file.path = ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.xml";  // the same without ranges of joints
+  const MechanismModel model(file);                                 // links of 0.2 m and 0.25 m, stretched out
   const MechanismModel::Reached far = model.reach({1.0, 0.0, 0.0});
   EXPECT_FALSE(far.reached);
   EXPECT_NEAR(far.short_of, 0.55, 1e-6);

@@ -31,7 +31,7 @@ constexpr double of_quick_limits = 1e-4;        // DirectionLimits::any_user
 constexpr double of_confirmed_crossover = 2e-6;
 
 MechanismFile workspace_arm(double shoulder, double elbow) {
-  return {.path = ZWIDTH_SOURCE_DIR "/devices/mechanisms/planar_arm.xml",
+  return {.path = ZWIDTH_SOURCE_DIR "/tests/reference/planar_arm.xml",  // without ranges of joints
           .tip = "tip",
           .encoders = {},
           .pose = {{"shoulder", shoulder}, {"elbow", elbow}},
@@ -354,6 +354,9 @@ TEST(Workspace, EachOptionHasItsProblem) {
       {{.grid = {{"elbow", NAN, 1, 2}}}, "grid.0.first", ProblemCode::not_finite},
       {{.grid = {{"elbow", 0, 1, 2}, {"elbow", 0, 1, 2}}}, "grid.1.joint", ProblemCode::joint_given_twice},
       {{.grid = {{"elbow", 0, 1, 2, Motion::linear}}}, "grid.0.joint", ProblemCode::unit_of_other_joint},
+      {{.poses = {{{"elbow", 1}}}, .units_of_poses = {{"elbow", Motion::linear}}},
+       "poses.0",
+       ProblemCode::unit_of_other_joint},
       {{.grid = {{"elbow", 0, 1, 2000}, {"shoulder", 0, 1, 2000}}, .directions = 10},
        "grid",
        ProblemCode::too_many_workspace_limits},
@@ -396,6 +399,40 @@ TEST(Workspace, EndsWhereProgressThrows) {
     if (fraction > 0.2) throw std::runtime_error("enough");
   };
   EXPECT_THROW((void)workspace(device, options), std::runtime_error);
+}
+
+// A joint that follows another has a range of its own: half of the other's.
+TEST(Workspace, TakesTheRangesOfJointsThatFollow) {
+  const std::string text = R"(<mujoco><compiler angle="radian" autolimits="true"/><worldbody>
+    <body><joint name="one" axis="0 0 1" range="-0.2 0.2" damping="1"/><inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>
+      <site name="tip" pos="0.2 0 0"/></body>
+    <body pos="1 0 0"><joint name="two" axis="0 0 1" range="-0.1 0.1"/><inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>
+    </body></worldbody><equality><joint joint1="two" joint2="one" polycoef="0 1 0 0 0"/></equality>
+    <actuator><motor joint="one"/></actuator></mujoco>)";
+  MechanismFile file;
+  file.tip = "tip";
+  file.text = text;
+  file.pose = {{"one", 0.0}};
+  const Device device = workspace_device(file, 0.0, {0.0, 1.0, 0.0});
+  const Workspace found = workspace(device, {.normals = {{0.0, 1.0, 0.0}}, .any_user = false});
+  EXPECT_EQ(found.poses.size(), 500U);  // of 1000 positions of the one
+  for (const WorkspacePose& each : found.poses) EXPECT_LE(std::abs(each.joints.at(1)), 0.1 + 1e-9);
+  EXPECT_EQ(found.refused_poses, 0U);
+}
+
+// A list that says a wall in several ways has the limits of each wall once.
+TEST(Workspace, CountsAWallOnce) {
+  const Device device = workspace_device(workspace_arm(0.3, 1.2));
+  const JointPositions pose = {{"elbow", 1.2}};
+  const Workspace once = workspace(device, {.poses = {pose}, .normals = {{1.0, 0.0, 0.0}, {0.6, 0.8, 0.0}}});
+  const Workspace often = workspace(
+      device, {.poses = {pose},
+               .normals = {{1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {3.0, 4.0, 0.0}, {2.0, 0.0, 0.0}, {-0.6, -0.8, 0.0}}});
+  EXPECT_EQ(often.directions, 2U);
+  ASSERT_EQ(often.poses[0].directions.size(), once.poses[0].directions.size());
+  for (std::size_t i = 0; i < once.poses[0].directions.size(); ++i) {
+    EXPECT_EQ(often.poses[0].directions[i].nobody, once.poses[0].directions[i].nobody);
+  }
 }
 
 // The file gives the ranges: about 1000 poses.

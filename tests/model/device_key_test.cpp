@@ -70,6 +70,7 @@ TEST(DeviceKey, TablesAreInTheirOrderAndEveryKeyStandsOnce) {
   EXPECT_EQ(header_of(DeviceTable::user), "[operator]");
   EXPECT_EQ(header_of(DeviceTable::loop_damper), "[loop.damper]");
   EXPECT_EQ(header_of(DeviceTable::mechanism_pose), "[mechanism.pose]");
+  EXPECT_EQ(header_of(DeviceTable::mechanism_joint), "[mechanism.joint.NAME]");
   EXPECT_EQ(header_of(DeviceTable::transmission), "[[transmission]]");
 }
 

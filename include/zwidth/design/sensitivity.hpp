@@ -35,8 +35,8 @@ struct Sensitivity {
 /// Where the damper runs in a loop of its own (has_damper_loop()) loop.damper.delay is one of them, if the file gives it. The
 /// ratio of the two periods is whole and has no derivative: loop.sampling_period is that of both, which keep their ratio, and
 /// loop.damper.sampling_period is left out. There L_p is a difference, extrapolated until two agree: 1e-7 of K/p.
-/// Of a mechanism also mechanism.pose.* and transmission.*; L_p and L_theta are such differences of its response, for each of which
-/// it is put to its pose again: 1e-6 of K/p.
+/// Of a mechanism also mechanism.* (springs of joints and numbers of tendons where they are not 0) and transmission.*; L_p and
+/// L_theta are such differences of its response, for each of which it is put to its pose again: 1e-6 of K/p.
 /// Empty where K_CR is 0 or unbounded. Throws Error (did_not_converge) as critical_stiffness() does.
 /// Source: implicit function theorem; N. J. Higham, Functions of Matrices, SIAM 2008, section 3.2.
 [[nodiscard]] std::vector<Sensitivity> stiffness_sensitivities(const Device& device);

@@ -14,6 +14,8 @@ enum class DeviceTable {
   link,               ///< [[link]]
   mechanism,          ///< [mechanism]
   mechanism_pose,     ///< [mechanism.pose], whose keys are joints
+  mechanism_joint,    ///< [mechanism.joint.NAME]
+  mechanism_tendon,   ///< [mechanism.tendon.NAME]
   transmission,       ///< [[transmission]]
   loop,               ///< [loop]
   loop_damper,        ///< [loop.damper]
@@ -89,6 +91,7 @@ struct DeviceTableKey {
   std::string_view otherwise = {};         ///< what holds where it is left out
   std::string_view allowed = {};           ///< how often, and beside what
   std::string_view since = "0.1";          ///< version of zwidth
+  bool is_by_name = false;                 ///< [name.NAME], a table for each name, instead of [name]
 };
 
 /// Every key, in the order in which a file is written.
@@ -100,7 +103,7 @@ struct DeviceTableKey {
 /// The table's key from the root: "body", "wall.filter"; empty for the root.
 [[nodiscard]] std::string path_of(DeviceTable table);
 
-/// How the table is written in a file: "[[body]]", "[loop]", "[[wall.filter]]", "the top level".
+/// How the table is written in a file: "[[body]]", "[loop]", "[mechanism.joint.NAME]", "the top level".
 [[nodiscard]] std::string header_of(DeviceTable table);
 
 /// What the number of a device's key measures: "loop.delay" a time, and so does "delay"; none of what is no key, or no number.

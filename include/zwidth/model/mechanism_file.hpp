@@ -19,6 +19,12 @@ struct Transmission {
   double damping = 0.0;        ///< of the cable, at the joint, N m s/rad
 };
 
+/// A number of a mechanism's own file.
+struct MechanismNumber {
+  double value = 0.0;  ///< in SI units and radians
+  Motion motion = {};  ///< which units it has: of a slide linear, of a hinge rotary
+};
+
 /// A file of MuJoCo's format (MJCF) or URDF, and where it is looked at.
 struct MechanismFile {
   std::string path;                   ///< of the file; empty where `text` is given
@@ -29,6 +35,11 @@ struct MechanismFile {
   std::vector<Transmission> transmissions;           ///< in addition to the file's actuators
   std::string text = {};                             ///< what the file says, in its place; names no other file
   std::map<std::string, Motion> units_of_pose = {};  ///< linear: m, rotary: rad; of joints that have no other motion
+  /// Numbers of the mechanism's file that are others here, by key: "joint.elbow.damping", "tendon.cable 1.stiffness".
+  std::map<std::string, double> numbers = {};
+  std::map<std::string, Motion> units_of_numbers = {};  ///< of some of `numbers`; of joints that have no other motion
+  /// What the file says of all its numbers that have keys; found by device_of_mechanism().
+  std::map<std::string, MechanismNumber> file_numbers = {};
 };
 
 /// What a device of a mechanism is made of: a direction at a pose.

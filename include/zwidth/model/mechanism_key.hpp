@@ -12,6 +12,9 @@ namespace zwidth {
 /// Whether the key is of a joint's position.
 [[nodiscard]] bool is_key_of_pose(std::string_view key);
 
+/// Whether the key is of a number of the mechanism's own file: "mechanism.joint.elbow.damping".
+[[nodiscard]] bool is_key_of_mechanism_file(std::string_view key);
+
 /// The motion that the number's unit is of: the device's, but for motors and joints of a mechanism.
 [[nodiscard]] Motion motion_of_key(const DeviceParameters& parameters, std::string_view key);
 

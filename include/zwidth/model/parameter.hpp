@@ -13,7 +13,9 @@ namespace zwidth {
 /// link.INDEX.stiffness, .damping (plain link where there is one); loop.sampling_period, .delay;
 /// actuator.time_constant, .force_limit; sensor.resolution, .tracking_bandwidth; wall.stiffness, .damping, .velocity_filter_hz;
 /// wall.filter.INDEX.frequency_hz, .damping_ratio, .depth, .ratio as its kind has them (plain wall.filter where there
-/// is one); operator.mass, .damping, .stiffness.
+/// is one); operator.mass, .damping, .stiffness. Of a mechanism mechanism.pose.JOINT; transmission.INDEX.ratio, .inertia,
+/// .motor_damping, .stiffness, .damping; and, once it has been put to its pose, numbers of its own file:
+/// mechanism.joint.NAME.damping, .stiffness, .armature, mechanism.tendon.NAME.stiffness, .damping.
 
 /// Every key of the device that parameter() takes, in the order of the device file. Links always with their index.
 [[nodiscard]] std::vector<std::string> parameter_keys(const DeviceParameters& parameters);

@@ -183,20 +183,30 @@ class Changes {
     changes_.push_back(std::move(made->change));
   }
 
-  /// Of motors in a mechanism.
+  /// Of motors in a mechanism, and of its file.
   void stiffen_cables() {
-    const std::optional<MechanismDirection>& mechanism = loop_.device.parameters().mechanism;
-    if (!mechanism) return;
-    const std::vector<Transmission>& motors = mechanism->mechanism.transmissions;
-    for (std::size_t i = 0; i < std::min(motors.size(), most_links); ++i) {
-      if (!(motors[i].stiffness > 0.0)) continue;
-      const std::string key = fmt::format("transmission.{}.stiffness", i);
+    const DeviceParameters& device = loop_.device.parameters();
+    if (!device.mechanism) return;
+    const auto stiffen = [&](const std::string& key, std::optional<std::size_t> link, double stiffness) {
+      if (!(stiffness > 0.0)) return;
       add({.kind = Kind::stiffer_link,
-           .link = i,
+           .link = link,
            .key = key,
-           .value_now = motors[i].stiffness,
-           .value_then = more * motors[i].stiffness},
-          [&](DeviceParameters& then) { set_parameter(then, key, more * motors[i].stiffness); });
+           .value_now = stiffness,
+           .value_then = more * stiffness},
+          [&](DeviceParameters& then) { set_parameter(then, key, more * stiffness); });
+    };
+    const MechanismFile& mechanism = device.mechanism->mechanism;
+    const std::vector<Transmission>& motors = mechanism.transmissions;
+    for (std::size_t i = 0; i < std::min(motors.size(), most_links); ++i) {
+      stiffen(fmt::format("transmission.{}.stiffness", i), i, motors[i].stiffness);
+    }
+    std::size_t tendons = 0;
+    for (const auto& [number, of_file] : mechanism.file_numbers) {
+      const bool is_cable = number.starts_with("tendon.") && number.ends_with(".stiffness");
+      if (!is_cable || ++tendons > most_links) continue;
+      const std::string key = fmt::format("mechanism.{}", number);
+      stiffen(key, std::nullopt, parameter(device, key).value_or(0.0));
     }
   }
 

@@ -68,7 +68,13 @@ DifferenceStep difference_step(const DesignParameter& number, const DeviceParame
     case Kind::wall_damping:
       step.unit = stiffness * parameters.loop.sampling_period;
       return step;
+    case Kind::mechanism_inertia: {
+      const double at = frequency > 0.0 ? frequency : 1.0 / period;
+      step.unit = stiffness / (at * at) * lever_of(parameters) * lever_of(parameters);
+      return step;
+    }
     case Kind::transmission:
+    case Kind::mechanism_damping:
       step.unit = stiffness * parameters.loop.sampling_period * lever_of(parameters) * lever_of(parameters);
       return step;
     default:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "model/key_members.hpp"
+#include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -20,12 +21,27 @@ void add_filter(const WallFilter& filter, std::size_t index, std::vector<DesignP
   add(Kind::filter_ratio, "ratio", filter.ratio);
 }
 
+// Springs that are not there are left out: one at every joint would be no change to a mechanism.
+void add_file_numbers(const DeviceParameters& device, std::vector<DesignParameter>& parameters) {
+  for (const auto& [number, of_file] : device.mechanism->mechanism.file_numbers) {
+    const std::string key = fmt::format("{}.{}", path_of(DeviceTable::mechanism), number);
+    const double value = parameter(device, key).value();
+    const bool is_of_tendon = number.starts_with("tendon.");
+    const Kind kind = number.ends_with(".damping")     ? Kind::mechanism_damping
+                      : number.ends_with(".stiffness") ? Kind::mechanism_stiffness
+                                                       : Kind::mechanism_inertia;
+    if (value > 0.0 || (!is_of_tendon && kind != Kind::mechanism_stiffness))
+      parameters.push_back({kind, 0, key, value});
+  }
+}
+
 // A cable of no stiffness is none: no number that could grow.
 void add_mechanism(const DeviceParameters& device, std::vector<DesignParameter>& parameters) {
   const MechanismFile& mechanism = device.mechanism->mechanism;
   for (const auto& [joint, position] : mechanism.pose) {
     parameters.push_back({Kind::joint_position, 0, "mechanism.pose." + joint, position});
   }
+  add_file_numbers(device, parameters);
   for (std::size_t i = 0; i < mechanism.transmissions.size(); ++i) {
     const Transmission& motor = mechanism.transmissions[i];
     const auto add = [&](const char* name, double value) {

@@ -29,7 +29,10 @@ struct DesignParameter {
     user_mass,
     user_damping,
     user_stiffness,
-    transmission,    // of a motor in a mechanism
+    transmission,       // of a motor in a mechanism
+    mechanism_damping,  // of the mechanism's file
+    mechanism_stiffness,
+    mechanism_inertia,
     joint_position,  // of a mechanism's pose
   };
   Kind kind = Kind::body_mass;

@@ -1,4 +1,4 @@
-#include "report/text/workspace_text.hpp"
+#include "report/workspace_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "report/document.hpp"
+#include "report/figure/figures.hpp"
+#include "report/page/html_page.hpp"
 #include "report/text/explanation.hpp"
+#include "report/text/markup.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
@@ -25,6 +29,7 @@ namespace zwidth::report {
 namespace {
 
 constexpr std::size_t most_poses_shown = 8;
+constexpr std::size_t most_poses_on_page = 25;
 constexpr std::string_view tip_stiffness_unit = "N/m";
 
 /// "(0.985, 0.174, 0)"
@@ -49,12 +54,38 @@ class WorkspaceWriter {
     const FindingsText findings = findings_text(workspace_.trust, workspace_.remarks, shown);
     std::string text = shortened(display_name(device_), line_width) + "\n" + wrap(extent(), line_width, 2);
     if (!findings.against.empty()) text += findings.against;
-    if (!workspace_.least) return text + problems() + findings.remarks;
+    if (!workspace_.least) return text + problem_lines() + findings.remarks;
     text += holder(Holder::nobody, *workspace_.least);
     if (workspace_.least_any_user) text += holder(Holder::any_user, *workspace_.least_any_user);
     text += "\nOver all poses and directions tried\n" + layout(quantile_table());
     if (workspace_.share_at_least) text += "\n" + wrap(share_sentence(*workspace_.share_at_least), line_width, 0);
-    return text + worst_poses() + problems() + findings.remarks;
+    text += "\nPoses with the least limits\n" + layout(pose_table(worst_poses(most_poses_shown)));
+    if (const std::string shown_poses = shown_of_all(most_poses_shown); !shown_poses.empty()) {
+      text += fmt::format("  {}; --csv FILE or --json gives all\n", shown_poses);
+    }
+    return text + problem_lines() + findings.remarks;
+  }
+
+  [[nodiscard]] std::string page() const {
+    Document document(Medium::page);
+    document.verbatim("<div class=\"answer\">\n" + answer() + "</div>\n");
+    if (workspace_.least) {
+      document.figure("map", "The least limit at every place of the tip.",
+                      [&] { return draw_workspace(device_, workspace_, FigureFormat::svg); });
+      document.part("Over all poses and directions tried");
+      document.table(quantile_table());
+      if (workspace_.share_at_least) document.paragraph(share_sentence(*workspace_.share_at_least));
+      document.part("Poses with the least limits");
+      document.table(pose_table(worst_poses(most_poses_on_page)));
+      document.paragraph(shown_of_all(most_poses_on_page));
+    }
+    document.part("Where no limit is known");
+    document.list(problems());
+    document.part("Remarks");
+    std::vector<std::string> remarks;
+    for (const Remark& each : workspace_.remarks) remarks.push_back(remark_line(each));
+    document.list(remarks);
+    return std::move(document).str();
   }
 
  private:
@@ -90,11 +121,18 @@ class WorkspaceWriter {
     return text;
   }
 
+  /// "normal (1, 0, 0), tip (0.3, 0.2, 0) m"
+  [[nodiscard]] std::string direction_text(const WorkspaceLimit& limit) const {
+    return fmt::format("normal {}, tip {} m", vector_text(limit.normal), vector_text(workspace_.poses[limit.pose].tip));
+  }
+
+  [[nodiscard]] std::string place_text(const WorkspaceLimit& limit) const {
+    return fmt::format("{}; {}", pose_text(workspace_.poses[limit.pose]), direction_text(limit));
+  }
+
   [[nodiscard]] std::string holder(Holder who, const WorkspaceLimit& limit) const {
-    const WorkspacePose& pose = workspace_.poses[limit.pose];
     return labelled(fmt::format("  {}", words_of(who)), limit_text(who, limit)) +
-           labelled("", "at " + pose_text(pose)) +
-           labelled("", fmt::format("normal {}, tip {} m", vector_text(limit.normal), vector_text(pose.tip)));
+           labelled("", "at " + pose_text(workspace_.poses[limit.pose])) + labelled("", direction_text(limit));
   }
 
   [[nodiscard]] TextTable quantile_table() const {
@@ -131,19 +169,29 @@ class WorkspaceWriter {
                                                                                   : pose.least->nobody;
   }
 
-  [[nodiscard]] std::string worst_poses() const {
+  [[nodiscard]] std::vector<const WorkspacePose*> worst_poses(std::size_t most) const {
     std::vector<const WorkspacePose*> poses;
     for (const WorkspacePose& each : workspace_.poses) {
       if (each.least) poses.push_back(&each);
     }
-    const std::size_t shown = std::min(poses.size(), most_poses_shown);
-    const auto shown_end = poses.begin() + static_cast<std::ptrdiff_t>(shown);
-    std::partial_sort(poses.begin(), shown_end, poses.end(),
-                      [this](const WorkspacePose* one, const WorkspacePose* other) {
-                        const double a = worst_of(*one);
-                        const double b = worst_of(*other);
-                        return a != b ? a < b : one < other;
-                      });
+    const auto end = poses.begin() + static_cast<std::ptrdiff_t>(std::min(poses.size(), most));
+    std::partial_sort(poses.begin(), end, poses.end(), [this](const WorkspacePose* one, const WorkspacePose* other) {
+      const double a = worst_of(*one);
+      const double b = worst_of(*other);
+      return a != b ? a < b : one < other;
+    });
+    poses.erase(end, poses.end());
+    return poses;
+  }
+
+  /// "8 of 14 poses"; empty where all are shown.
+  [[nodiscard]] std::string shown_of_all(std::size_t most) const {
+    const auto all = static_cast<std::size_t>(
+        std::ranges::count_if(workspace_.poses, [](const WorkspacePose& pose) { return pose.least.has_value(); }));
+    return most < all ? fmt::format("{} of {} poses", most, all) : std::string();
+  }
+
+  [[nodiscard]] TextTable pose_table(const std::vector<const WorkspacePose*>& poses) const {
     TextTable table;
     std::vector<std::string> heads = workspace_.pose_joints;
     heads.insert(heads.end(), {"tip (m)", "nobody: least", "greatest"});
@@ -154,16 +202,12 @@ class WorkspaceWriter {
       table.alignment.push_back(is_text ? Align::left : Align::right);
     }
     table.rows.push_back(heads);
-    std::for_each(poses.begin(), shown_end, [&](const WorkspacePose* each) { table.rows.push_back(pose_row(*each)); });
-    std::string text = "\nPoses with the least limits\n" + layout(table);
-    if (shown < poses.size()) {
-      text += fmt::format("  {} of {} poses; --csv FILE or --json gives all\n", shown, poses.size());
-    }
-    return text;
+    for (const WorkspacePose* each : poses) table.rows.push_back(pose_row(*each));
+    return table;
   }
 
   /// Of each kind the first, and how often there is one.
-  [[nodiscard]] std::string problems() const {
+  [[nodiscard]] std::vector<std::string> problems() const {
     struct Met {
       const Problem* problem;
       std::size_t count;
@@ -177,14 +221,38 @@ class WorkspaceWriter {
       for (const RefusedDirection& each : pose.refused) add(each.problem);
       if (pose.problem && pose.refused.empty()) add(*pose.problem);
     }
-    if (all.empty()) return {};
-    std::string text = "\nWhere no limit is known\n";
+    std::vector<std::string> items;
     for (const Met& each : all) {
       const ProblemWords words = words_of(*each.problem);
       const std::string alike = each.count > 1 ? fmt::format(" ({} alike)", each.count) : "";
-      text += bulleted(fmt::format("{}{}{}{}", words.what, words.allowed.empty() ? "" : "; ", words.allowed, alike));
+      items.push_back(fmt::format("{}{}{}{}", words.what, words.allowed.empty() ? "" : "; ", words.allowed, alike));
     }
-    return text;
+    return items;
+  }
+
+  [[nodiscard]] std::string problem_lines() const {
+    std::string text;
+    for (const std::string& each : problems()) text += bulleted(each);
+    return text.empty() ? text : "\nWhere no limit is known\n" + text;
+  }
+
+  /// The first lines of a page.
+  [[nodiscard]] std::string answer() const {
+    const auto trust = trust_note(workspace_.trust);
+    std::string text = (trust ? element("p", *trust) : "") + element("p", extent());
+    const std::optional<WorkspaceLimit>& worst = has_any_user() ? workspace_.least_any_user : workspace_.least;
+    if (!worst) return text;
+    const Holder who = has_any_user() ? Holder::any_user : Holder::nobody;
+    text += element("p", fmt::format("Least limit of all, {}", words_of(who)));
+    text += fmt::format("<p class=\"value\">{}</p>\n",
+                        escape_markup(limit_value_text(worst->stiffness, tip_stiffness_unit)));
+    TextTable table{{Align::left, Align::left, Align::left}, {{"who holds", "limit", "where"}}};
+    const auto add = [&](Holder holder, const std::optional<WorkspaceLimit>& limit) {
+      if (limit) table.rows.push_back({std::string(words_of(holder)), limit_text(holder, *limit), place_text(*limit)});
+    };
+    add(Holder::nobody, workspace_.least);
+    add(Holder::any_user, workspace_.least_any_user);
+    return text + html_table(table);
   }
 
   [[nodiscard]] std::vector<std::string> pose_row(const WorkspacePose& pose) const {
@@ -211,6 +279,12 @@ class WorkspaceWriter {
 
 std::string workspace_text(const Device& device, const Workspace& workspace, ShownFindings shown) {
   return WorkspaceWriter(device, workspace).text(shown);
+}
+
+std::string workspace_page(const Device& device, const Workspace& workspace) {
+  const std::string title = fmt::format("{}: stiffest walls over its workspace", display_name(device));
+  return html_page(title, element("h1", title) + WorkspaceWriter(device, workspace).page() + "<footer>" +
+                              element("p", fmt::format("zwidth {}", ZWIDTH_VERSION)) + "</footer>");
 }
 
 std::string worst_pose_file(const Device& device, const Workspace& workspace, const std::string& folder) {
