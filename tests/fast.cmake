@@ -91,7 +91,8 @@ set(slow
   "^RigRelay\\.AllTrials"
   "^UdpDriver\\..*OverTheLink"
   "^UnsafeLimit\\.IsNoFalseAlarm"
-  "^(Drive/OnDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc)$"
+  "^(Drive/OnDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc|serial)$"
+  "^(AvrPaddle|FirmwareBuild)\\."
   "^Bench/OnDevice\\..*/([3-9]|1[0-9])$"
   "^Bench/IdentifiedDevice\\.")
 # What is skipped where something is missing: published recordings beside the project, MPI, a right to mount.
