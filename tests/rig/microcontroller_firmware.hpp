@@ -15,10 +15,10 @@ namespace zwidth::test {
 /// while the line is stalled is one whose watchdog looks when it goes on.
 class MicrocontrollerFirmware : public Firmware {
  public:
-  static constexpr std::uint16_t watchdog = 100;  // ms
   static constexpr std::uint8_t fault = 40;
 
-  MicrocontrollerFirmware() { zwidth_serial_begin(&board_, 1e6F, watchdog); }
+  /// ms
+  explicit MicrocontrollerFirmware(std::uint16_t watchdog = 100) { zwidth_serial_begin(&board_, 1e6F, watchdog); }
 
   [[nodiscard]] int baud() const override { return 1'000'000; }
 
@@ -55,6 +55,8 @@ class MicrocontrollerFirmware : public Firmware {
     zwidth_serial_fail(&board_, fault);
     motor.let_go();
   }
+
+  void begin_with_fault() { zwidth_serial_fail(&board_, fault); }
 
  private:
   void tell_letting_go(EmulatedMotor& motor) {
