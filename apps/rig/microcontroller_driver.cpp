@@ -85,6 +85,7 @@ auto MicrocontrollerDriver::answer(MicrocontrollerCommand command, Decode decode
 
 MicrocontrollerDriver::MicrocontrollerDriver(const SerialLink& link)
     : facts_(facts_of(link)),
+      sign_(link.drive.sign),
       port_(link.port, baud_of(link)),
       patience_(link.lock_step ? lock_step_patience
                                : std::llround(1e9 * serial_share_of_cycle * link.sampling_period)) {
@@ -142,7 +143,7 @@ std::optional<double> MicrocontrollerDriver::measure() noexcept {
   const bool has_let_go = !facts_.lock_step && is_armed_ && found->state != MicrocontrollerState::holding;
   trouble_ = !is_disarmed() && (has_fault || has_let_go) ? found->state : MicrocontrollerState::holding;
   if (trouble_ != MicrocontrollerState::holding) return std::nullopt;
-  return found->position;
+  return sign_ * found->position;
 }
 
 std::string MicrocontrollerDriver::trouble() const {
@@ -153,7 +154,7 @@ std::string MicrocontrollerDriver::trouble() const {
 }
 
 void MicrocontrollerDriver::send(double force) noexcept {
-  port_.write(microcontroller_force(force, next_sequence()).view());
+  port_.write(microcontroller_force(sign_ * force, next_sequence()).view());
 }
 
 void MicrocontrollerDriver::send_idle() noexcept {

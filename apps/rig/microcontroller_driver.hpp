@@ -16,7 +16,7 @@
 namespace zwidth::rig {
 
 /// A microcontroller with firmware/zwidth_serial.h on a serial port or USB: one question and one force per cycle, in SI
-/// units of the device, so that of [driver] the baud rate alone counts.
+/// units of the device, so that of [driver] the baud rate and the sign alone count.
 ///
 /// Answers repeat the sequence of their question: one that is late or lost costs its own cycle and no other. It lets go by
 /// itself where no force comes, says so, and takes none until it is held anew.
@@ -48,6 +48,7 @@ class MicrocontrollerDriver : public Driver {
   void require_usable(const MicrocontrollerDescription& found, double sampling_period) const;
 
   DriverFacts facts_;
+  double sign_;  // of [driver]
   SerialPort port_;
   std::int64_t patience_;  // ns, for a position
   std::array<char, 256> bytes_{};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -11,7 +12,7 @@
 
 namespace zwidth::test {
 
-/// A sketch around firmware/zwidth_serial.h, which is the very file that microcontrollers run. A loop that stands still
+/// A sketch around firmware/zwidth_serial.h, which is the very file that microcontrollers run; it counts as the motor does. A loop that stands still
 /// while the line is stalled is one whose watchdog looks when it goes on.
 class MicrocontrollerFirmware : public Firmware {
  public:
@@ -31,13 +32,13 @@ class MicrocontrollerFirmware : public Firmware {
       tell_letting_go(motor);
       const auto force = static_cast<double>(zwidth_serial_force(&board_, 0.0F, milliseconds()));
       if (board_.last != taken && state == ZWIDTH_SERIAL_HOLDING && !is_asked) {
-        motor.set_torque(force * motor.drive().torque_per_force());
+        motor.set_torque(force * std::abs(motor.drive().torque_per_force()));
       } else if (board_.state != state && force == 0.0) {
         motor.idle();
       }
       if (!is_asked) continue;
       std::array<std::uint8_t, ZWIDTH_SERIAL_MOST> out{};
-      const auto position = static_cast<float>(motor.turns() * motor.drive().position_per_turn());
+      const auto position = static_cast<float>(motor.turns() * std::abs(motor.drive().position_per_turn()));
       const std::uint8_t count = zwidth_serial_answer(&board_, position, 0.0F, out.data());
       answers.emplace_back(out.begin(), out.begin() + count);
     }
