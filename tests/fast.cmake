@@ -105,6 +105,7 @@ set(skipped
   "^Study\\.(ADiskThat|AFolderThatMayNot|IsTheSameForAnyNumberOfRanks|OfSeveralRanks|GoesOnAfterALostRank)")
 # What begins first, for it takes a quarter of a minute or more: at the end of a run one processor would wait for it.
 set(long
+  "^AvrPaddle\\.TheLimit"
   "^Hostile\\.SlowClients"
   "CampaignRecords"
   "^Frame\\.EveryHelp"
