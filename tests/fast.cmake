@@ -93,7 +93,8 @@ set(slow
   "^UnsafeLimit\\.IsNoFalseAlarm"
   "^LimitGrowth\\.(WhatTheEncoder|NoneOf)"
   "^DelayOfDrive\\."
-  "^(Drive/OnDrive|Drive/AnswersOfDrive|Drive/SignOfDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc)$"
+  "^(Drive/OnDrive|Drive/AnswersOfDrive|Drive/SignOfDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc|serial)$"
+  "^(AvrPaddle|FirmwareBuild)\\."
   "^Bench/OnDevice\\..*/([3-9]|1[0-9])$"
   "^Bench/IdentifiedDevice\\.")
 # What is skipped where something is missing: published recordings beside the project, MPI, a right to mount.
@@ -106,6 +107,7 @@ set(skipped
   "^Study\\.(ADiskThat|AFolderThatMayNot|IsTheSameForAnyNumberOfRanks|OfSeveralRanks|GoesOnAfterALostRank)")
 # What begins first, for it takes a quarter of a minute or more: at the end of a run one processor would wait for it.
 set(long
+  "^AvrPaddle\\.TheLimit"
   "^Hostile\\.SlowClients"
   "CampaignRecords"
   "^Frame\\.EveryHelp"

@@ -107,7 +107,8 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
   add_device_arguments(command, arguments.devices, FileCount::one);
   command
       .add_option("--driver", arguments.driver,
-                  "simulated, udp:HOST:PORT, or a serial line: odrive:PORT,\nsimplefoc:PORT, moteus:PORT, vesc:PORT")
+                  "simulated, udp:HOST:PORT, or a serial line: odrive:PORT,\nsimplefoc:PORT, moteus:PORT, vesc:PORT, "
+                  "or serial:PORT with a\nsketch around firmware/zwidth_serial.h")
       ->type_name("DRIVER")
       ->capture_default_str();
   command.add_flag("--real-time", arguments.real_time, "Keep the clock with a simulated device too");

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "rig/microcontroller_driver.hpp"
 #include "rig/moteus_driver.hpp"
 #include "rig/odrive_driver.hpp"
 #include "rig/simplefoc_driver.hpp"
@@ -29,6 +30,12 @@ std::unique_ptr<Driver> open_serial(const std::string& port, const Device& devic
   }
   return std::make_unique<SerialKind>(
       SerialLink{.port = port, .drive = *device.parameters().driver, .sampling_period = device.loop().sampling_period});
+}
+
+std::unique_ptr<Driver> open_microcontroller(const std::string& port, const Device& device) {
+  return std::make_unique<MicrocontrollerDriver>(SerialLink{.port = port,
+                                                            .drive = device.parameters().driver.value_or(MotorDrive{}),
+                                                            .sampling_period = device.loop().sampling_period});
 }
 
 std::unique_ptr<Driver> open_udp(const std::string& address, const Device& device) {
@@ -56,6 +63,7 @@ constexpr std::array kinds{Kind{"odrive:", find_port_problem, open_serial<Odrive
                            Kind{"simplefoc:", find_port_problem, open_serial<SimplefocDriver>, true},
                            Kind{"moteus:", find_port_problem, open_serial<MoteusDriver>, true},
                            Kind{"vesc:", find_port_problem, open_serial<VescDriver>},
+                           Kind{"serial:", find_port_problem, open_microcontroller},
                            Kind{"udp:", find_udp_problem, open_udp}};
 
 const Kind* kind_of(std::string_view name) {

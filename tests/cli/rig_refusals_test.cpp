@@ -42,11 +42,14 @@ TEST_F(Rig, TellsWhatItCannotDo) {
     expect_refused("check " + lhifam + "--driver udp:" + address + " " + limits, 2, "--driver: udp:" + address + ": ");
     expect_refused("check " + lhifam + "--driver udp:" + address + " " + limits, 2, "udp:HOST:PORT");
   }
-  for (const std::string kind : {"odrive", "simplefoc", "moteus", "vesc"}) {
+  for (const std::string kind : {"odrive", "simplefoc", "moteus", "vesc", "serial"}) {
     expect_refused("check " + lhifam + "--driver " + kind + ": " + limits, 2,
                    "--driver: " + kind + ":: names no port; a serial port, such as /dev/ttyUSB0");
     expect_refused("check " + lhifam + "--driver " + kind + " " + limits, 2, "--driver: " + kind + ": is none; ");
   }
+  expect_refused("check " + lhifam + "--driver serial:/dev/null " + limits, 1, "is no serial port");
+  expect_refused("check " + lhifam + "--driver serial:/dev/null --set loop.sampling_period=1e-4 " + limits, 1,
+                 "the line is too slow: 38 bytes per cycle");
   expect_refused("check " + lhifam + "--driver odrive:/dev/null " + limits, 2, "driver: is missing");
   expect_refused("check " + lhifam + "--driver odrive:/dev/null --set driver.gear=2 " + limits, 2,
                  "driver.travel: is missing");
@@ -69,7 +72,7 @@ TEST_F(Rig, RunsADamperOnTheDriveWhereTheFileStatesItsLoop) {
   expect_refused("identify " + apart, 2, "which may have been closed around the record");
   const std::string slow = lhifam + "--set wall.damping=50 --set loop.damper.sampling_period=2e-3 --damper-on-drive ";
   expect_refused("wall " + slow + "--stiffness 4000", 2, "a damper on the drive runs faster than the spring");
-  for (const std::string driver : {"vesc:/dev/null", "udp:127.0.0.1:9"}) {
+  for (const std::string driver : {"vesc:/dev/null", "serial:/dev/null", "udp:127.0.0.1:9"}) {
     expect_refused("wall " + apart + limits + "--stiffness 4000 --driver " + driver, 2,
                    "closes no damper beside the force that it is sent; simulated, odrive, moteus and simplefoc do");
   }

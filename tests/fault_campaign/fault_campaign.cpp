@@ -324,7 +324,7 @@ int campaign(int runs, std::uint64_t seed, int together, std::string_view one_dr
   fmt::print("{:10} {:16} {:>6} {:>6} {:>6} {:>9} {:>9}  {}\n", "driver", "fault", "zero", "whole", "of", "forces",
              "restarts", "what stopped it");
   std::vector<Cell> cells;
-  for (const std::string_view driver : {"udp", "odrive", "moteus", "vesc", "simplefoc"}) {
+  for (const std::string_view driver : {"udp", "odrive", "moteus", "vesc", "simplefoc", "serial"}) {
     for (const FaultCase& fault : fault_cases) {
       const bool is_asked =
           (one_driver.empty() || one_driver == driver) && (one_fault.empty() || one_fault == fault.name);

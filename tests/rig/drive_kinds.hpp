@@ -4,6 +4,8 @@
 #include <memory>
 #include <string_view>
 
+#include "rig/microcontroller_driver.hpp"
+#include "rig/microcontroller_firmware.hpp"
 #include "rig/moteus_driver.hpp"
 #include "rig/moteus_firmware.hpp"
 #include "rig/odrive_driver.hpp"
@@ -39,7 +41,8 @@ inline constexpr std::array drive_kinds{
     DriveKind{"odrive", new_firmware<OdriveFirmware>, new_driver<rig::OdriveDriver>, true, true, true, true},
     DriveKind{"moteus", new_firmware<MoteusFirmware>, new_driver<rig::MoteusDriver>, true, true, true, true},
     DriveKind{"vesc", new_firmware<VescFirmware>, new_driver<rig::VescDriver>, true, true, false, false},
-    DriveKind{"simplefoc", new_firmware<SimplefocFirmware>, new_driver<rig::SimplefocDriver>, false, false, true,
-              true}};
+    DriveKind{"simplefoc", new_firmware<SimplefocFirmware>, new_driver<rig::SimplefocDriver>, false, false, true, true},
+    DriveKind{"serial", new_firmware<MicrocontrollerFirmware>, new_driver<rig::MicrocontrollerDriver>, true, true, true,
+              false}};
 
 }  // namespace zwidth::test

@@ -1,0 +1,185 @@
+#include "rig/microcontroller_driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rig/real_time.hpp"
+#include "zwidth/rig/serial_rate.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr int default_baud = 1'000'000;  // what an AVR at 16 MHz makes without an error
+constexpr unsigned known_version = 1;
+constexpr int tries_while_booting = 12;  // many boards start anew when their port is opened: 3 s
+constexpr std::int64_t booting_patience = 250'000'000;
+constexpr std::int64_t setup_patience = 500'000'000;
+constexpr std::int64_t lock_step_patience = 500'000'000;
+constexpr double cycles_within_watchdog = 2.0;
+constexpr double longest_watchdog = 1.0;  // s
+constexpr double silence_over_watchdog = 2.5;
+constexpr int idle_frames = 3;  // one may be lost
+constexpr std::string_view frame_end("\0", 1);
+constexpr double bytes_per_cycle =
+    microcontroller_question_bytes + microcontroller_answer_bytes + microcontroller_force_bytes;
+
+int baud_of(const SerialLink& link) { return link.drive.baud.value_or(default_baud); }
+
+DriverFacts facts_of(const SerialLink& link) {
+  const double baud = baud_of(link);
+  if (!link.lock_step) {
+    if (const auto problem = find_problem(SerialLoad{bytes_per_cycle, baud, link.sampling_period})) {
+      throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
+    }
+  }
+  return {.name = "serial:" + link.port,
+          .lock_step = link.lock_step,
+          .bytes_per_cycle = bytes_per_cycle,
+          .byte_rate = serial_rate(1.0, baud)};
+}
+
+std::string fault_text(unsigned state) { return fmt::format("the microcontroller stands on fault {}", state); }
+
+}  // namespace
+
+std::uint16_t MicrocontrollerDriver::next_sequence() noexcept {
+  return static_cast<std::uint16_t>(sequence_.fetch_add(1, std::memory_order_relaxed) + 1);
+}
+
+bool MicrocontrollerDriver::fill(std::int64_t until) noexcept {
+  std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_), bytes_.begin() + static_cast<std::ptrdiff_t>(end_),
+            bytes_.begin());
+  end_ -= std::exchange(begin_, 0);
+  if (end_ == bytes_.size()) end_ = 0;  // no frame is that long
+  const std::ptrdiff_t count = port_.read(std::span(bytes_).subspan(end_), until);
+  if (count > 0) end_ += static_cast<std::size_t>(count);
+  return count > 0;
+}
+
+std::optional<std::string_view> MicrocontrollerDriver::next_frame() noexcept {
+  const std::string_view all(bytes_.data() + begin_, end_ - begin_);
+  const std::size_t end = all.find('\0');
+  if (end == std::string_view::npos) return std::nullopt;
+  begin_ += end + 1;
+  return all.substr(0, end + 1);
+}
+
+template <typename Decode>
+auto MicrocontrollerDriver::answer(MicrocontrollerCommand command, Decode decode, std::int64_t patience) noexcept {
+  const std::uint16_t sequence = next_sequence();
+  const std::int64_t until = clock_now() + patience;
+  port_.write(microcontroller_frame(command, sequence).view());
+  decltype(decode(std::string_view())) found;
+  do {
+    for (auto frame = next_frame(); frame; frame = next_frame()) {
+      found = decode(*frame);
+      if (found && found->sequence == sequence) return found;
+    }
+  } while (fill(until));
+  found.reset();  // those that came were to older ones
+  return found;
+}
+
+MicrocontrollerDriver::MicrocontrollerDriver(const SerialLink& link)
+    : facts_(facts_of(link)),
+      sign_(link.drive.sign),
+      port_(link.port, baud_of(link)),
+      patience_(link.lock_step ? lock_step_patience
+                               : std::llround(1e9 * serial_share_of_cycle * link.sampling_period)) {
+  for (int i = 0; i < tries_while_booting; ++i) {
+    port_.write(frame_end);  // of what another program wrote
+    const std::int64_t begin = clock_now();
+    const auto found = answer(MicrocontrollerCommand::description, microcontroller_description, booting_patience);
+    if (!found) {
+      sleep_until(begin + booting_patience);  // a port that is gone answers at once
+      continue;
+    }
+    require_usable(*found, link.sampling_period);
+    facts_.watchdog = found->watchdog;
+    return;
+  }
+  throw DriverFailed(
+      "the microcontroller does not answer; check port and power, that its sketch is built around zwidth_serial.h, and "
+      "that driver.baud is the sketch's");
+}
+
+void MicrocontrollerDriver::require_usable(const MicrocontrollerDescription& found, double sampling_period) const {
+  if (found.version != known_version) {
+    throw DriverFailed(
+        fmt::format("the sketch speaks version {} of the protocol; {} is known: build it with the "
+                    "zwidth_serial.h of this program",
+                    found.version, known_version));
+  }
+  if (found.state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_text(found.state));
+  const double shortest = facts_.lock_step ? 0.0 : cycles_within_watchdog * sampling_period;
+  if (found.watchdog >= shortest && found.watchdog <= longest_watchdog) return;
+  throw DriverFailed(
+      fmt::format("the sketch's watchdog lets go after {:g} s without a force; {:g} s, two sampling periods, to {:g} s",
+                  found.watchdog, shortest, longest_watchdog));
+}
+
+MicrocontrollerDescription MicrocontrollerDriver::description() {
+  const auto found = answer(MicrocontrollerCommand::description, microcontroller_description, setup_patience);
+  if (!found) throw DriverFailed("the microcontroller does not answer any more");
+  return *found;
+}
+
+void MicrocontrollerDriver::arm() {
+  const auto found = answer(MicrocontrollerCommand::hold, microcontroller_answer, setup_patience);
+  if (!found) throw DriverFailed("the microcontroller does not answer any more");
+  if (found->state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_text(found->state));
+  if (found->state != MicrocontrollerState::holding) throw DriverFailed("the microcontroller takes no force");
+  is_armed_ = true;
+}
+
+std::optional<double> MicrocontrollerDriver::measure() noexcept {
+  const auto found = answer(MicrocontrollerCommand::question, microcontroller_answer, patience_);
+  if (!found) return std::nullopt;
+  // What the loop sends then moves nothing. (A simulation in lock step waits for no clock, nor does its watchdog matter.)
+  const bool has_fault = found->state >= MicrocontrollerState::first_fault;
+  const bool has_let_go = !facts_.lock_step && is_armed_ && found->state != MicrocontrollerState::holding;
+  trouble_ = !is_disarmed() && (has_fault || has_let_go) ? found->state : MicrocontrollerState::holding;
+  if (trouble_ != MicrocontrollerState::holding) return std::nullopt;
+  return sign_ * found->position;
+}
+
+std::string MicrocontrollerDriver::trouble() const {
+  if (trouble_ == MicrocontrollerState::holding) return "";
+  if (trouble_ >= MicrocontrollerState::first_fault) return fault_text(trouble_);
+  if (trouble_ == MicrocontrollerState::let_go) return "the microcontroller says that its watchdog has let go";
+  return "the microcontroller says that no host holds it: it has started anew, or was released";
+}
+
+void MicrocontrollerDriver::send(double force) noexcept {
+  port_.write(microcontroller_force(sign_ * force, next_sequence()).view());
+}
+
+void MicrocontrollerDriver::send_idle() noexcept {
+  port_.drop_unsent();
+  port_.write(frame_end);  // perhaps in the middle of a frame
+  for (int i = 0; i < idle_frames; ++i) {
+    port_.write(microcontroller_frame(MicrocontrollerCommand::release, next_sequence()).view());
+  }
+}
+
+std::optional<bool> MicrocontrollerDriver::proves_watchdog() {
+  for (int i = 0; i < proofs; ++i) {
+    const MicrocontrollerDescription before = description();
+    arm();
+    sleep_until(clock_now() + std::llround(1e9 * silence_over_watchdog * before.watchdog));
+    const MicrocontrollerDescription after = description();
+    is_armed_ = false;
+    const unsigned times = (after.times_let_go - before.times_let_go) & 0xffffU;
+    if (after.state == MicrocontrollerState::let_go && times == 1) {
+      facts_.watchdog = std::max(after.watchdog, after.silence);
+      return true;
+    }
+  }
+  facts_.watchdog.reset();
+  return false;
+}
+
+}  // namespace zwidth::rig
