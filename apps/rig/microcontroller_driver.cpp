@@ -38,6 +38,7 @@ DriverFacts facts_of(const SerialLink& link) {
   return {.name = "serial:" + link.port,
           .lock_step = link.lock_step,
           .bytes_per_cycle = bytes_per_cycle,
+          .force_bytes = microcontroller_force_bytes,
           .byte_rate = serial_rate(1.0, baud)};
 }
 
