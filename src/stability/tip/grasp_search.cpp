@@ -89,6 +89,13 @@ double extended_gain(const GainCondition& condition) {
   return constant / -half * (1.0 + std::sqrt(-square) / -half);
 }
 
+// How far from leaving a gain, relative; not positive where one is left.
+double openness(const GainCondition& condition) {
+  const double product = condition.quadratic * condition.constant;
+  const double square = condition.half * condition.half;
+  return square + std::abs(product) > 0.0 ? (product - square) / (square + std::abs(product)) : 0.0;
+}
+
 double real_gain(const GainCondition& condition) {
   return least_root(condition.constant, condition.half, condition.quadratic);
 }
@@ -348,18 +355,27 @@ std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall) 
     const auto& [constant, half, quadratic] = conditions[i];
     const bool is_open = half * half < quadratic * constant && half < 0.0;
     const double closest = is_open ? constant / -half : gains[i];
+    // What is least may lie at the end of where a gain is left: all that is looked at counts.
     const auto refine = [&](const auto& function) {
-      const double x = minimum(points[before], points[after], quick_bits, function).first;
-      const double gain = real_gain(condition_near(x));
-      if (std::isfinite(gain)) lows.push_back({gain, x, points[before], points[after]});
+      Low low{infinity, points[i], points[before], points[after]};
+      minimum(points[before], points[after], quick_bits, [&](double x) {
+        const GainCondition at = condition_near(x);
+        if (const double gain = real_gain(at); gain < low.gain) low.gain = gain, low.x = x;
+        return function(at);
+      });
+      if (std::isfinite(low.gain)) lows.push_back(low);
     };
+    if (is_open && openness(conditions[i]) <= openness(conditions[before]) &&
+        openness(conditions[i]) <= openness(conditions[after])) {
+      refine(openness);
+    }
     const bool is_low = gains[i] <= gains[before] && gains[i] <= gains[after];
     if (is_low && std::isfinite(gains[i]) && closest <= worth_refining * least) {
-      refine([&](double x) { return extended_gain(condition_near(x)); });
+      refine(extended_gain);
     }
     const bool is_nearly_beaten = constant <= conditions[before].constant && constant <= conditions[after].constant &&
                                   constant < damper_nearly_beaten;
-    if (is_nearly_beaten) refine([&](double x) { return condition_near(x).constant; });
+    if (is_nearly_beaten) refine([](const GainCondition& at) { return at.constant; });
   }
   return lows;
 }
