@@ -404,11 +404,14 @@ GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
   };
   for (const Low& each : found) {
     if (each.gain > worth_refining_exactly * quick) continue;
-    take(real_gain(condition(each.x)), each.x);
+    const auto look = [&](double x) {
+      const GainCondition at = condition(x);
+      take(real_gain(at), x);
+      return extended_gain(at);
+    };
+    look(each.x);
     if (least.gain == 0.0) return least;
-    const double x =
-        minimum(each.before, each.after, exact_bits, [&](double at) { return extended_gain(condition(at)); }).first;
-    take(real_gain(condition(x)), x);
+    minimum(each.before, each.after, exact_bits, look);
   }
   return least;
 }
