@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -47,9 +48,10 @@ struct NormalLimitsOptions {
 ///     centre G_sa - jw g_s R^-1 g_a,   radius w |R^-1/2 g_s^H| |R^-1/2 g_a|
 ///
 /// and sampled over the sum of the discs of its aliases, as absolute_stability_limit() for one axis, of which the user is
-/// held to the normal: he is one of these. The least over frequency is found by a scan that is refined where it is low, from
-/// w = 1e-3/T, 3e-4/T where the motion has slower corners, to pi/T: it is not shown to be the least in between
-/// (FindingCode::any_grasp_scanned). The user of `loop` is left out. Throws Error (invalid_argument) as point_wall_limit(),
+/// held to the normal: he is one of these. The least over frequency is looked for from w = 1e-3/T, 3e-4/T where the motion has slower
+/// corners, to pi/T. What the discs are made of has poles only where R = 0 and where aliases have theirs, which are computed: on
+/// intervals that are short where those are near, it is polynomials, which are compared with the discs at the ends of each. Their
+/// least, refined on the discs, is not proven to be the least (FindingCode::any_grasp_scanned). The user of `loop` is left out. Throws Error (invalid_argument) as point_wall_limit(),
 /// and for a normal along which the tip cannot move. Source: docs/theory.md, "Several axes".
 [[nodiscard]] GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop,
                                          const Eigen::Vector3d& normal);
@@ -60,7 +62,7 @@ struct NormalLimitsOptions {
 /// Throws Error (invalid_argument) for a normal along which the tip cannot move.
 class GraspedPlant {
  public:
-  /// `loop` gives period, delay and lag; its user is left out.
+  /// `loop` gives period, delay, lag, and the filters of its wall; its user is left out.
   GraspedPlant(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal);
 
   /// |p - centre| <= radius, m/N.
@@ -71,8 +73,16 @@ class GraspedPlant {
   /// 0 < frequency <= pi/T, rad/s.
   [[nodiscard]] Disc at(double frequency) const;
 
-  /// rad/s, rising: where a scan looks, from 1e-3/T or 3e-4/T to pi/T, and beside the poles.
-  [[nodiscard]] const std::vector<double>& frequencies() const;
+  /// At one frequency a wall g unit + closed with the gain g, the filters that it is behind multiplied in.
+  struct Wall {
+    std::complex<double> unit;    ///< of the gain's unit
+    std::complex<double> closed;  ///< N/m
+  };
+  /// The least gain g > 0 that some grasp destabilises, in `stiffness`: 1 + (g unit + closed) p = 0 for some p of a disc.
+  ///
+  /// Found as any_grasp_limit() finds it. `wall` is asked at 0 < frequency <= pi/T, rad/s; it changes as the filters of `loop` do, and
+  /// slowly besides.
+  [[nodiscard]] GraspLimit least_gain(const std::function<Wall(double frequency)>& wall) const;
 
   /// Nothing dissipates some motion of the tip: some grasp destabilises any wall.
   [[nodiscard]] bool is_undamped() const;

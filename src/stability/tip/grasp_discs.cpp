@@ -1,6 +1,6 @@
 #include "stability/tip/grasp_discs.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -20,17 +20,10 @@ constexpr double past_corners = 4.0;  // beyond this many times the highest corn
 constexpr std::size_t least_aliases = 12;
 constexpr double most_aliases = 2000.0;
 constexpr double undamped_below = 1e-12;  // relative, of what the tip's motions dissipate
+constexpr double least_damping = 1e-9;    // relative, of a motion that nothing damps, where R = 0 is sought
 
 // Quicker than the division, which looks for what overflows.
 ComplexNumber reciprocal(ComplexNumber value) { return std::conj(value) / std::norm(value); }
-
-// The real part of n' form n by the products of n.
-Eigen::Matrix<double, 1, 6> by_products(const Eigen::Matrix3cd& form) {
-  Eigen::Matrix<double, 1, 6> row;
-  row << form(0, 0).real(), form(1, 1).real(), form(2, 2).real(), form(0, 1).real() + form(1, 0).real(),
-      form(0, 2).real() + form(2, 0).real(), form(1, 2).real() + form(2, 1).real();
-  return row;
-}
 
 // (K - w^2 + jw D) x = b by elimination with row pivots, in place; columns of `b` side by side.
 void solve_motion(Eigen::MatrixXcd& rows, Eigen::MatrixXcd& b) {
@@ -58,6 +51,18 @@ void solve_motion(Eigen::MatrixXcd& rows, Eigen::MatrixXcd& b) {
       b(k, j) *= rows(k, k);
     }
   }
+}
+
+// sT of z'' + D z' + K z = 0.
+std::vector<ComplexNumber> motion_poles(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping,
+                                        double period) {
+  const Eigen::Index n = stiffness.rows();
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  motion.topRightCorner(n, n).setIdentity();
+  motion.bottomLeftCorner(n, n) = -period * period * stiffness;
+  motion.bottomRightCorner(n, n) = -period * damping;
+  const Eigen::VectorXcd poles = eigenvalues(motion);
+  return {poles.begin(), poles.end()};
 }
 
 }  // namespace
@@ -130,19 +135,53 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   return alias;
 }
 
-std::vector<ComplexNumber> GraspDiscs::held_poles() const {
+// Columns: an orthonormal basis of the motions in which the tip stands still.
+Eigen::MatrixXd GraspDiscs::still_motions() const {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
-  const Eigen::Index n = of_.tip.cols() - tip.rank();
   const Eigen::MatrixXd q = tip.householderQ();
-  const Eigen::MatrixXd still = q.rightCols(n);
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  motion.topRightCorner(n, n).diagonal().setConstant(1.0 / period_);
-  motion.bottomLeftCorner(n, n) = -period_ * still.transpose() * of_.stiffness * still;
-  motion.bottomRightCorner(n, n) = -still.transpose() * of_.damping * still;
-  std::vector<ComplexNumber> poles;
-  if (n == 0) return poles;
-  for (const ComplexNumber& s : eigenvalues(motion)) poles.push_back(std::exp(s * period_));
+  return q.rightCols(of_.tip.cols() - tip.rank());
+}
+
+std::vector<ComplexNumber> GraspDiscs::poles() const {
+  const Eigen::MatrixXd still = still_motions();
+  std::vector<ComplexNumber> poles = response_.poles();
+  if (still.cols() == 0) return poles;
+  for (const ComplexNumber& s :
+       motion_poles(still.transpose() * of_.stiffness * still, still.transpose() * of_.damping * still, period_)) {
+    poles.push_back(std::exp(s));
+  }
   return poles;
+}
+
+std::vector<ComplexNumber> GraspDiscs::free_poles() const {
+  std::vector<ComplexNumber> poles = motion_poles(of_.stiffness, of_.damping, period_);
+  std::erase_if(poles, [](const ComplexNumber& s) { return !(s.imag() > 0.0); });
+  return poles;
+}
+
+std::vector<ComplexNumber> GraspDiscs::lossless_points() const {
+  std::vector<ComplexNumber> points;
+  if (lag_ > 0.0) points.emplace_back(-period_ / lag_, 0.0);
+  const Eigen::MatrixXd still = still_motions();
+  const Eigen::Index n = still.cols();
+  if (n == 0 || undamped_) return points;
+  Eigen::MatrixXd damping = period_ * of_.damping;
+  damping.diagonal().array() += least_damping * damping.norm();
+  const Eigen::MatrixXd stiffness = period_ * period_ * of_.stiffness;
+  const Eigen::LDLT<Eigen::MatrixXd> damped(damping);
+  const Eigen::MatrixXd moved = damped.solve(still);               // D^-1 S
+  const Eigen::MatrixXd sprung = damped.solve(stiffness * still);  // D^-1 K S
+  const Eigen::MatrixXd mixed = still.transpose() * stiffness * moved;
+  const Eigen::LDLT<Eigen::MatrixXd> leading(still.transpose() * moved);
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  companion.topRightCorner(n, n).setIdentity();
+  companion.bottomLeftCorner(n, n) = -leading.solve(still.transpose() * stiffness * sprung);
+  companion.bottomRightCorner(n, n) = -leading.solve(mixed + mixed.transpose() - still.transpose() * damping * still);
+  for (const ComplexNumber& square : eigenvalues(companion)) {
+    const ComplexNumber root = std::sqrt(square);
+    points.push_back(root.imag() >= 0.0 ? root : -root);
+  }
+  return points;
 }
 
 GraspDiscs::Sample GraspDiscs::own_at(double angle) const {
@@ -155,37 +194,55 @@ GraspDiscs::Sample GraspDiscs::own_at(double angle) const {
   sample.plant.setZero();
   sample.plant.topLeftCorner(m, m) = response_.at(angle);
   sample.own = alias(angle / period_);
-  sample.shift_of_others.setZero();
   return sample;
 }
 
-GraspDiscs::Sample GraspDiscs::at(double angle) const {
-  Sample sample = own_at(angle);
+GraspDiscs::Others GraspDiscs::others_at(double angle) const {
+  Others others;
   const double spacing = 2.0 * pi / period_;
-  sample.others.reserve(2 * rule_.nodes.size());
+  others.blocks.reserve(2 * rule_.nodes.size());
   for (std::size_t i = 1; i < rule_.nodes.size(); ++i) {
     const AliasSumQuadrature::Node& node = rule_.nodes[i];
     for (const double side : {1.0, -1.0}) {
       Alias other = alias(node.number * spacing + side * angle / period_);
       const Eigen::Matrix3cd shift = node.turning * other.shift;
-      sample.shift_of_others += side > 0.0 ? shift : shift.conjugate();
+      others.shift += side > 0.0 ? shift : shift.conjugate();
       other.weight = node.still;
       if (side < 0.0) {  // of the negative frequency
         other.left = other.left.conjugate().eval();
         other.right = other.right.conjugate().eval();
       }
-      sample.others.push_back(other);
+      others.blocks.push_back(other);
     }
   }
-  const auto count = static_cast<Eigen::Index>(sample.others.size());
-  sample.left_forms.resize(count, 6);
-  sample.right_forms.resize(count, 6);
+  const auto count = static_cast<Eigen::Index>(others.blocks.size());
+  others.left_forms.resize(count, 6);
+  others.right_forms.resize(count, 6);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Alias& other = sample.others[static_cast<std::size_t>(i)];
-    sample.left_forms.row(i) = other.weight * other.weight * by_products(other.left);
-    sample.right_forms.row(i) = by_products(other.right);
+    const Alias& other = others.blocks[static_cast<std::size_t>(i)];
+    others.left_forms.row(i) = other.weight * other.weight * by_products(other.left.real());
+    others.right_forms.row(i) = by_products(other.right.real());
   }
+  return others;
+}
+
+GraspDiscs::Sample GraspDiscs::at(double angle) const {
+  Sample sample = own_at(angle);
+  sample.others = others_at(angle);
   return sample;
+}
+
+Eigen::Matrix<double, 6, 1> products_of(const Eigen::Vector3d& normal) {
+  Eigen::Matrix<double, 6, 1> products;
+  products << normal.x() * normal.x(), normal.y() * normal.y(), normal.z() * normal.z(), normal.x() * normal.y(),
+      normal.x() * normal.z(), normal.y() * normal.z();
+  return products;
+}
+
+Eigen::Matrix<double, 1, 6> by_products(const Eigen::Matrix3d& form) {
+  Eigen::Matrix<double, 1, 6> row;
+  row << form(0, 0), form(1, 1), form(2, 2), form(0, 1) + form(1, 0), form(0, 2) + form(2, 0), form(1, 2) + form(2, 1);
+  return row;
 }
 
 }  // namespace zwidth::internal

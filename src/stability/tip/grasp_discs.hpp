@@ -30,31 +30,51 @@ class GraspDiscs {
     Eigen::Matrix3cd left;
     Eigen::Matrix3cd right;
   };
-  // The frequency itself apart from what the others add; all but `plant` over `shared`.
+  // All aliases but the frequency's own.
+  struct Others {
+    Eigen::Matrix3cd shift = Eigen::Matrix3cd::Zero();
+    std::vector<Alias> blocks;  // without shift
+    // A row each: n' weight^2 left n and n' right n by products_of(n).
+    Eigen::Matrix<double, Eigen::Dynamic, 6> left_forms;
+    Eigen::Matrix<double, Eigen::Dynamic, 6> right_forms;
+  };
+  // All but `plant` over `shared`.
   struct Sample {
     double angle = 0.0;
     std::complex<double> shared;  // (1 - e^{-jwT}) e^{-jwt_d}/T
     Eigen::Matrix3cd plant;       // free
     Alias own;
-    Eigen::Matrix3cd shift_of_others;
-    std::vector<Alias> others;  // without shift
-    // Of the others, a row each: n' weight^2 left n and n' right n by n_x^2, n_y^2, n_z^2, n_x n_y, n_x n_z, n_y n_z.
-    Eigen::Matrix<double, Eigen::Dynamic, 6> left_forms;
-    Eigen::Matrix<double, Eigen::Dynamic, 6> right_forms;
+    Others others;
   };
   // 0 < angle = w T <= pi.
   [[nodiscard]] Sample at(double angle) const;
   // Without the others.
   [[nodiscard]] Sample own_at(double angle) const;
+  // 0 <= angle <= pi.
+  [[nodiscard]] Others others_at(double angle) const;
 
-  // e^{sT} of the motions that are left where the tip stands still: a grasp that holds it so makes them the loop's own.
-  [[nodiscard]] std::vector<std::complex<double>> held_poles() const;
+  // sT at which R = 0, those with a positive imaginary part, and of the lag: the poles of all of the frequency's own but `plant`.
+  //
+  //     S' [(l + K) D^-1 (l + K) - l D] S x = 0,   l = s^2,   M = 1,   S: the motions in which the tip stands still
+  //
+  // (s^2 + s D + K) g = t' and t (s^2 - s D + K)^-1 D g = 0. Where nothing damps some motion, D is taken a little larger.
+  [[nodiscard]] std::vector<std::complex<double>> lossless_points() const;
+  // sT of the free motions, those with a positive imaginary part.
+  [[nodiscard]] std::vector<std::complex<double>> free_poles() const;
+
+  // e^{sT} of the free motions, and of those that are left where the tip stands still: a grasp that holds it so makes them the
+  // loop's own.
+  [[nodiscard]] std::vector<std::complex<double>> poles() const;
+
+  // In how many the tip moves.
+  [[nodiscard]] Eigen::Index directions() const { return of_.tip.rows(); }
 
   // Nothing dissipates some motion of the tip: some grasp destabilises any wall.
   [[nodiscard]] bool is_undamped() const { return undamped_; }
 
  private:
   [[nodiscard]] Alias alias(double frequency) const;
+  [[nodiscard]] Eigen::MatrixXd still_motions() const;
 
   TipCoordinates of_;
   TipResponse response_;
@@ -64,5 +84,10 @@ class GraspDiscs {
   bool undamped_ = false;
   AliasSumQuadrature rule_;
 };
+
+// n_x^2, n_y^2, n_z^2, n_x n_y, n_x n_z, n_y n_z.
+[[nodiscard]] Eigen::Matrix<double, 6, 1> products_of(const Eigen::Vector3d& normal);
+// The real or imaginary part of n' form n by those.
+[[nodiscard]] Eigen::Matrix<double, 1, 6> by_products(const Eigen::Matrix3d& form);
 
 }  // namespace zwidth::internal

@@ -1,12 +1,12 @@
 #include "stability/tip/grasp_stiffness.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "eigenvalues.hpp"
 #include "stability/loop/damper_response.hpp"
-#include "stability/users/disc_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -53,36 +53,28 @@ double least_of_block(const Eigen::MatrixXcd& centre, const Eigen::MatrixXcd& le
 
 }  // namespace
 
-OthersAlong others_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d& normal) {
-  Eigen::Matrix<double, 6, 1> products;
-  products << normal.x() * normal.x(), normal.y() * normal.y(), normal.z() * normal.z(), normal.x() * normal.y(),
-      normal.x() * normal.z(), normal.y() * normal.z();
-  const Eigen::ArrayXd left = sample.left_forms * products;
-  const Eigen::ArrayXd right = sample.right_forms * products;
-  return {(normal.transpose() * sample.shift_of_others * normal).value(), (left * right).cwiseMax(0.0).sqrt().sum()};
+double radius_of_others(const GraspDiscs::Others& others, const Eigen::Matrix<double, 6, 1>& products) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < others.left_forms.rows(); ++i) {
+    const double square = others.left_forms.row(i).dot(products) * others.right_forms.row(i).dot(products);
+    sum += std::sqrt(std::max(square, 0.0));
+  }
+  return sum;
 }
 
-GraspedPlant::Disc disc_along(const GraspDiscs::Sample& sample, const OthersAlong& others,
-                              const Eigen::Vector3d& normal) {
-  const std::complex<double> shift = (normal.transpose() * sample.own.shift * normal).value() + others.shift;
-  return {(normal.transpose() * sample.plant * normal).value() - sample.shared * shift,
-          std::abs(sample.shared) * (radius_along(sample.own, normal) + others.radius)};
-}
-
-double least_stiffness_along(const GraspDiscs::Sample& sample, const OthersAlong& others, const Eigen::Vector3d& normal,
-                             VirtualDamper damper, double period) {
-  const auto [centre, radius] = disc_along(sample, others, normal);
-  const double power = (std::abs(centre) - radius) * (std::abs(centre) + radius);  // |c|^2 - r^2
-  const std::complex<double> closed = damper_response(damper, period, sample.angle / period);
-  return least_root(1.0 + 2.0 * (closed * centre).real() + power * std::norm(closed),
-                    centre.real() + power * closed.real(), power);
+TerminationDiscs::Disc disc_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d& normal) {
+  const std::complex<double> shift = (normal.transpose() * (sample.own.shift + sample.others.shift) * normal).value();
+  const double others = radius_of_others(sample.others, products_of(normal));
+  const std::complex<double> centre = (normal.transpose() * sample.plant * normal).value() - sample.shared * shift;
+  const double radius = std::abs(sample.shared) * (radius_along(sample.own, normal) + others);
+  return {centre, radius, (std::abs(centre) - radius) * (std::abs(centre) + radius), 1.0};
 }
 
 PointStiffness least_stiffness_of_point(const GraspDiscs::Sample& sample, Eigen::Index m, VirtualDamper damper,
                                         double period) {
   const double shared = std::abs(sample.shared);
   const Eigen::MatrixXcd centre =
-      (sample.plant - sample.shared * (sample.own.shift + sample.shift_of_others)).topLeftCorner(m, m);
+      (sample.plant - sample.shared * (sample.own.shift + sample.others.shift)).topLeftCorner(m, m);
   const std::complex<double> closed = damper_response(damper, period, sample.angle / period);
   Eigen::MatrixXcd left = Eigen::MatrixXcd::Zero(m, m);
   Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(m, m);
@@ -96,7 +88,7 @@ PointStiffness least_stiffness_of_point(const GraspDiscs::Sample& sample, Eigen:
   PointStiffness least;
   add(sample.own);
   least.at_most = least_of_block(centre, left, right, closed);
-  for (const GraspDiscs::Alias& each : sample.others) add(each);
+  for (const GraspDiscs::Alias& each : sample.others.blocks) add(each);
   least.at_least = least_of_block(centre, left, right, closed);
   return least;
 }

@@ -1,17 +1,13 @@
 #include <algorithm>
-#include <array>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <complex>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "stability/loop/damper_response.hpp"
 #include "stability/tip/gain_march.hpp"
-#include "stability/tip/grasp_discs.hpp"
-#include "stability/tip/grasp_stiffness.hpp"
+#include "stability/tip/grasp_search.hpp"
 #include "stability/tip/limits_at_pose.hpp"
 #include "stability/tip/scan_angles.hpp"
 #include "stability/tip/tip_response.hpp"
@@ -23,22 +19,17 @@
 namespace zwidth {
 namespace {
 
-using internal::GraspDiscs;
-using internal::OthersAlong;
+using internal::GraspSearch;
 using internal::SampledTip;
 using internal::TipResponse;
 using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double at_low_end = 1.001;  // times the lowest angle of the scan over grasps
 constexpr double lowest_crossover = 1e-5;
 constexpr int crossover_angles = 120;
 constexpr double confirmed_to = 1e-6;  // relative, of K
 constexpr double still_normal = 1e-9;  // what the tip moves of it
 constexpr int most_halvings = 80;
-constexpr double worth_refining = 1.3;  // times the least of the scan
-constexpr int exact_bits = 26;
-constexpr int quick_bits = 14;
 
 VirtualDamper damper_of(const DeviceParameters& loop) { return {loop.wall.damping, loop.wall.velocity_filter_hz}; }
 
@@ -77,120 +68,39 @@ struct Posed {
   SampledTip plant;
 };
 
-struct Minimum {
-  double value = infinity;
-  double angle = 0.0;
-};
-
-// The least of a function whose samples at rising angles are given: lows of the scan are refined.
-template <typename Function>
-Minimum refined_minimum(const std::vector<double>& angles, const std::vector<double>& values, int bits,
-                        const Function& function) {
-  const auto scanned = std::ranges::min_element(values);
-  Minimum least{*scanned, angles[static_cast<std::size_t>(scanned - values.begin())]};
-  const double scan = least.value;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t before = i == 0 ? 0 : i - 1;
-    const std::size_t after = std::min(i + 1, values.size() - 1);
-    const bool is_low = values[i] <= values[before] && values[i] <= values[after] && values[i] <= worth_refining * scan;
-    if (!is_low || !(scan > 0.0) || !std::isfinite(scan)) continue;
-    std::uintmax_t most = 60;
-    const auto found = boost::math::tools::brent_find_minima(
-        [&](double angle) {
-          const double value = function(i, angle);
-          return std::isfinite(value) ? value : std::numeric_limits<double>::max();
-        },
-        angles[before], angles[after], bits, most);
-    if (found.second < least.value) least = {found.second, found.first};
-  }
-  return least;
-}
-
-class GraspScan {
+// Any grasp of the tip, with the damper of the wall.
+class GraspsAtPose {
  public:
-  explicit GraspScan(const Posed& posed)
-      : period_(posed.plant.period),
+  explicit GraspsAtPose(const Posed& posed)
+      : search_(posed.motion, posed.loop, posed.directions, posed.plant),
+        wall_(search_.wall([damper = damper_of(posed.loop), period = posed.plant.period](double angle) {
+          return internal::WallResponse{1.0, internal::damper_response(damper, period, angle / period)};
+        })),
         damper_(damper_of(posed.loop)),
-        discs_(posed.motion, posed.loop, posed.directions, posed.plant) {
-    if (discs_.is_undamped()) return;
-    angles_ = internal::grasp_angles(posed.plant, discs_);
-    for (const double angle : angles_) samples_.push_back(discs_.at(angle));
-  }
+        period_(posed.plant.period) {}
 
   [[nodiscard]] GraspLimit along(const Eigen::Vector3d& normal) const {
-    return least_along(normal, exact_bits, [&](std::size_t, double angle, const std::vector<OthersAlong>&) {
-      const GraspDiscs::Sample sample = discs_.at(angle);
-      return internal::least_stiffness_along(sample, internal::others_along(sample, normal), normal, damper_, period_);
-    });
+    return limit_of(GraspSearch::Along(search_, normal).least(wall_));
   }
 
-  // What the other aliases add, by a parabola through the scan.
   [[nodiscard]] GraspLimit quickly_along(const Eigen::Vector3d& normal) const {
-    return least_along(normal, quick_bits, [&](std::size_t i, double angle, const std::vector<OthersAlong>& others) {
-      return internal::least_stiffness_along(discs_.own_at(angle), interpolated(others, i, angle), normal, damper_,
-                                             period_);
-    });
+    return limit_of(GraspSearch::Along(search_, normal).quickly_least(wall_));
   }
 
   [[nodiscard]] PointGraspLimit of_point(Eigen::Index m) const {
-    if (discs_.is_undamped()) return {};
-    const auto at = [&](const GraspDiscs::Sample& sample) {
-      return internal::least_stiffness_of_point(sample, m, damper_, period_);
-    };
-    std::vector<double> lower;
-    std::vector<double> upper;
-    for (const GraspDiscs::Sample& sample : samples_) {
-      const internal::PointStiffness point = at(sample);
-      lower.push_back(point.at_least);
-      upper.push_back(point.at_most);
-    }
-    const Minimum least = refined_minimum(angles_, lower, exact_bits,
-                                          [&](std::size_t, double angle) { return at(discs_.at(angle)).at_least; });
-    const Minimum most = refined_minimum(angles_, upper, exact_bits,
-                                         [&](std::size_t, double angle) { return at(discs_.at(angle)).at_most; });
-    return {least.value, most.value, frequency_of(least)};
+    const auto [least, most] = search_.least_of_point(m, damper_);
+    return {least.gain, most.gain, limit_of(least).frequency};
   }
 
  private:
-  template <typename Function>
-  [[nodiscard]] GraspLimit least_along(const Eigen::Vector3d& normal, int bits, const Function& function) const {
-    if (discs_.is_undamped()) return {};
-    std::vector<OthersAlong> others;
-    std::vector<double> values;
-    for (const GraspDiscs::Sample& sample : samples_) {
-      others.push_back(internal::others_along(sample, normal));
-      values.push_back(internal::least_stiffness_along(sample, others.back(), normal, damper_, period_));
-    }
-    const Minimum least =
-        refined_minimum(angles_, values, bits, [&](std::size_t i, double angle) { return function(i, angle, others); });
-    return {least.value, least.value > 0.0 && std::isfinite(least.value) ? frequency_of(least) : 0.0};
+  [[nodiscard]] GraspLimit limit_of(const GraspSearch::Least& least) const {
+    return {least.gain, internal::frequency_of(least, period_)};
   }
 
-  // 0 where the scan is least at its low end.
-  [[nodiscard]] double frequency_of(const Minimum& least) const {
-    return least.angle > at_low_end * angles_.front() ? least.angle / period_ : 0.0;
-  }
-
-  [[nodiscard]] OthersAlong interpolated(const std::vector<OthersAlong>& others, std::size_t near, double angle) const {
-    const std::size_t first = std::clamp<std::size_t>(near, 1, angles_.size() - 2) - 1;
-    OthersAlong sum;
-    for (std::size_t i = first; i < first + 3; ++i) {
-      double share = 1.0;
-      for (std::size_t j = first; j < first + 3; ++j) {
-        if (j != i) share *= (angle - angles_[j]) / (angles_[i] - angles_[j]);
-      }
-      sum.shift += share * others[i].shift;
-      sum.radius += share * others[i].radius;
-    }
-    sum.radius = std::max(sum.radius, 0.0);
-    return sum;
-  }
-
-  double period_;
+  GraspSearch search_;
+  GraspSearch::Wall wall_;
   VirtualDamper damper_;
-  GraspDiscs discs_;
-  std::vector<double> angles_;
-  std::vector<GraspDiscs::Sample> samples_;
+  double period_;
 };
 
 // -1/P - B v, which is K where it is real.
@@ -292,7 +202,7 @@ struct LimitsAtPose::Scans {
   TipMotion motion;
   Posed posed;
   CrossoverScan crossovers;
-  std::optional<GraspScan> grasps;
+  std::optional<GraspsAtPose> grasps;
 };
 
 LimitsAtPose::LimitsAtPose(const TipMotion& motion, const DeviceParameters& loop, const NormalLimitsOptions& options)
@@ -312,12 +222,12 @@ GraspLimit LimitsAtPose::any_grasp_along(const Eigen::Vector3d& normal) const {
 
 GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal) {
   const Posed posed(motion, loop);
-  return GraspScan(posed).along(posed.along(normal));
+  return GraspsAtPose(posed).along(posed.along(normal));
 }
 
 PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop) {
   const Posed posed(motion, loop);
-  return GraspScan(posed).of_point(posed.directions.cols());
+  return GraspsAtPose(posed).of_point(posed.directions.cols());
 }
 
 std::vector<NormalLimits> limits_along(const TipMotion& motion, const DeviceParameters& loop,

@@ -2,33 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
-#include <utility>
-
-#include "stability/tip/tip_response.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double lowest_angle = 1e-3;
-constexpr double least_lowest_angle = 3e-4;
+constexpr double usual_lowest = 1e-3;
+constexpr double least_lowest = 3e-4;
 constexpr double below_corners = 0.01;
 constexpr double at_rest_below = 1e-9;  // |z - 1| of a pole that is at 1
-constexpr double angles_a_decade = 26;  // spaced evenly in their logarithm
-constexpr int even_angles = 200;        // spaced evenly: a damper leaves limits that are finite within 0.1 rad alone
 constexpr double same_angle = 1e-6;     // relative
-
-double lowest_of(const std::vector<std::complex<double>>& poles) {
-  double lowest = lowest_angle;
-  for (const std::complex<double>& z : poles) {
-    const double corner = std::abs(z - 1.0);
-    if (corner > at_rest_below) lowest = std::min(lowest, below_corners * corner);
-  }
-  return std::max(lowest, least_lowest_angle);
-}
 
 }  // namespace
 
@@ -43,14 +28,13 @@ std::vector<double> scan_angles(double lowest, int count, std::vector<double> an
   return angles;
 }
 
-std::vector<double> grasp_angles(const SampledTip& plant, const GraspDiscs& discs) {
-  std::vector<std::complex<double>> poles = TipResponse(plant).poles();
-  for (const std::complex<double>& each : discs.held_poles()) poles.push_back(each);
-  const double lowest = lowest_of(poles);
-  const double count = std::ceil(angles_a_decade * std::log10(pi / lowest));
-  std::vector<double> angles = angles_around(poles);
-  for (int i = 1; i < even_angles; ++i) angles.push_back(pi * i / even_angles);
-  return scan_angles(lowest, static_cast<int>(count), std::move(angles));
+double lowest_angle(const std::vector<std::complex<double>>& poles) {
+  double lowest = usual_lowest;
+  for (const std::complex<double>& z : poles) {
+    const double corner = std::abs(z - 1.0);
+    if (corner > at_rest_below) lowest = std::min(lowest, below_corners * corner);
+  }
+  return std::max(lowest, least_lowest);
 }
 
 }  // namespace zwidth::internal

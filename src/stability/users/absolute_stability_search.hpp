@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "stability/loop/damper_response.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "stability/users/disc_pieces.hpp"
-#include "stability/users/grasp_search.hpp"
 #include "stability/users/termination_discs.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
@@ -14,8 +14,7 @@ namespace zwidth::internal {
 /// absolute_stability_limit() of one device for many dampers: the discs do not depend on the damper and are summed once.
 ///
 /// A scan finds the minimum; then WallCondition shows on all of (0, pi/T], interval by interval, that nothing lies
-/// below it. Where that finds a frequency the scan has missed, the minimum there is taken. Of a mechanism: GraspSearch, a
-/// scan alone.
+/// below it. Where that finds a frequency the scan has missed, the minimum there is taken. Of a mechanism: AnyGrasp.
 class AbsoluteStabilitySearch {
  public:
   /// Throws as absolute_stability_limit().
@@ -35,7 +34,7 @@ class AbsoluteStabilitySearch {
     TerminationDiscs::Place place;
     double stiffness = 0.0;
   };
-  using FreeGain = GraspSearch::FreeGain;
+  using FreeGain = AnyGrasp::FreeGain;
   [[nodiscard]] AbsoluteStabilityLimit limit_of(VirtualDamper damper, const CriticalStiffness& free,
                                                 const Progress& progress);
   [[nodiscard]] WallResponse wall_at(VirtualDamper damper, double frequency) const;
@@ -51,7 +50,7 @@ class AbsoluteStabilitySearch {
 
   Device free_;
   TerminationDiscs discs_;
-  std::optional<GraspSearch> grasps_;  // of the tip of a mechanism; discs_ are then not asked
+  std::optional<AnyGrasp> grasps_;  // of the tip of a mechanism; discs_ are then not asked
   FreeGain free_gain_ = FreeGain::stiffness;
   double period_ = 0.0;
   DiscPieces pieces_;

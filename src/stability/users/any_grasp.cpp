@@ -1,14 +1,13 @@
 #include "stability/users/any_grasp.hpp"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
+#include <complex>
 
-#include "stability/users/grasp_search.hpp"
+#include "stability/loop/damper_response.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/tip_motion.hpp"
-#include "zwidth/stability/grasp_limit.hpp"
 
 namespace zwidth::internal {
 
@@ -24,30 +23,24 @@ std::optional<Remark> any_grasp_remark(const Device& device, bool is_known) {
   return note({.code = FindingCode::any_grasp_scanned});
 }
 
-std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
-                                                                   const CriticalStiffness& nobody) {
-  const std::optional<TipMotion> motion = tip_motion_of(device);
-  if (!motion || !device.parameters().mechanism) return std::nullopt;
-  DeviceParameters loop = device.parameters();
-  const bool is_apart = has_damper_loop(loop.loop) && damper.damping > 0.0;
-  if (is_apart) return std::nullopt;
-  if (!loop.wall.filters.empty() && nobody.stiffness > 0.0) {
-    AbsoluteStabilityLimit limit =
-        GraspSearch(device_without_user(device)).limit(GraspSearch::FreeGain::stiffness, damper, nobody);
-    limit.trust = nobody.trust;
-    return limit;
-  }
-  loop.loop.damper.reset();
-  loop.wall.damping = damper.damping;
-  loop.wall.velocity_filter_hz = damper.velocity_filter_hz;
+AnyGrasp::AnyGrasp(const Device& device)
+    : plant_(tip_motion_of(device).value(), device_without_user(device).parameters(),
+             Eigen::Vector3d(device.parameters().mechanism->normal.data())),
+      filters_(filtered_plant(with_one_rate(device_without_user(device)))),
+      period_(device.loop().sampling_period) {}
+
+AbsoluteStabilityLimit AnyGrasp::limit(FreeGain gain, VirtualDamper damper, const CriticalStiffness& nobody) const {
   AbsoluteStabilityLimit limit;
   limit.trust = nobody.trust;
   limit.stiffness = nobody.stiffness;
   if (std::isnan(nobody.stiffness) || nobody.stiffness == 0.0) return limit;
-  const Eigen::Vector3d normal(loop.mechanism->normal.data());
-  const GraspLimit grasp = any_grasp_limit(*motion, loop, normal);
+  const GraspLimit grasp = plant_.least_gain([&](double frequency) {
+    const std::complex<double> filters = filter_response(filters_, frequency * period_);
+    const std::complex<double> velocity = filters * damper_response(damper, period_, frequency);
+    return gain == FreeGain::damping ? GraspedPlant::Wall{velocity, 0.0} : GraspedPlant::Wall{filters, velocity};
+  });
   limit.needs_no_user = nobody.stiffness <= grasp.stiffness;
-  limit.stiffness = std::min(nobody.stiffness, grasp.stiffness);
+  if (!limit.needs_no_user) limit.stiffness = grasp.stiffness;
   if (limit.stiffness == 0.0 || std::isinf(limit.stiffness)) return limit;
   if (!limit.needs_no_user) {
     limit.frequency = grasp.frequency;
@@ -55,6 +48,13 @@ std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device&
     limit.frequency = nobody.limit->frequency;
   }
   return limit;
+}
+
+std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
+                                                                   const CriticalStiffness& nobody) {
+  const bool is_apart = has_damper_loop(device.loop()) && damper.damping > 0.0;
+  if (is_apart || !device.parameters().mechanism || !tip_motion_of(device)) return std::nullopt;
+  return AnyGrasp(device).limit(AnyGrasp::FreeGain::stiffness, damper, nobody);
 }
 
 }  // namespace zwidth::internal

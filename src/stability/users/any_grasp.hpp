@@ -4,8 +4,10 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/grasp_limit.hpp"
 
 namespace zwidth::internal {
 
@@ -17,9 +19,26 @@ namespace zwidth::internal {
 // direction where it is known.
 [[nodiscard]] std::optional<Remark> any_grasp_remark(const Device& device, bool is_known);
 
-// The limit over all passive users of a device along a normal of a mechanism: they grasp its tip in any direction, not along
-// the normal alone. `damper` is closed in place of the wall's. Nothing of other devices, and where it is not known: a
-// damper in a loop of its own. A scan, as any_grasp_limit() says, capped at what nobody leaves; behind filters GraspSearch.
+// The limit over all passive users of one device along a normal of a mechanism: they grasp its tip in any direction, not along the
+// normal alone. The dampers are closed in place of the wall's, behind its filters.
+class AnyGrasp {
+ public:
+  explicit AnyGrasp(const Device& device);
+
+  // Which gain is free: the stiffness beside the damper; or the damper's, whose VirtualDamper::damping is then 1 N s/m.
+  enum class FreeGain { stiffness, damping };
+
+  // At most `nobody`, the limit with nobody holding.
+  [[nodiscard]] AbsoluteStabilityLimit limit(FreeGain gain, VirtualDamper damper,
+                                             const CriticalStiffness& nobody) const;
+
+ private:
+  GraspedPlant plant_;
+  FilteredPlant filters_;
+  double period_ = 0.0;
+};
+
+// The same with one damper. Nothing of other devices, and where it is not known: a damper in a loop of its own.
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device,
                                                                                  VirtualDamper damper,
                                                                                  const CriticalStiffness& nobody);

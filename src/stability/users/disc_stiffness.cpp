@@ -18,12 +18,16 @@ double least_root(double constant, double half, double quadratic) {
 // With A = |c|² - r²:
 //
 //     1 + 2 Re[d c] + A |d|² + 2 g (Re[u c] + A Re[u conj d]) + g² A |u|² = 0
+GainCondition gain_condition(const TerminationDiscs::Disc& disc, const WallResponse& wall) {
+  const auto& [unit, closed] = wall;
+  return {disc.one + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),
+          (unit * disc.centre).real() + disc.power * (unit * std::conj(closed)).real(), disc.power * std::norm(unit)};
+}
+
 double least_gain(const TerminationDiscs::Disc& disc, const WallResponse& wall) {
   if (!std::isfinite(disc.radius)) return 0.0;
-  const auto& [unit, closed] = wall;
-  return least_root(disc.one + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),
-                    (unit * disc.centre).real() + disc.power * (unit * std::conj(closed)).real(),
-                    disc.power * std::norm(unit));
+  const GainCondition condition = gain_condition(disc, wall);
+  return least_root(condition.constant, condition.half, condition.quadratic);
 }
 
 // Lagrange in steps²: nodes 1, 4, 9

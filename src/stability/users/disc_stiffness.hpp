@@ -11,6 +11,14 @@ namespace zwidth::internal {
 /// sum is negative beside K = 0; infinity where there is none.
 [[nodiscard]] double least_root(double constant, double half, double quadratic);
 
+/// constant + 2 half g + quadratic g² > 0: no plant of the disc is at the verge with the gain g. A finite radius.
+struct GainCondition {
+  double constant = 1.0;
+  double half = 0.0;
+  double quadratic = 0.0;
+};
+[[nodiscard]] GainCondition gain_condition(const TerminationDiscs::Disc& disc, const WallResponse& wall);
+
 /// The least g > 0 with |1 + (g u + d) c| = |g u + d| r; infinity where there is none (1: disc.one).
 [[nodiscard]] double least_gain(const TerminationDiscs::Disc& disc, const WallResponse& wall);
 

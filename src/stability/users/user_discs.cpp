@@ -33,10 +33,6 @@ TerminationDiscs::Disc UserDiscs::at(double frequency) const {
   return {filters * centre, size * radius, size * size * power, 1.0};
 }
 
-std::vector<double> UserDiscs::frequencies_of_grasp() const {
-  return grasped_ ? grasped_->frequencies() : std::vector<double>{};
-}
-
 bool UserDiscs::is_undamped() const { return held_ ? held_->is_undamped() : grasped_->is_undamped(); }
 
 }  // namespace zwidth::internal

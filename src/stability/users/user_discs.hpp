@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "stability/users/termination_discs.hpp"
 #include "zwidth/model/device.hpp"
@@ -22,8 +21,6 @@ class UserDiscs {
   // 0 < frequency <= pi/T, rad/s.
   [[nodiscard]] TerminationDiscs::Disc at(double frequency) const;
 
-  // Of a grasped tip: where a scan looks; empty of a body.
-  [[nodiscard]] std::vector<double> frequencies_of_grasp() const;
   [[nodiscard]] bool is_undamped() const;
 
  private:

@@ -1,0 +1,459 @@
+#include "stability/tip/grasp_search.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+
+#include "stability/tip/scan_angles.hpp"
+#include "stability/users/disc_stiffness.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using std::numbers::pi;
+using ComplexNumber = std::complex<double>;
+using PartsRow = Eigen::Matrix<double, 5, 1>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double widest_own = 0.7;    // half of a panel, of the angle's logarithm: e^{jwT} turns, too
+constexpr double narrowest = 1e-3;    // half of a panel that is halved for its error
+constexpr double resolved_to = 1e-6;  // relative
+constexpr double rounded_to = 1e-13;  // relative, of what cancels
+constexpr std::size_t most_panels = 300;
+constexpr int points_per_panel = 40;
+constexpr std::size_t points_a_node = 2;          // of a point wall, whose discs are looked at themselves
+constexpr double at_low_end = 1.001;              // times the lowest angle
+constexpr double worth_refining = 1.3;            // times the least of the points
+constexpr double damper_nearly_beaten = 0.5;      // of the condition without a spring
+constexpr double worth_refining_exactly = 1.001;  // times the least of the polynomials
+constexpr int exact_bits = 26;
+constexpr int quick_bits = 16;
+constexpr std::uintmax_t most_looks = 60;
+
+// Where a function of |wT| has the pole that another alias has at `angle`.
+ComplexNumber folded(ComplexNumber angle) {
+  const double real = std::remainder(angle.real(), 2.0 * pi);
+  return real < 0.0 ? ComplexNumber(-real, -angle.imag()) : ComplexNumber(real, angle.imag());
+}
+
+struct KnownPoles {
+  std::vector<ComplexNumber> own;     // of the angle's logarithm
+  std::vector<ComplexNumber> others;  // of the angle
+};
+
+KnownPoles known_poles(const GraspDiscs& discs, const std::vector<ComplexNumber>& corners) {
+  KnownPoles poles;
+  const auto add_own = [&](ComplexNumber angle) {
+    if (std::abs(angle) > 0.0) poles.own.push_back(std::log(angle));
+  };
+  for (const ComplexNumber& s : discs.lossless_points()) {
+    const ComplexNumber angle(s.imag(), -s.real());
+    const ComplexNumber near = folded(angle);
+    add_own(near);
+    add_own(2.0 * pi - near);
+    poles.others.push_back(2.0 * pi - near);
+    if (angle.real() > pi) poles.others.push_back(near);
+  }
+  for (const ComplexNumber& s : discs.free_poles()) {
+    if (!(s.imag() > pi)) continue;
+    const ComplexNumber near = folded({s.imag(), -s.real()});
+    poles.others.push_back(near);
+    poles.others.push_back(2.0 * pi - near);
+  }
+  for (const ComplexNumber& z : corners) {
+    if (z != 0.0 && z.imag() >= 0.0) add_own({std::arg(z), -std::log(std::abs(z))});
+  }
+  return poles;
+}
+
+// Directions in which a pose's panels are compared with its discs.
+std::vector<Eigen::Matrix<double, 6, 1>> probes(Eigen::Index m) {
+  std::vector<Eigen::Matrix<double, 6, 1>> products;
+  for (Eigen::Index i = 0; i < m; ++i) products.push_back(products_of(Eigen::Vector3d::Unit(i)));
+  for (const double y : {1.0, -1.0}) {
+    Eigen::Vector3d between = Eigen::Vector3d::Zero();
+    between.head(m) = Eigen::Vector3d(1.0, y, 0.7 * y).head(m);
+    products.push_back(products_of(between.normalized()));
+  }
+  return products;
+}
+
+// The gain that the disc leaves; where none is left, more than the gain at which one comes closest to it.
+double extended_gain(const GainCondition& condition) {
+  const auto& [constant, half, quadratic] = condition;
+  const double square = half * half - quadratic * constant;
+  if (!(square < 0.0 && half < 0.0 && constant > 0.0)) return least_root(constant, half, quadratic);
+  return constant / -half * (1.0 + std::sqrt(-square) / -half);
+}
+
+// How far from leaving a gain, relative; not positive where one is left.
+double openness(const GainCondition& condition) {
+  const double product = condition.quadratic * condition.constant;
+  const double square = condition.half * condition.half;
+  return square + std::abs(product) > 0.0 ? (product - square) / (square + std::abs(product)) : 0.0;
+}
+
+double real_gain(const GainCondition& condition) {
+  return least_root(condition.constant, condition.half, condition.quadratic);
+}
+
+template <typename Function>
+std::pair<double, double> minimum(double first, double last, int bits, const Function& function) {
+  std::uintmax_t most = most_looks;
+  return boost::math::tools::brent_find_minima(
+      [&](double x) {
+        const double value = function(x);
+        return std::isfinite(value) ? value : std::numeric_limits<double>::max();
+      },
+      first, last, bits, most);
+}
+
+const Eigen::Matrix<double, points_per_panel, panel_nodes>& to_points() {
+  static const Eigen::Matrix<double, points_per_panel, panel_nodes> weights = [] {
+    Eigen::Matrix<double, points_per_panel, panel_nodes> rows;
+    for (int i = 0; i < points_per_panel; ++i) {
+      rows.row(i) = weights_at({0.0, 1.0}, -1.0 + 2.0 * i / points_per_panel).transpose();
+    }
+    return rows;
+  }();
+  return weights;
+}
+
+// What a normal makes of the forms.
+PartsRow parts_of(double real, double imaginary, double left, double right, double shared, double others) {
+  const double square = shared * shared * std::max(left * right, 0.0);
+  const double size = std::hypot(real, imaginary);
+  const double radius = std::sqrt(square);
+  return {real, imaginary, (size - radius) * (size + radius), square, shared * others};
+}
+
+// What a panel's polynomials are of, along each of the probes.
+using PartsOfProbes = Eigen::Matrix<double, Eigen::Dynamic, 5>;
+
+// Relative, where the polynomials say something else than the functions; more than 1: too far.
+double error_of(const PartsRow& is, const PartsRow& said, const PartsRow& largest) {
+  const double size = std::max({largest[0], largest[1], largest[4]});
+  const double rounding = rounded_to * size;
+  const PartsRow scale{resolved_to * largest[0] + rounding, resolved_to * size + rounding,
+                       resolved_to * std::max(largest[2], largest[0] * largest[0]) + rounding * size,
+                       resolved_to * largest[3] + rounding * size, resolved_to * largest[4] + rounding};
+  return ((is - said).cwiseAbs().array() / scale.array()).maxCoeff();
+}
+
+template <typename PartsAt>
+bool is_resolved(const Panel& panel, const std::vector<PartsOfProbes>& at_nodes, const PartsAt& parts_at) {
+  PartsOfProbes largest = at_nodes.front().cwiseAbs();
+  for (const PartsOfProbes& each : at_nodes) largest = largest.cwiseMax(each.cwiseAbs());
+  for (const double end : {panel.first(), panel.last()}) {
+    const NodeWeights weights = weights_at(panel, end);
+    PartsOfProbes said = PartsOfProbes::Zero(largest.rows(), 5);
+    for (int i = 0; i < panel_nodes; ++i) said += weights[i] * at_nodes[static_cast<std::size_t>(i)];
+    const PartsOfProbes is = parts_at(end);
+    for (Eigen::Index i = 0; i < is.rows(); ++i) {
+      if (error_of(is.row(i).transpose(), said.row(i).transpose(), largest.row(i).transpose()) > 1.0) return false;
+    }
+  }
+  return true;
+}
+
+// From left to right `add(panel, may_halve)`, which is false where the panel must be halved.
+template <typename Add>
+void add_panels(std::vector<Panel> open, const Add& add) {
+  std::ranges::reverse(open);
+  std::size_t count = open.size();
+  while (!open.empty()) {
+    const Panel panel = open.back();
+    open.pop_back();
+    if (add(panel, panel.half > narrowest && count < most_panels)) continue;
+    const double quarter = 0.5 * panel.half;
+    open.push_back({panel.centre + quarter, quarter});
+    open.push_back({panel.centre - quarter, quarter});
+    ++count;
+  }
+}
+
+}  // namespace
+
+GraspSearch::GraspSearch(const TipMotion& motion, const DeviceParameters& loop, const Eigen::MatrixXd& directions,
+                         const SampledTip& plant, const std::vector<ComplexNumber>& corners)
+    : discs_(motion, loop, directions, plant),
+      period_(loop.loop.sampling_period),
+      delay_angle_(loop.loop.delay / loop.loop.sampling_period) {
+  if (discs_.is_undamped()) return;
+  lowest_ = lowest_angle(discs_.poles());
+  const KnownPoles poles = known_poles(discs_, corners);
+  add_others(poles.others);
+  add_own(poles.own);
+  for (const OwnPanel& own : panels_) {
+    for (int i = 0; i < points_per_panel; ++i) {
+      points_.push_back(own.panel.centre + own.panel.half * (-1.0 + 2.0 * i / points_per_panel));
+    }
+  }
+  points_.push_back(panels_.back().panel.last());
+  for (double& point : points_) point = std::min(point, std::log(pi));
+  for (const double point : points_) delays_.push_back(std::polar(1.0, -delay_angle_ * std::exp(point)));
+}
+
+void GraspSearch::add_others(const std::vector<ComplexNumber>& poles) {
+  const auto directions = probes(discs_.directions());
+  const auto parts = [&](const GraspDiscs::Others& others) {
+    PartsOfProbes rows(static_cast<Eigen::Index>(directions.size()), 5);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      rows.row(static_cast<Eigen::Index>(i)) << by_products(others.shift.real()).dot(directions[i]),
+          by_products(others.shift.imag()).dot(directions[i]), 0.0, 0.0, radius_of_others(others, directions[i]);
+    }
+    return rows;
+  };
+  add_panels(panels_clear_of(0.0, pi, poles, pi), [&](const Panel& panel, bool may_halve) {
+    OthersPanel others{panel, {}};
+    std::vector<PartsOfProbes> at_nodes;
+    for (int i = 0; i < panel_nodes; ++i) {
+      others.at_nodes.push_back(discs_.others_at(panel_node(panel, i)));
+      at_nodes.push_back(parts(others.at_nodes.back()));
+      others.at_nodes.back().blocks.clear();
+    }
+    if (may_halve && !is_resolved(panel, at_nodes, [&](double angle) { return parts(discs_.others_at(angle)); })) {
+      return false;
+    }
+    others_.push_back(std::move(others));
+    return true;
+  });
+}
+
+std::size_t GraspSearch::others_panel_of(double angle) const {
+  const auto after =
+      std::ranges::upper_bound(others_, angle, {}, [](const OthersPanel& each) { return each.panel.first(); });
+  return after == others_.begin() ? 0 : static_cast<std::size_t>(after - others_.begin()) - 1;
+}
+
+GraspSearch::OwnForms GraspSearch::own_forms(double angle) const {
+  const GraspDiscs::Sample sample = discs_.own_at(angle);
+  const OthersPanel& others = others_[others_panel_of(angle)];
+  const NodeWeights weights = weights_at(others.panel, angle);
+  Eigen::Matrix3cd shift = sample.own.shift;
+  for (int i = 0; i < panel_nodes; ++i) shift += weights[i] * others.at_nodes[static_cast<std::size_t>(i)].shift;
+  const Eigen::Matrix3cd centre = std::polar(1.0, delay_angle_ * angle) * (sample.plant - sample.shared * shift);
+  return {by_products(centre.real()), by_products(centre.imag()), by_products(sample.own.left.real()),
+          by_products(sample.own.right.real()), std::abs(sample.shared)};
+}
+
+void GraspSearch::add_own(const std::vector<ComplexNumber>& poles) {
+  const auto directions = probes(discs_.directions());
+  const auto parts = [&](const OwnForms& forms) {
+    PartsOfProbes rows(static_cast<Eigen::Index>(directions.size()), 5);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      rows.row(static_cast<Eigen::Index>(i)) =
+          parts_of(forms.real.dot(directions[i]), forms.imaginary.dot(directions[i]), forms.left.dot(directions[i]),
+                   forms.right.dot(directions[i]), forms.shared, 0.0)
+              .transpose();
+    }
+    return rows;
+  };
+  const std::vector<Panel> clear = panels_clear_of(std::log(lowest_), std::log(pi), poles, widest_own);
+  add_panels(clear, [&](const Panel& panel, bool may_halve) {
+    OwnPanel own;
+    own.panel = panel;
+    std::vector<PartsOfProbes> at_nodes;
+    for (int i = 0; i < panel_nodes; ++i) {
+      const double angle = std::exp(panel_node(panel, i));
+      own.others.push_back(others_panel_of(angle));
+      own.others_weights.row(i) = weights_at(others_[own.others.back()].panel, angle).transpose();
+      const OwnForms forms = own_forms(angle);
+      own.real.row(i) = forms.real;
+      own.imaginary.row(i) = forms.imaginary;
+      own.left.row(i) = forms.left;
+      own.right.row(i) = forms.right;
+      own.shared[i] = forms.shared;
+      at_nodes.push_back(parts(forms));
+    }
+    const auto at_end = [&](double x) { return parts(own_forms(std::min(std::exp(x), pi))); };
+    if (may_halve && !is_resolved(panel, at_nodes, at_end)) return false;
+    panels_.push_back(std::move(own));
+    return true;
+  });
+}
+
+GraspSearch::Wall GraspSearch::wall(WallAt at) const {
+  Wall wall{std::move(at), {}};
+  wall.at_points.reserve(points_.size());
+  for (const double point : points_) wall.at_points.push_back(wall.at(std::min(std::exp(point), pi)));
+  return wall;
+}
+
+GraspSearch::Along::Along(const GraspSearch& search, const Eigen::Vector3d& normal)
+    : search_(&search), normal_(normal) {
+  const Eigen::Matrix<double, 6, 1> products = products_of(normal);
+  std::vector<NodeWeights> radii;  // of the other aliases
+  for (const OthersPanel& each : search.others_) {
+    NodeWeights& at_nodes = radii.emplace_back();
+    for (int i = 0; i < panel_nodes; ++i) {
+      at_nodes[i] = radius_of_others(each.at_nodes[static_cast<std::size_t>(i)], products);
+    }
+  }
+  panels_.reserve(search.panels_.size());
+  at_points_.reserve(search.points_.size());
+  for (const OwnPanel& own : search.panels_) {
+    Parts& parts = panels_.emplace_back();
+    const NodeWeights real = own.real * products;
+    const NodeWeights imaginary = own.imaginary * products;
+    const NodeWeights left = own.left * products;
+    const NodeWeights right = own.right * products;
+    for (int i = 0; i < panel_nodes; ++i) {
+      const double others = own.others_weights.row(i).dot(radii[own.others[static_cast<std::size_t>(i)]]);
+      parts.row(i) = parts_of(real[i], imaginary[i], left[i], right[i], own.shared[i], others).transpose();
+    }
+    const Eigen::Matrix<double, points_per_panel, 5> at_points = to_points() * parts;
+    for (int i = 0; i < points_per_panel; ++i) {
+      at_points_.push_back(disc(at_points.row(i).transpose(), search.delays_[at_points_.size()]));
+    }
+  }
+  if (!panels_.empty()) at_points_.push_back(disc_near(search.points_.back()));
+}
+
+TerminationDiscs::Disc GraspSearch::Along::disc(const PartsRow& parts, ComplexNumber delay) {
+  const double own = std::sqrt(std::max(parts[3], 0.0));
+  const double others = std::max(parts[4], 0.0);
+  return {delay * ComplexNumber(parts[0], parts[1]), own + others, parts[2] - others * (2.0 * own + others), 1.0};
+}
+
+TerminationDiscs::Disc GraspSearch::Along::disc_near(double x) const {
+  const std::vector<OwnPanel>& panels = search_->panels_;
+  const auto after = std::ranges::upper_bound(panels, x, {}, [](const OwnPanel& each) { return each.panel.first(); });
+  const std::size_t at = after == panels.begin() ? 0 : static_cast<std::size_t>(after - panels.begin()) - 1;
+  const PartsRow parts = panels_[at].transpose() * weights_at(panels[at].panel, x);
+  return disc(parts, std::polar(1.0, -search_->delay_angle_ * std::exp(x)));
+}
+
+std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall) const {
+  const std::vector<double>& points = search_->points_;
+  std::vector<GainCondition> conditions;
+  std::vector<double> gains;
+  conditions.reserve(points.size());
+  gains.reserve(points.size());
+  double least = infinity;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    conditions.push_back(gain_condition(at_points_[i], wall.at_points[i]));
+    gains.push_back(extended_gain(conditions.back()));
+    if (gains.back() < least) least = std::min(least, real_gain(conditions.back()));
+  }
+  std::vector<Low> lows;
+  if (least == 0.0) {
+    const auto beaten = std::ranges::min_element(conditions, {}, &GainCondition::constant) - conditions.begin();
+    const auto i = static_cast<std::size_t>(beaten);
+    lows.push_back({0.0, points[i], points[i == 0 ? 0 : i - 1], points[std::min(i + 1, points.size() - 1)]});
+    return lows;
+  }
+  const auto condition_near = [&](double x) {
+    return gain_condition(disc_near(x), wall.at(std::min(std::exp(x), pi)));
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1;
+    const std::size_t after = std::min(i + 1, points.size() - 1);
+    const auto& [constant, half, quadratic] = conditions[i];
+    const bool is_open = half * half < quadratic * constant && half < 0.0;
+    const double closest = is_open ? constant / -half : gains[i];
+    // What is least may lie at the end of where a gain is left: all that is looked at counts.
+    const auto refine = [&](const auto& function) {
+      Low low{infinity, points[i], points[before], points[after]};
+      minimum(points[before], points[after], quick_bits, [&](double x) {
+        const GainCondition at = condition_near(x);
+        if (const double gain = real_gain(at); gain < low.gain) low.gain = gain, low.x = x;
+        return function(at);
+      });
+      if (std::isfinite(low.gain)) lows.push_back(low);
+    };
+    if (is_open && openness(conditions[i]) <= openness(conditions[before]) &&
+        openness(conditions[i]) <= openness(conditions[after])) {
+      refine(openness);
+    }
+    const bool is_low = gains[i] <= gains[before] && gains[i] <= gains[after];
+    if (is_low && std::isfinite(gains[i]) && closest <= worth_refining * least) {
+      refine(extended_gain);
+    }
+    const bool is_nearly_beaten = constant <= conditions[before].constant && constant <= conditions[after].constant &&
+                                  constant < damper_nearly_beaten;
+    if (is_nearly_beaten) refine([](const GainCondition& at) { return at.constant; });
+  }
+  return lows;
+}
+
+GraspSearch::Least GraspSearch::Along::quickly_least(const Wall& wall) const {
+  if (panels_.empty()) return {0.0, 0.0, false};
+  Low least;
+  for (const Low& each : lows(wall)) {
+    if (each.gain < least.gain) least = each;
+  }
+  return search_->least_at(least.gain, least.x);
+}
+
+GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
+  if (panels_.empty()) return {0.0, 0.0, false};
+  const std::vector<Low> found = lows(wall);
+  double quick = infinity;
+  for (const Low& each : found) quick = std::min(quick, each.gain);
+  const auto condition = [&](double x) {
+    const double angle = std::min(std::exp(x), pi);
+    return gain_condition(disc_along(search_->discs_.at(angle), normal_), wall.at(angle));
+  };
+  Least least;
+  const auto take = [&](double gain, double x) {
+    if (gain < least.gain) least = search_->least_at(gain, x);
+  };
+  for (const Low& each : found) {
+    if (each.gain > worth_refining_exactly * quick) continue;
+    const auto look = [&](double x) {
+      const GainCondition at = condition(x);
+      take(real_gain(at), x);
+      return extended_gain(at);
+    };
+    look(each.x);
+    if (least.gain == 0.0) return least;
+    minimum(each.before, each.after, exact_bits, look);
+  }
+  return least;
+}
+
+GraspSearch::Least GraspSearch::least_at(double gain, double x) const {
+  const double angle = std::min(std::exp(x), pi);
+  return {gain, angle, angle <= at_low_end * lowest_};
+}
+
+GraspSearch::LeastOfPoint GraspSearch::least_of_point(Eigen::Index m, VirtualDamper damper) const {
+  if (panels_.empty()) return {{0.0, 0.0, false}, {0.0, 0.0, false}};
+  std::vector<double> at;
+  std::vector<PointStiffness> stiffnesses;
+  const auto stiffness = [&](double x) {
+    return least_stiffness_of_point(discs_.at(std::min(std::exp(x), pi)), m, damper, period_);
+  };
+  for (std::size_t i = 0; i < points_.size(); i += points_a_node) at.push_back(points_[i]);
+  at.back() = points_.back();
+  for (const double x : at) stiffnesses.push_back(stiffness(x));
+  const auto least = [&](double PointStiffness::*which) {
+    const auto lowest = std::ranges::min_element(stiffnesses, {}, which);
+    const double scanned = (*lowest).*which;
+    Least found = least_at(scanned, at[static_cast<std::size_t>(lowest - stiffnesses.begin())]);
+    if (!(scanned > 0.0) || !std::isfinite(scanned)) return found;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const std::size_t before = i == 0 ? 0 : i - 1;
+      const std::size_t after = std::min(i + 1, at.size() - 1);
+      const double here = stiffnesses[i].*which;
+      const bool is_low = here <= stiffnesses[before].*which && here <= stiffnesses[after].*which;
+      if (!is_low || here > worth_refining * scanned) continue;
+      const auto [x, refined] =
+          minimum(at[before], at[after], exact_bits, [&](double near) { return stiffness(near).*which; });
+      if (refined < found.gain) found = least_at(refined, x);
+    }
+    return found;
+  };
+  return {least(&PointStiffness::at_least), least(&PointStiffness::at_most)};
+}
+
+double frequency_of(const GraspSearch::Least& least, double period) {
+  const bool is_there = least.gain > 0.0 && std::isfinite(least.gain) && !least.is_at_low_end;
+  return is_there ? least.angle / period : 0.0;
+}
+
+}  // namespace zwidth::internal
