@@ -425,6 +425,9 @@ enum class FindingCode : std::uint16_t {
   // simulation of mechanisms
   motion_linearised,  ///< the motion is that of the mechanism linearised at its pose
   friction_left_out,  ///< the same, without the friction of joints and cables
+
+  // mechanisms
+  point_margins_left_out,    ///< margins of a wall in every direction are not all found
 };
 
 }  // namespace zwidth

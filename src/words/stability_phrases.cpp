@@ -45,6 +45,11 @@ std::span<const Phrase> stability_phrases() {
              "poles lie too close together to tell them apart"},
       Phrase{disk_margin_contradicts, "disk_margin_contradicts", doubt,
              "the disk margin is left out: it contradicts the margins of gain and phase"},
+      Phrase{
+          point_margins_left_out, "point_margins_left_out", note,
+          "margins of the wall in every direction that are not given are not known: the loop has too many states, or "
+          "its poles lie too near to each other or to the circle, for all crossings to be shown",
+          "", "judge this wall by the margins given, or along single directions"},
       Phrase{disk_margin_left_out, "disk_margin_left_out", note,
              "the disk margin is left out: the wall is too far below every limit for its search to end",
              "the gain, phase and delay margins of the wall stand",

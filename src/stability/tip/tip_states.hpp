@@ -4,6 +4,7 @@
 // damper.
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/tip_motion.hpp"
@@ -46,6 +47,8 @@ struct GainLoop {
 };
 // Of the wall's stiffness in all those directions; the wall's damper is closed.
 [[nodiscard]] GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall);
+// Of the whole wall, stiffness and damper: a gain of 1 is the wall itself.
+[[nodiscard]] GainLoop wall_loop(const SampledTip& plant, const Wall& wall);
 
 // Throws Error (invalid_argument) for what walls in several directions do not know: filters on the wall's force, a damper
 // in a loop of its own.
