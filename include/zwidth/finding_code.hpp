@@ -427,6 +427,8 @@ enum class FindingCode : std::uint16_t {
   friction_left_out,  ///< the same, without the friction of joints and cables
 
   // mechanisms
+  tip_loses_directions,      ///< a singular pose: grasps beside it hold more directions, and leave less
+  workspace_poses_singular,  ///< at some poses of a workspace the tip moves along fewer directions than beside
   point_margins_left_out,    ///< margins of a wall in every direction are not all found
 };
 

@@ -10,6 +10,7 @@
 #include "model/implausible_numbers.hpp"
 #include "stability/tip/gain_march.hpp"
 #include "stability/tip/tip_states.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
@@ -95,6 +96,10 @@ void add_any_grasp(const TipMotion& motion, const DeviceParameters& alone, Analy
   const double nobody = analysis.limits.nobody.critical_stiffness;
   bounds.at_most = std::min(bounds.at_most, nobody);
   bounds.at_least = std::min(bounds.at_least, bounds.at_most);
+  if (!motion.tips_beside.empty()) {
+    const double at_pose = any_grasp_limit_of_point(motion, alone, GraspedPose::alone).at_least;
+    analysis.remarks.push_back(singular_pose_remark(motion, std::min(at_pose, nobody), bounds.at_least));
+  }
   analysis.remarks.push_back(note({.code = FindingCode::any_grasp_bounded}));
   if (!analysis.wall) return;
   StableFor& holders = *analysis.wall_stable_for;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "stability/loop/damper_response.hpp"
@@ -34,7 +35,6 @@ constexpr double at_low_end = 1.001;  // times the lowest angle of the scan over
 constexpr double lowest_crossover = 1e-5;
 constexpr int crossover_angles = 120;
 constexpr double confirmed_to = 1e-6;  // relative, of K
-constexpr double still_normal = 1e-9;  // what the tip moves of it
 constexpr int most_halvings = 80;
 constexpr double worth_refining = 1.3;  // times the least of the scan
 constexpr int exact_bits = 26;
@@ -64,14 +64,13 @@ struct Posed {
 
   // In the tip's directions, padded with 0.
   [[nodiscard]] Eigen::Vector3d along(const Eigen::Vector3d& normal) const {
+    internal::require_tip_moves_along(motion, normal);
     Eigen::Vector3d result = Eigen::Vector3d::Zero();
     result.head(directions.cols()) = directions.transpose() * normal.normalized();
-    if (result.norm() > still_normal) return result;
-    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_does_not_move,
-                                              .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
+    return result;
   }
 
-  const TipMotion& motion;
+  TipMotion motion;
   DeviceParameters loop;
   Eigen::MatrixXd directions;
   SampledTip plant;
@@ -108,16 +107,18 @@ Minimum refined_minimum(const std::vector<double>& angles, const std::vector<dou
 
 class GraspScan {
  public:
-  explicit GraspScan(const Posed& posed)
-      : period_(posed.plant.period),
-        damper_(damper_of(posed.loop)),
-        discs_(posed.motion, posed.loop, posed.directions, posed.plant) {
+  explicit GraspScan(Posed of)
+      : posed_(std::move(of)),
+        period_(posed_.plant.period),
+        damper_(damper_of(posed_.loop)),
+        discs_(posed_.motion, posed_.loop, posed_.directions, posed_.plant) {
     if (discs_.is_undamped()) return;
-    angles_ = internal::grasp_angles(posed.plant, discs_);
+    angles_ = internal::grasp_angles(posed_.plant, discs_);
     for (const double angle : angles_) samples_.push_back(discs_.at(angle));
   }
 
-  [[nodiscard]] GraspLimit along(const Eigen::Vector3d& normal) const {
+  [[nodiscard]] GraspLimit along(const Eigen::Vector3d& wall) const {
+    const Eigen::Vector3d normal = posed_.along(wall);
     return least_along(normal, exact_bits, [&](std::size_t, double angle, const std::vector<OthersAlong>&) {
       const GraspDiscs::Sample sample = discs_.at(angle);
       return internal::least_stiffness_along(sample, internal::others_along(sample, normal), normal, damper_, period_);
@@ -125,15 +126,17 @@ class GraspScan {
   }
 
   // What the other aliases add, by a parabola through the scan.
-  [[nodiscard]] GraspLimit quickly_along(const Eigen::Vector3d& normal) const {
+  [[nodiscard]] GraspLimit quickly_along(const Eigen::Vector3d& wall) const {
+    const Eigen::Vector3d normal = posed_.along(wall);
     return least_along(normal, quick_bits, [&](std::size_t i, double angle, const std::vector<OthersAlong>& others) {
       return internal::least_stiffness_along(discs_.own_at(angle), interpolated(others, i, angle), normal, damper_,
                                              period_);
     });
   }
 
-  [[nodiscard]] PointGraspLimit of_point(Eigen::Index m) const {
+  [[nodiscard]] PointGraspLimit of_point() const {
     if (discs_.is_undamped()) return {};
+    const Eigen::Index m = posed_.directions.cols();
     const auto at = [&](const GraspDiscs::Sample& sample) {
       return internal::least_stiffness_of_point(sample, m, damper_, period_);
     };
@@ -186,6 +189,7 @@ class GraspScan {
     return sum;
   }
 
+  Posed posed_;
   double period_;
   VirtualDamper damper_;
   GraspDiscs discs_;
@@ -261,6 +265,16 @@ class CrossoverScan {
   std::vector<Eigen::MatrixXcd> samples_;
 };
 
+// What users leave: at the pose, or at each of those beside it.
+std::vector<GraspScan> grasp_scans(const TipMotion& motion, const DeviceParameters& loop, GraspedPose pose) {
+  std::vector<GraspScan> scans;
+  if (pose == GraspedPose::alone) return {GraspScan(Posed(motion, loop))};
+  for (const TipMotion& each : internal::grasped_motions(motion)) scans.emplace_back(Posed(each, loop));
+  return scans;
+}
+
+GraspLimit lesser(const GraspLimit& a, const GraspLimit& b) { return b.stiffness < a.stiffness ? b : a; }
+
 NormalLimits nobody_along(const Posed& posed, const CrossoverScan& scan, const Eigen::Vector3d& normal) {
   const Eigen::VectorXd along = posed.along(normal).head(posed.directions.cols());
   const CrossoverScan::Found found = scan.least_along(along);
@@ -287,12 +301,12 @@ namespace internal {
 struct LimitsAtPose::Scans {
   Scans(const TipMotion& of, const DeviceParameters& loop, const NormalLimitsOptions& options)
       : motion(of), posed(motion, loop), crossovers(posed) {
-    if (options.any_grasp) grasps.emplace(posed);
+    if (options.any_grasp) grasps = grasp_scans(motion, loop, GraspedPose::beside);
   }
   TipMotion motion;
   Posed posed;
   CrossoverScan crossovers;
-  std::optional<GraspScan> grasps;
+  std::vector<GraspScan> grasps;
 };
 
 LimitsAtPose::LimitsAtPose(const TipMotion& motion, const DeviceParameters& loop, const NormalLimitsOptions& options)
@@ -305,19 +319,32 @@ NormalLimits LimitsAtPose::nobody_along(const Eigen::Vector3d& normal) const {
 }
 
 GraspLimit LimitsAtPose::any_grasp_along(const Eigen::Vector3d& normal) const {
-  return scans_->grasps.value().quickly_along(scans_->posed.along(normal));
+  GraspLimit least{.stiffness = infinity};
+  for (const GraspScan& each : scans_->grasps) least = lesser(least, each.quickly_along(normal));
+  return least;
 }
 
 }  // namespace internal
 
-GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal) {
-  const Posed posed(motion, loop);
-  return GraspScan(posed).along(posed.along(normal));
+GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal,
+                           GraspedPose pose) {
+  internal::require_tip_moves_along(motion, normal);
+  GraspLimit least{.stiffness = infinity};
+  for (const GraspScan& each : grasp_scans(motion, loop, pose)) least = lesser(least, each.along(normal));
+  return least;
 }
 
-PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop) {
-  const Posed posed(motion, loop);
-  return GraspScan(posed).of_point(posed.directions.cols());
+PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop, GraspedPose pose) {
+  PointGraspLimit least{.at_least = infinity, .at_most = infinity};
+  for (const GraspScan& each : grasp_scans(motion, loop, pose)) {
+    const PointGraspLimit here = each.of_point();
+    if (here.at_least < least.at_least) {
+      least.at_least = here.at_least;
+      least.frequency = here.frequency;
+    }
+    least.at_most = std::min(least.at_most, here.at_most);
+  }
+  return least;
 }
 
 std::vector<NormalLimits> limits_along(const TipMotion& motion, const DeviceParameters& loop,

@@ -50,6 +50,23 @@ Step step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double t) {
 
 }  // namespace
 
+void require_tip_moves_along(const TipMotion& motion, const Eigen::Vector3d& normal) {
+  if (tip_moves_along(motion.tip, normal)) return;
+  throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_does_not_move,
+                                            .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
+}
+
+std::vector<TipMotion> grasped_motions(const TipMotion& motion) {
+  if (motion.tips_beside.empty()) return {motion};
+  std::vector<TipMotion> beside;
+  for (const Eigen::MatrixXd& each : motion.tips_beside) {
+    beside.push_back(motion);
+    beside.back().tip = each;
+    beside.back().tips_beside.clear();
+  }
+  return beside;
+}
+
 TipCoordinates tip_coordinates(const TipMotion& motion, const Eigen::MatrixXd& directions, const User& user) {
   const NormalCoordinates normal = normal_coordinates(device_of(motion, user, directions));
   TipCoordinates of{normal.stiffness, normal.damping, directions.transpose() * motion.sensed * normal.shapes,

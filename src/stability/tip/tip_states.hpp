@@ -11,6 +11,12 @@
 
 namespace zwidth::internal {
 
+// Throws Error (invalid_argument) for a normal along which the tip cannot move.
+void require_tip_moves_along(const TipMotion& motion, const Eigen::Vector3d& normal);
+
+// The motion that users grasp: itself, or at a singular pose one with the tip of each pose beside it.
+[[nodiscard]] std::vector<TipMotion> grasped_motions(const TipMotion& motion);
+
 // In coordinates in which M is 1: z'' + D z' + K z = pushed' f + tip' f_h, along m directions.
 struct TipCoordinates {
   Eigen::MatrixXd stiffness;  // K, n x n
