@@ -19,6 +19,11 @@ Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& matrix) {
   return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(matrix, false).eigenvalues();
 }
 
+ComplexEigen complex_eigen(const Eigen::MatrixXcd& matrix) {
+  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(matrix);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
   return {solver.eigenvalues(), solver.eigenvectors()};

@@ -20,6 +20,13 @@ EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix);
 /// Eigenvalues of a complex square matrix, in no particular order.
 Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& matrix);
 
+/// The same with right eigenvectors, column by column, of length 1.
+struct ComplexEigen {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+ComplexEigen complex_eigen(const Eigen::MatrixXcd& matrix);
+
 /// Eigenvalues by rising size and, column by column, orthonormal eigenvectors of a real symmetric matrix.
 struct SymmetricEigen {
   Eigen::VectorXd values;

@@ -26,6 +26,7 @@ set(slow
   "^MechanismModel\\.(IsAtEvery|ReachesPoints)"
   "^MechanismDesign\\.(slopes_(are_those_of_the_limits|of)|a_(design|study|sweep)|targets|an_oscillation|no_grasp|friction)"
   "^PointWall\\.(PlanarArm|IsThat)"
+  "^PointWallMargins\\.AreThose"
   "^GraspTightness\\."
   "^(GraspLimit\\.NoRandom|LimitsAlong\\.AreThose)"
   "^AlikeBranches\\.(Nearly|Six)"

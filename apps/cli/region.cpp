@@ -56,7 +56,8 @@ void run_region(const RegionArguments& arguments) {
     throw BadInput("--raster", "is for a csv file", "add --csv FILE");
   const Device read = std::move(read_devices(arguments.devices).front());
   const Device device = arguments.one_rate ? at_slower_rate(read) : read;
-  const WallRegion walls = found_region(*arguments.devices.command, device, arguments.devices.files.front());
+  const std::string& file = arguments.devices.files.front();
+  const WallRegion walls = worked(file, [&] { return found_region(*arguments.devices.command, device, file); });
   if (walls.trust.refused()) {
     return print_refused(outputs, walls.trust, device.name(),
                          arguments.output.json ? results::line(results::region_json(device, walls)) : "",

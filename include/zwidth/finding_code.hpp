@@ -433,6 +433,11 @@ enum class FindingCode : std::uint16_t {
   // simulation of mechanisms
   motion_linearised,  ///< the motion is that of the mechanism linearised at its pose
   friction_left_out,  ///< the same, without the friction of joints and cables
+
+  // mechanisms
+  tip_loses_directions,      ///< a singular pose: grasps beside it hold more directions, and leave less
+  workspace_poses_singular,  ///< at some poses of a workspace the tip moves along fewer directions than beside
+  point_margins_left_out,    ///< margins of a wall in every direction are not all found
 };
 
 }  // namespace zwidth

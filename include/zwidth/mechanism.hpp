@@ -30,6 +30,7 @@ struct MechanismAtPose {
   Eigen::MatrixXd joint_motions = {};  ///< of the file's joints: a row a joint of MechanismModel::joints()
   Eigen::VectorXd joints = {};         ///< where the file's joints are, as MechanismModel::joints()
   Eigen::Vector3d tip_position = Eigen::Vector3d::Zero();  ///< m, in the world's frame
+  std::vector<Eigen::MatrixXd> tips_beside = {};           ///< TipMotion::tips_beside, at a singular pose
 };
 
 /// From where to where a joint moves, m or rad.
@@ -78,6 +79,10 @@ class MechanismModel {
   [[nodiscard]] std::string text() const;
 
   /// The mechanism where these joints are there, and of others those of the file's pose. Throws Error as at_pose() does.
+  ///
+  /// A pose is singular where the tip moves along fewer directions than in poses around the file's. There, with U_0 the
+  /// directions that it lost, J and the slope of U_0' J by each of pose_joints() and by all at once have the rows in which
+  /// users beside the pose hold it: MechanismAtPose::tips_beside.
   [[nodiscard]] MechanismAtPose at(const JointPositions& pose = {}) const;
 
   /// How close the tip comes to a point.

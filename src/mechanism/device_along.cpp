@@ -1,5 +1,4 @@
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -68,6 +67,16 @@ std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
   return {row_major.begin(), row_major.end()};
 }
 
+// Of the pose, and of those beside.
+std::vector<double> moved_tip(const MechanismAtPose& mechanism) {
+  std::vector<double> rows = row_by_row(mechanism.tip);
+  for (const Eigen::MatrixXd& each : mechanism.tips_beside) {
+    const std::vector<double> beside = row_by_row(each);
+    rows.insert(rows.end(), beside.begin(), beside.end());
+  }
+  return rows;
+}
+
 Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameters) {
   Eigen::Index row = 0;
   if (!(mechanism.tip.rowwise().norm().maxCoeff(&row) > 0.0)) {
@@ -76,7 +85,7 @@ Device point_device(const MechanismAtPose& mechanism, DeviceParameters parameter
   const TipMotion motion = tip_motion(mechanism);
   Coordinates coordinates = coordinates_of(mechanism);
   coordinates.points = {{"tip", weights(mechanism.tip.row(row).transpose())}};
-  coordinates.tip = {row_by_row(motion.tip), row_by_row(motion.sensed), row_by_row(motion.pushed)};
+  coordinates.tip = {moved_tip(mechanism), row_by_row(motion.sensed), row_by_row(motion.pushed)};
   parameters.loop.held = parameters.loop.sensed = parameters.loop.actuated = 0;
   parameters.coordinates = std::move(coordinates);
   return Device(std::move(parameters));
@@ -105,16 +114,15 @@ Device device_of_mechanism(DeviceParameters parameters) {
 }
 
 TipMotion tip_motion(const MechanismAtPose& mechanism) {
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
-  svd.setThreshold(dependent_below);
-  svd.compute(mechanism.tip, Eigen::ComputeThinU);
+  const Eigen::MatrixXd directions = tip_directions(mechanism.tip);
   TipMotion motion{.mass = 0.5 * (mechanism.mass + mechanism.mass.transpose()),
                    .elements = mechanism.elements,
                    .sensed = Eigen::MatrixXd::Zero(3, mechanism.tip.cols()),
                    .pushed = Eigen::MatrixXd::Zero(3, mechanism.tip.cols()),
-                   .tip = mechanism.tip};
-  for (Eigen::Index i = 0; i < svd.rank(); ++i) {
-    const Eigen::Vector3d normal = svd.matrixU().col(i);
+                   .tip = mechanism.tip,
+                   .tips_beside = mechanism.tips_beside};
+  for (Eigen::Index i = 0; i < directions.cols(); ++i) {
+    const Eigen::Vector3d normal = directions.col(i);
     const Eigen::VectorXd along = mechanism.tip.transpose() * normal;
     motion.sensed += normal * through_cables(along, mechanism.cables, mechanism.encoders,
                                              ProblemCode::tip_not_determined_by_encoders, normal)
@@ -129,7 +137,7 @@ TipMotion tip_motion(const MechanismAtPose& mechanism) {
 Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal, DeviceParameters parameters) {
   if (!(normal.norm() > 0.0) || !normal.allFinite()) refuse_normal(ProblemCode::no_direction, normal);
   const Eigen::VectorXd along = mechanism.tip.transpose() * normal.normalized();
-  if (!(along.norm() > dependent_below * mechanism.tip.norm())) refuse_normal(ProblemCode::tip_does_not_move, normal);
+  if (!tip_moves_along(mechanism.tip, normal)) refuse_normal(ProblemCode::tip_does_not_move, normal);
   const Eigen::VectorXd sensed =
       through_cables(along, mechanism.cables, mechanism.encoders, ProblemCode::tip_not_determined_by_encoders, normal);
   const Eigen::VectorXd actuated =
@@ -140,10 +148,10 @@ Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& nor
   parameters.loop.actuated = point(coordinates.points, "motors", actuated);
   // Along n where that is no direction in which the tip can move: of its part p that is, p c'/(p p') senses along n as c.
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> moves;
-  moves.setThreshold(dependent_below);
+  moves.setThreshold(tip_stands_below);
   moves.compute(mechanism.tip.transpose());
   const Eigen::Vector3d part = moves.solve(along);
-  coordinates.tip = {row_by_row(mechanism.tip), row_by_row(part * sensed.transpose() / part.squaredNorm()),
+  coordinates.tip = {moved_tip(mechanism), row_by_row(part * sensed.transpose() / part.squaredNorm()),
                      row_by_row(part * actuated.transpose() / part.squaredNorm())};
   parameters.bodies.clear();
   parameters.links.clear();

@@ -2,14 +2,17 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mechanism/mechanism_text.hpp"
 #include "mechanism/mujoco_file.hpp"
+#include "mechanism/singular_pose.hpp"
 #include "mechanism/tip_reach.hpp"
 #include "mechanism/transmissions.hpp"
 #include "zwidth/mechanism.hpp"
@@ -55,6 +58,13 @@ class MechanismModel::Read {
     pose_joints_ = independent(at_file_pose_, in_order);
     std::ranges::sort(pose_joints_);
     for (const std::size_t each : pose_joints_) joints_[each].is_of_pose = true;
+    find_usual_directions();
+    at_file_pose_ = with_tips_beside(std::move(at_file_pose_), of_.pose);
+  }
+
+  // At that pose, with what is known of it beside where it is singular.
+  [[nodiscard]] MechanismAtPose at(const JointPositions& pose) const {
+    return with_tips_beside(linearised(pose), pose);
   }
 
   [[nodiscard]] MechanismAtPose linearised(const JointPositions& pose) const {
@@ -80,6 +90,49 @@ class MechanismModel::Read {
   [[nodiscard]] const MechanismAtPose& at_file_pose() const { return at_file_pose_; }
 
  private:
+  // The pose with joints that give it moved by so many times a step, one number a joint; nothing where it is not reached.
+  [[nodiscard]] std::optional<MechanismAtPose> moved_by(const MechanismAtPose& from, JointPositions pose,
+                                                        const Eigen::VectorXd& shares, double step) const {
+    for (std::size_t i = 0; i < pose_joints_.size(); ++i) {
+      const std::size_t joint = pose_joints_[i];
+      pose[joints_[joint].name] =
+          from.joints(static_cast<Eigen::Index>(joint)) + step * shares(static_cast<Eigen::Index>(i));
+    }
+    try {
+      return linearised(pose);
+    } catch (const Error&) {
+      return std::nullopt;  // loops do not close there
+    }
+  }
+
+  // No joint moves as another one does.
+  [[nodiscard]] Eigen::VectorXd all_joints() const {
+    const auto count = static_cast<Eigen::Index>(pose_joints_.size());
+    return Eigen::VectorXd::NullaryExpr(count, [](Eigen::Index i) { return std::pow(0.618, static_cast<double>(i)); });
+  }
+
+  void find_usual_directions() {
+    usual_directions_ = tip_directions(at_file_pose_.tip).cols();
+    for (const double step : {0.01, -0.01, 0.1, -0.1}) {
+      const std::optional<MechanismAtPose> beside = moved_by(at_file_pose_, of_.pose, all_joints(), step);
+      if (beside) usual_directions_ = std::max(usual_directions_, tip_directions(beside->tip).cols());
+    }
+  }
+
+  [[nodiscard]] MechanismAtPose with_tips_beside(MechanismAtPose at, const JointPositions& pose) const {
+    const Eigen::MatrixXd directions = tip_directions(at.tip);
+    if (directions.cols() == usual_directions_ || directions.cols() == 0) return at;
+    const auto count = static_cast<Eigen::Index>(pose_joints_.size());
+    for (Eigen::Index i = 0; i <= count; ++i) {
+      const Eigen::VectorXd shares = i < count ? Eigen::VectorXd(Eigen::VectorXd::Unit(count, i)) : all_joints();
+      const auto before = moved_by(at, pose, shares, -internal::step_beside);
+      const auto after = moved_by(at, pose, shares, internal::step_beside);
+      if (!before || !after) continue;
+      internal::add_tip_beside(at, *before, *after);
+    }
+    return at;
+  }
+
   // Which joints are asked first whether they give the pose.
   [[nodiscard]] int rank(std::size_t joint) const {
     if (of_.pose.contains(joints_[joint].name)) return 0;
@@ -93,6 +146,7 @@ class MechanismModel::Read {
   std::vector<MechanismJoint> joints_;
   MechanismAtPose at_file_pose_;
   std::vector<std::size_t> pose_joints_;
+  Eigen::Index usual_directions_ = 0;  // along which the tip moves around the file's pose
 };
 
 MechanismModel::MechanismModel(const MechanismFile& file) : read_(std::make_shared<const Read>(file)) {}
@@ -113,7 +167,7 @@ std::string MechanismModel::text() const { return read_->mujoco().text(); }
 
 MechanismAtPose MechanismModel::at(const JointPositions& pose) const {
   if (pose.empty()) return read_->at_file_pose();
-  return read_->linearised(with(file().pose, pose));
+  return read_->at(with(file().pose, pose));
 }
 
 MechanismModel::Reached MechanismModel::reach(const Eigen::Vector3d& point) const {

@@ -77,9 +77,10 @@ std::optional<DeviceProblem> find_coordinates_problem(const DeviceParameters& pa
     return device_problem(key, {.code = ProblemCode::no_finite_number, .evidence = {{"value", force}}});
   }
   if (of.tip) {
-    for (const std::vector<double>* rows : {&of.tip->moved, &of.tip->sensed, &of.tip->pushed}) {
-      if (!are_weights(*rows, 3 * n)) return refused("coordinates.tip", ProblemCode::weights_not_one_a_coordinate);
-    }
+    const std::size_t poses = std::max<std::size_t>(of.tip->moved.size() / (3 * n), 1);
+    const bool is_right = are_weights(of.tip->moved, poses * 3 * n) && are_weights(of.tip->sensed, 3 * n) &&
+                          are_weights(of.tip->pushed, 3 * n);
+    if (!is_right) return refused("coordinates.tip", ProblemCode::weights_not_one_a_coordinate);
   }
   if (!is_mass_matrix(of.mass, n)) return refused("coordinates.mass", ProblemCode::no_mass_matrix);
   return std::nullopt;

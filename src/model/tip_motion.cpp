@@ -1,12 +1,9 @@
 #include "zwidth/model/tip_motion.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/SVD>
 
 namespace zwidth {
 namespace {
-
-// Relative: directions that depend on others to this are sums of them.
-constexpr double dependent_direction_below = 1e-9;
 
 using RowByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -19,18 +16,28 @@ Eigen::MatrixXd matrix(const std::vector<double>& numbers, Eigen::Index rows) {
 std::optional<TipMotion> tip_motion_of(const Device& device) {
   const std::optional<Coordinates>& of = device.parameters().coordinates;
   if (!of || !of->tip) return std::nullopt;
-  return TipMotion{.mass = matrix(of->mass, static_cast<Eigen::Index>(of->size())),
+  TipMotion motion{.mass = matrix(of->mass, static_cast<Eigen::Index>(of->size())),
                    .elements = of->elements,
                    .sensed = matrix(of->tip->sensed, 3),
                    .pushed = matrix(of->tip->pushed, 3),
-                   .tip = matrix(of->tip->moved, 3)};
+                   .tip = {}};
+  const Eigen::MatrixXd moved = matrix(of->tip->moved, static_cast<Eigen::Index>(of->tip->moved.size() / of->size()));
+  motion.tip = moved.topRows(3);
+  for (Eigen::Index row = 3; row < moved.rows(); row += 3) motion.tips_beside.emplace_back(moved.middleRows(row, 3));
+  return motion;
 }
 
-Eigen::MatrixXd tip_directions(const TipMotion& motion) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motion.tip);
-  qr.setThreshold(dependent_direction_below);
-  const Eigen::MatrixXd basis = qr.householderQ();
-  return basis.leftCols(qr.maxPivot() > 0.0 ? qr.rank() : 0);
+Eigen::MatrixXd tip_directions(const Eigen::MatrixXd& tip) {
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+  svd.setThreshold(tip_stands_below);
+  svd.compute(tip, Eigen::ComputeThinU);
+  return svd.matrixU().leftCols(svd.singularValues()(0) > 0.0 ? svd.rank() : 0);
+}
+
+Eigen::MatrixXd tip_directions(const TipMotion& motion) { return tip_directions(motion.tip); }
+
+bool tip_moves_along(const Eigen::MatrixXd& tip, const Eigen::Vector3d& normal) {
+  return (tip.transpose() * normal.normalized()).norm() > tip_stands_below * tip.norm();
 }
 
 }  // namespace zwidth

@@ -17,6 +17,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
+#include "zwidth/model/tip_motion.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/require_valid.hpp"
@@ -204,11 +205,27 @@ void answer_beside_damper_loop(const Device& device, const AnalysisOptions& opti
   if (of_damper.damping > 0.0 && std::isfinite(of_damper.damping)) limit.damping_frequency = of_damper.frequency;
 }
 
+/// What a grasp leaves at a singular pose itself is no limit: said beside that of the poses around it.
+void add_singular_pose(const Device& device, Analysis& analysis) {
+  const std::optional<TipMotion> motion = tip_motion_of(device);
+  if (!motion || motion->tips_beside.empty()) return;
+  DeviceParameters loop = device.parameters();
+  if (!analysis.any_user || !loop.wall.filters.empty()) {
+    return analysis.remarks.push_back(singular_pose_remark(*motion));
+  }
+  loop.loop.damper.reset();
+  const Eigen::Vector3d normal(loop.mechanism->normal.data());
+  const double at_pose = any_grasp_limit(*motion, loop, normal, GraspedPose::alone).stiffness;
+  analysis.remarks.push_back(singular_pose_remark(*motion, std::min(at_pose, analysis.limits.nobody.critical_stiffness),
+                                                  analysis.any_user->stiffness));
+}
+
 /// The same of a mechanism, whose tip is grasped in any direction; of the stiffness.
 void answer_any_grasp(const Device& device, Analysis& analysis) {
   const CriticalStiffness& nobody = analysis.alone ? analysis.alone->critical : analysis.critical;
   const Wall& wall = device.parameters().wall;
   analysis.any_user = any_grasp_absolute_stability(device, {wall.damping, wall.velocity_filter_hz}, nobody);
+  add_singular_pose(device, analysis);
   if (!analysis.any_user) return analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
   analysis.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
   analysis.any_user->trust.inherit(analysis.trust);

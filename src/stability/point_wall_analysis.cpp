@@ -1,9 +1,16 @@
 #include "stability/point_wall_analysis.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 
 #include "model/implausible_numbers.hpp"
+#include "stability/tip/gain_march.hpp"
+#include "stability/tip/tip_states.hpp"
+#include "stability/users/any_grasp.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
@@ -12,6 +19,8 @@
 
 namespace zwidth::internal {
 namespace {
+
+constexpr double most_samples_confirmed = 40.0;  // of further delay: beyond, there are too many states
 
 HolderLimit holder_limit_of(const PointWallLimit& limit) {
   HolderLimit of{.critical_stiffness = limit.stiffness};
@@ -26,6 +35,34 @@ DeviceParameters loop_of(const Device& device) {
   return loop;
 }
 
+// The loop with further delay, or with its force turned, by closed-loop poles.
+void confirm(const TipMotion& motion, const DeviceParameters& loop, Analysis& analysis) {
+  constexpr double closeness = 1e-6;
+  constexpr double rounding = 1e-11;
+  WallMargins& wall = *analysis.wall;
+  const TipCoordinates of = tip_coordinates(motion, tip_directions(motion), loop.user);
+  if (wall.delay_margin && *wall.delay_margin < most_samples_confirmed * loop.loop.sampling_period) {
+    const auto excess_at = [&](double share) {
+      DeviceParameters later = loop;
+      later.loop.delay += share * *wall.delay_margin;
+      return stability_excess(wall_loop(sampled_tip(of, later), loop.wall), 1.0);
+    };
+    if (excess_at(1.0 - closeness) > rounding || excess_at(1.0 + closeness) < -rounding) {
+      wall.delay_margin.reset();
+      analysis.trust.doubt({.code = FindingCode::delay_margin_contradicts});
+    }
+  }
+  const GainLoop whole = wall_loop(sampled_tip(of, loop), loop.wall);
+  const double margin = wall.phase_margin.value_or(std::numbers::pi);
+  const auto is_unstable_at = [&](double share) {
+    return stability_excess_at(whole, std::polar(1.0, -share * margin)) > rounding;
+  };
+  if (std::ranges::none_of(std::array{0.05, 0.1, 0.3, 0.6, 1.0 - 1e-4}, is_unstable_at)) return;
+  wall.phase_margin.reset();
+  wall.delay_margin.reset();
+  analysis.trust.doubt({.code = FindingCode::margins_contradict});
+}
+
 void judge_point_wall(const TipMotion& motion, const DeviceParameters& loop, const DeviceParameters& alone,
                       Analysis& analysis) {
   if (!(loop.wall.stiffness.value_or(0.0) > 0.0)) return;
@@ -33,9 +70,13 @@ void judge_point_wall(const TipMotion& motion, const DeviceParameters& loop, con
   WallMargins& wall = analysis.wall.emplace();
   wall.stiffness = *loop.wall.stiffness;
   wall.damping = loop.wall.damping;
-  wall.stable = margins.stable;
+  static_cast<LoopMargins&>(wall) = margins;
   wall.spectral_radius = margins.spectral_radius;
-  wall.stiffness_margin = margins.stiffness_margin;
+  if (margins.stable && !margins.margins_are_known) {
+    analysis.remarks.push_back(note({.code = FindingCode::point_margins_left_out}));
+  } else if (margins.stable) {
+    confirm(motion, loop, analysis);
+  }
   StableFor& holders = analysis.wall_stable_for.emplace();
   holders.nobody = margins.stable;
   if (!analysis.limits.user) return;
@@ -55,6 +96,10 @@ void add_any_grasp(const TipMotion& motion, const DeviceParameters& alone, Analy
   const double nobody = analysis.limits.nobody.critical_stiffness;
   bounds.at_most = std::min(bounds.at_most, nobody);
   bounds.at_least = std::min(bounds.at_least, bounds.at_most);
+  if (!motion.tips_beside.empty()) {
+    const double at_pose = any_grasp_limit_of_point(motion, alone, GraspedPose::alone).at_least;
+    analysis.remarks.push_back(singular_pose_remark(motion, std::min(at_pose, nobody), bounds.at_least));
+  }
   analysis.remarks.push_back(note({.code = FindingCode::any_grasp_bounded}));
   if (!analysis.wall) return;
   StableFor& holders = *analysis.wall_stable_for;

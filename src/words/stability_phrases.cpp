@@ -45,6 +45,11 @@ std::span<const Phrase> stability_phrases() {
              "poles lie too close together to tell them apart"},
       Phrase{disk_margin_contradicts, "disk_margin_contradicts", doubt,
              "the disk margin is left out: it contradicts the margins of gain and phase"},
+      Phrase{
+          point_margins_left_out, "point_margins_left_out", note,
+          "margins of the wall in every direction that are not given are not known: the loop has too many states, or "
+          "its poles lie too near to each other or to the circle, for all crossings to be shown",
+          "", "judge this wall by the margins given, or along single directions"},
       Phrase{disk_margin_left_out, "disk_margin_left_out", note,
              "the disk margin is left out: the wall is too far below every limit for its search to end",
              "the gain, phase and delay margins of the wall stand",
@@ -98,6 +103,15 @@ std::span<const Phrase> stability_phrases() {
           "the limit for any passive user of a wall in every direction lies between two bounds, each the least at the "
           "frequencies looked at",
           ""},
+      Phrase{tip_loses_directions, "tip_loses_directions", warning,
+             "the pose is singular: the tip moves along {directions:n} direction{directions:s} here and along "
+             "{directions_beside:n} beside it{?at_pose|, where a user who grasps it leaves {beside}; at the pose "
+             "itself, to which no hand keeps a device, it were {at_pose}}",
+             "the limit for any passive user is that beside the pose", "judge the device at poses around it too"},
+      Phrase{workspace_poses_singular, "workspace_poses_singular", warning,
+             "at {count:n} of {of:n} poses, singular ones, the tip moves along fewer directions than beside them",
+             "their limits with any passive user are those beside the pose; along the lost directions none is known",
+             "give poses around them too"},
       Phrase{workspace_of_tried_poses, "workspace_of_tried_poses", note,
              "the least is that of {poses:n} pose{poses:s} with {directions:n} direction{directions:s} tried in all"
              "{?refined|, refined between the directions}",

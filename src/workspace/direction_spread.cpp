@@ -1,7 +1,6 @@
 #include "workspace/direction_spread.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/minima.hpp>
@@ -12,7 +11,7 @@
 #include <numbers>
 #include <set>
 
-#include "mechanism/transmissions.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -120,10 +119,7 @@ LeastDirection least_on_sphere(LeastDirection best, double spacing, const Functi
 }  // namespace
 
 Eigen::MatrixXd moved_directions(const Eigen::MatrixXd& tip) {
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
-  svd.setThreshold(dependent_below);
-  svd.compute(tip, Eigen::ComputeThinU);
-  Eigen::MatrixXd moved = svd.matrixU().leftCols(svd.singularValues()(0) > 0.0 ? svd.rank() : 0);
+  Eigen::MatrixXd moved = tip_directions(tip);
   if (moved.cols() == 3) return Eigen::Matrix3d::Identity();
   if (moved.cols() == 1) {
     Eigen::Index largest = 0;

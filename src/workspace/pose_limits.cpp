@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "mechanism/transmissions.hpp"
 #include "stability/tip/limits_at_pose.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "workspace/direction_spread.hpp"
@@ -37,7 +36,8 @@ class AnyDirection {
     any_user_ = any_user_ && !is_damper_apart(parameters) &&
                 static_cast<std::size_t>(at.mass.rows()) <= most_bodies_for_absolute_stability;
     // A tip that moves along one direction alone is one axis, of which more is known.
-    if (!has_plain_wall(parameters) || moved_directions(at.tip).cols() == 1) return;
+    const bool is_one_axis = moved_directions(at.tip).cols() == 1 && at.tips_beside.empty();
+    if (!has_plain_wall(parameters) || is_one_axis) return;
     DeviceParameters loop = parameters;
     loop.loop.damper.reset();
     loop.user = {};
@@ -50,8 +50,7 @@ class AnyDirection {
 
   // Nothing where there are limits.
   [[nodiscard]] std::optional<Problem> refusal(const Eigen::Vector3d& normal) const {
-    const Eigen::VectorXd along = at_.tip.transpose() * normal;
-    if (!(along.norm() > dependent_below * at_.tip.norm())) return tip_stays_along(normal);
+    if (!tip_moves_along(at_.tip, normal)) return tip_stays_along(normal);
     if (shared_) return std::nullopt;
     try {
       static_cast<void>(device_along(at_, normal, alone_along(parameters_, normal)));

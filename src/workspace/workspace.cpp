@@ -102,6 +102,7 @@ class WorkspaceSearch {
       beside_[number].is_outside = is_of_ranges() && is_beyond_range(at);
       if (beside_[number].is_outside) return;
       beside_[number].moved = internal::moved_directions(at.tip).cols();
+      beside_[number].is_singular = !at.tips_beside.empty();
       internal::add_limits(at, parameters_, options_, pose);
     } catch (const Error& error) {
       pose.problem = internal::problem_of(error);
@@ -265,6 +266,12 @@ class WorkspaceSearch {
         result_.remarks.push_back(warning(refused));
       }
     }
+    const auto singular = static_cast<std::size_t>(std::ranges::count_if(beside_, &Beside::is_singular));
+    if (singular > 0 && !nobody_.empty()) {
+      result_.remarks.push_back(
+          warning({.code = FindingCode::workspace_poses_singular,
+                   .evidence = {counted("count", singular), counted("of", result_.poses.size())}}));
+    }
     if (result_.refused_directions > 0) {
       result_.remarks.push_back(
           warning({.code = FindingCode::workspace_directions_refused,
@@ -296,6 +303,7 @@ class WorkspaceSearch {
   // Of a pose, until all are known.
   struct Beside {
     Eigen::Index moved = 0;               // in how many directions the tip can move
+    bool is_singular = false;             // in fewer than beside
     std::optional<double> short_of = {};  // m, of a point that is not reached
     bool is_outside = false;              // a joint that follows the others is beyond its range
   };

@@ -84,6 +84,8 @@ TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysis) {
     SCOPED_TRACE(command);
     expect_refusal(fmt::format("zwidth {} {}", command, file), "mechanism.normal");
   }
+  EXPECT_TRUE(
+      run("zwidth region " + file).errors.starts_with("zwidth: devices/mechanisms/planar_arm.toml: mechanism.normal"));
   const Outcome text = run("zwidth analyze " + file);
   EXPECT_EQ(text.status, 0) << text.errors;
   EXPECT_NE(text.output.find("at least"), std::string::npos);

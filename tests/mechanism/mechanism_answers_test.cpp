@@ -15,6 +15,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/mechanism.hpp"
 #include "zwidth/simulation/simulate.hpp"
+#include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/grasp_limit.hpp"
 #include "zwidth/stability/wall_margins.hpp"
@@ -91,7 +92,7 @@ TEST(MechanismAnswers, NoNarrowMinimumOverGraspsIsMissed) {
 
 // The tip hardly moves along the arm; who holds it there stops it all the same.
 TEST(MechanismAnswers, NearASingularPoseTheLimitOverGraspsStays) {
-  for (const double elbow : {1e-3, 1e-4, 1e-5, 3e-6}) {
+  for (const double elbow : {1e-3, 1e-4, 1e-5, 3e-6, 1e-6, 1e-7, 1e-9, 1e-12, 0.0}) {
     SCOPED_TRACE(elbow);
     DeviceParameters parameters = arm(0.0).parameters();
     parameters.mechanism->mechanism.pose["elbow"] = elbow;
@@ -101,6 +102,32 @@ TEST(MechanismAnswers, NearASingularPoseTheLimitOverGraspsStays) {
     const GraspLimit limit =
         any_grasp_limit(tip_motion_of(device).value(), device.parameters(), {-std::sin(0.3), std::cos(0.3), 0.0});
     EXPECT_NEAR(limit.stiffness / 165.566, 1.0, 1e-4);
+  }
+}
+
+// No hand keeps to the pose, of which the limit is higher: that beside it is the answer, and both are said.
+TEST(MechanismAnswers, AtASingularPoseItIsThatBesideAndSaid) {
+  DeviceParameters parameters = arm(0.0).parameters();
+  parameters.mechanism->mechanism.pose["elbow"] = 0.0;
+  parameters.mechanism->normal = {-std::sin(0.3), std::cos(0.3), 0.0};
+  parameters.coordinates.reset();
+  for (const bool is_point : {false, true}) {
+    SCOPED_TRACE(is_point);
+    parameters.mechanism->is_point = is_point;
+    parameters.coordinates.reset();
+    const Analysis found = analyze(device_of_mechanism(parameters));
+    const double any_user = is_point ? found.point_wall->any_user->at_least : found.limits.any_user->critical_stiffness;
+    EXPECT_NEAR(any_user / 165.566, 1.0, 1e-4);
+    const auto said = std::ranges::find_if(found.remarks, [](const Remark& each) {
+      return each.finding && each.finding->code == FindingCode::tip_loses_directions;
+    });
+    ASSERT_NE(said, found.remarks.end());
+    const std::vector<Evidence>& evidence = said->finding->evidence;
+    ASSERT_EQ(evidence.size(), 4U);
+    EXPECT_EQ(evidence[0].value, 1.0);
+    EXPECT_EQ(evidence[1].value, 2.0);
+    EXPECT_NEAR(evidence[2].value / 176.4, 1.0, 1e-3);
+    EXPECT_EQ(evidence[3].value, any_user);
   }
 }
 

@@ -453,6 +453,21 @@ TEST(Workspace, TakesTheRangesOfTheFile) {
   EXPECT_NEAR(found.quantiles.front().nobody / found.quantiles.back().nobody, 1.0, 1e-12);
 }
 
+// At the stretched arm users are those beside it, and the pose is counted.
+TEST(Workspace, SaysWhichPosesAreSingular) {
+  const Device device = workspace_device(workspace_arm(0.3, 1.2));
+  const Workspace found = workspace(device, {.grid = {{"elbow", 0.0, 1e-3, 2}}});
+  ASSERT_EQ(found.poses.size(), 2U);
+  const auto said = std::ranges::find_if(found.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::workspace_poses_singular;
+  });
+  ASSERT_NE(said, found.remarks.end());
+  EXPECT_EQ(said->finding->evidence[0].value, 1.0);
+  EXPECT_EQ(said->finding->evidence[1].value, 2.0);
+  ASSERT_TRUE(found.poses[0].least_any_user && found.poses[1].least_any_user);
+  EXPECT_NEAR(*found.poses[0].least_any_user->any_user / *found.poses[1].least_any_user->any_user, 1.0, 2e-3);
+}
+
 TEST(Workspace, TheWorstPoseIsADevice) {
   const Device device = workspace_device(workspace_arm(0.3, 1.2));
   const Workspace found = workspace(device, {.grid = {{"elbow", 0.5, 2.0, 3}}, .directions = 4});

@@ -189,7 +189,8 @@ class SecondRoute {
     velocity.rightCols(m).diagonal().array() += pole;
     base_.middleRows(last, m) = output;
     base_.bottomRows(m) = velocity;
-    if (is_damped) base_ -= loop.wall.damping * input * velocity;
+    damped_ = is_damped ? Eigen::MatrixXd(loop.wall.damping * input * velocity) : Eigen::MatrixXd::Zero(size, size);
+    base_ -= damped_;
     slope_ = input * output;
   }
 
@@ -204,9 +205,24 @@ class SecondRoute {
     return largest;
   }
 
+  /// The same of a wall whose whole force turns by e^{-j phase}, and is so many times as large.
+  [[nodiscard]] double radius_turned(double stiffness, double phase, double factor = 1.0) const {
+    constexpr double at_one = 1e-8;
+    double largest = 0.0;
+    const std::complex<double> turned = std::polar(factor, -phase) - 1.0;
+    const Eigen::MatrixXd wall = damped_ + stiffness * slope_;
+    const Eigen::MatrixXcd closed = (base_ - stiffness * slope_).cast<std::complex<double>>() - turned * wall;
+    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(closed, false);
+    for (const std::complex<double>& z : solver.eigenvalues()) {
+      if (std::abs(z - 1.0) > at_one) largest = std::max(largest, std::abs(z));
+    }
+    return largest;
+  }
+
  private:
   Eigen::MatrixXd base_;
   Eigen::MatrixXd slope_;
+  Eigen::MatrixXd damped_;
 };
 
 }  // namespace zwidth::test

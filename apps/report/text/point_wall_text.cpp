@@ -45,11 +45,10 @@ std::string point_wall_text(const AnalysedDevice& analysed) {
     text += labelled("  shakes along", fmt::format("{:.4f}, {:.4f}, {:.4f}", along.x(), along.y(), along.z()));
   }
   if (!analysis.wall) return text;
-  std::string wall = fmt::format("{}: {}", quantity(analysis.wall->stiffness, unit), wall_verdict(analysis));
-  if (analysis.wall->stiffness_margin) {
-    wall += fmt::format("; unstable when the stiffness grows {} times", number(*analysis.wall->stiffness_margin));
-  }
-  return text + labelled("  wall of the file", wall);
+  text += labelled("  wall of the file",
+                   fmt::format("{}: {}", quantity(analysis.wall->stiffness, unit), wall_verdict(analysis)));
+  for (const std::string& note : wall_margin_notes(analysis)) text += fmt::format("  - {}\n", note);
+  return text;
 }
 
 }  // namespace zwidth::report

@@ -88,6 +88,7 @@ std::string_view whole_force_scaled(const WallMargins& wall) {
 /// Whether the analysis has no gain margin of the whole force, as beside a damper in a loop of its own.
 bool leaves_gain_out(const Analysis& analysis) {
   return std::ranges::any_of(analysis.remarks, [](const Remark& each) {
+    if (each.finding && each.finding->code == FindingCode::point_margins_left_out) return true;
     return each.finding && each.finding->code == FindingCode::left_out_beside_damper_loop &&
            std::ranges::find(each.finding->subjects, Subject{"what", "gain"}) != each.finding->subjects.end();
   });

@@ -31,7 +31,9 @@ struct Coordinates {
   };
   /// How the tip of a mechanism moves, in the world's frame: 3 x n each, row by row.
   struct Tip {
-    std::vector<double> moved;   ///< J
+    /// J; at a singular pose, where the tip moves along fewer directions than beside, then J towards each of some poses
+    /// beside, 3 x n each, of which the rows that J lacks count, not their size
+    std::vector<double> moved;
     std::vector<double> sensed;  ///< as the controller knows it, in the directions in which the wall acts; else 0
     std::vector<double> pushed;  ///< as the controller pushes it, likewise
   };

@@ -21,12 +21,22 @@ struct TipMotion {
   Eigen::MatrixXd sensed;                      ///< S_s, 3 x n
   Eigen::MatrixXd pushed;                      ///< S_a, 3 x n
   Eigen::MatrixXd tip;                         ///< J, 3 x n
+  /// Of a singular pose: J towards poses beside it, where the tip moves along more directions; else empty
+  std::vector<Eigen::MatrixXd> tips_beside = {};
 };
 
 /// That of a device of a mechanism, in the directions in which its wall acts; nothing of any other device.
 [[nodiscard]] std::optional<TipMotion> tip_motion_of(const Device& device);
 
-/// The directions in which the tip can move: orthonormal columns in the world's frame; none where it stands still.
+/// What the tip moves less of, relative to the direction in which it moves most, is a direction in which it cannot.
+inline constexpr double tip_stands_below = 1e-6;
+
+/// The directions in which the tip can move by J, 3 x n: orthonormal columns in the world's frame; none where it stands still.
+[[nodiscard]] Eigen::MatrixXd tip_directions(const Eigen::MatrixXd& tip);
+/// The same of a motion's own J.
 [[nodiscard]] Eigen::MatrixXd tip_directions(const TipMotion& motion);
+
+/// Whether the tip can move along a normal of any length > 0.
+[[nodiscard]] bool tip_moves_along(const Eigen::MatrixXd& tip, const Eigen::Vector3d& normal);
 
 }  // namespace zwidth

@@ -20,6 +20,12 @@ struct GraspLimit {
   double frequency = 0.0;  ///< rad/s, where the worst grasp destabilises it; 0: towards w = 0, or a limit of 0
 };
 
+/// Whom grasps at a singular pose leave: there a grasp holds fewer directions than at any pose beside it.
+enum class GraspedPose {
+  beside,  ///< the least over TipMotion::tips_beside: what a pose leaves that no hand keeps to
+  alone,   ///< at the pose itself
+};
+
 /// The same of a point wall, between two bounds.
 struct PointGraspLimit {
   double at_least = 0.0;   ///< N/m; stable with every passive grasp below
@@ -48,17 +54,19 @@ struct NormalLimitsOptions {
 ///     centre G_sa - jw g_s R^-1 g_a,   radius w |R^-1/2 g_s^H| |R^-1/2 g_a|
 ///
 /// and sampled over the sum of the discs of its aliases, as absolute_stability_limit() for one axis, of which the user is
-/// held to the normal: he is one of these. The least over frequency is looked for from w = 1e-3/T, 3e-4/T where the motion has slower
-/// corners, to pi/T. What the discs are made of has poles only where R = 0 and where aliases have theirs, which are computed: on
-/// intervals that are short where those are near, it is polynomials, which are compared with the discs at the ends of each. Their
-/// least, refined on the discs, is not proven to be the least (FindingCode::any_grasp_scanned). The user of `loop` is left out. Throws Error (invalid_argument) as point_wall_limit(),
-/// and for a normal along which the tip cannot move. Source: docs/theory.md, "Several axes".
+/// held to the normal: he is one of these. The least over frequency is looked for from w = 1e-3/T, 3e-4/T where the motion has
+/// slower corners, to pi/T. What the discs are made of has poles only where R = 0 and where aliases have theirs, which are
+/// computed: on intervals that are short where those are near, it is polynomials, which are compared with the discs at the ends of
+/// each. Their least, refined on the discs, is not proven to be the least (FindingCode::any_grasp_scanned). The user of `loop` is
+/// left out. At a singular pose the limit jumps up; `pose` says which of both. Throws Error (invalid_argument) as
+/// point_wall_limit(), and for a normal along which the tip cannot move. Source: docs/theory.md, "Several axes".
 [[nodiscard]] GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop,
-                                         const Eigen::Vector3d& normal);
+                                         const Eigen::Vector3d& normal, GraspedPose pose = GraspedPose::beside);
 
 /// The sampled plant along one normal, whoever grasps the tip: at each frequency the disc of any_grasp_limit(), in which neither a
 /// wall nor its filters are.
 ///
+/// Beside a singular pose grasps differ with the way there: the discs of all are in the one given.
 /// Throws Error (invalid_argument) for a normal along which the tip cannot move.
 class GraspedPlant {
  public:
@@ -98,7 +106,8 @@ class GraspedPlant {
 /// real root of the small-gain condition of one block, of LL^H = sum L_k L_k^H / d_k and R^H R = sum d_k R_k^H R_k,
 /// d_k = |L_k|/|R_k|: at_least. The frequency's own block alone, the aliases at their centres, is one block, and exact: at_most.
 /// Both agree where aliases matter little. Scanned over frequency as the above.
-[[nodiscard]] PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop);
+[[nodiscard]] PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop,
+                                                       GraspedPose pose = GraspedPose::beside);
 
 /// The limits along many normals at one pose: what is of the pose is computed once.
 ///

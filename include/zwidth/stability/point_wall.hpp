@@ -7,6 +7,7 @@
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/tip_motion.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/wall_margins.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -37,15 +38,23 @@ struct PointWallLimit {
 [[nodiscard]] PointWallLimit normal_wall_limit(const TipMotion& motion, const DeviceParameters& loop,
                                                const Eigen::Vector3d& normal);
 
-/// How far a point wall of stiffness K and damping B is from instability.
-struct PointWallMargins {
-  bool stable = false;           ///< every pole inside the unit circle, but those of positions that nothing holds
+/// How far a point wall of stiffness K and damping B is from instability; factors, phases and delays are those of all
+/// directions at once. Stable: every pole inside the unit circle, but those of positions that nothing holds.
+struct PointWallMargins : LoopMargins {
   double spectral_radius = 0.0;  ///< the largest |z|
-  /// K_CR/K: the least factor on K in all directions, B held, that destabilises; absent where unstable or none does
-  std::optional<double> stiffness_margin = {};
+  /// That a margin of a stable wall is absent where none is, and gain_crossovers are all; else some were not found
+  bool margins_are_known = false;
 };
 
-/// Of the wall in `loop`. Factors and delays that differ from direction to direction are not known.
+/// Of the wall in `loop`.
+///
+///     gain crossovers: |l| = 1 of an eigenvalue l of L = (K + B v) P on |z| = 1;  phase margin: |arg(-l)|
+///     they are where an eigenvalue of T = L (1 + L)^-1 has the real part 1/2
+///
+/// All are found: between them intervals of angle are excluded by a bound on T, of closed-loop poles. The delay margin is
+/// the least delay that, added to that of every direction, puts a pole of the loop sampled with it on the circle: exact for
+/// any fraction of a sample, as wall_margins(). gain_margin, and lower_gain_margin below 1, are of K and B together.
+/// Factors and delays that differ from direction to direction are not known.
 /// Throws Error (invalid_argument) as point_wall_limit(), and without a wall's stiffness > 0.
 [[nodiscard]] PointWallMargins point_wall_margins(const TipMotion& motion, const DeviceParameters& loop);
 

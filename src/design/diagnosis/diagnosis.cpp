@@ -127,8 +127,8 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
       diagnosis.remarks.push_back(left_out_beside_damper_loop("any_user"));
     }
   }
-  if (const auto said = any_grasp_remark(loop.device, knows_users_of(loop.device))) {
-    diagnosis.remarks.push_back(*said);
+  for (Remark& each : any_grasp_remarks(loop.device, knows_users_of(loop.device))) {
+    diagnosis.remarks.push_back(std::move(each));
   }
   if (!diagnosis.cause && diagnosis.nearest) {
     diagnosis.trust.doubt({.code = FindingCode::no_cause_fits});

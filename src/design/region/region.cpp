@@ -163,7 +163,9 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     result.force_per_count = force_per_count_rates(device.parameters().wall, period, resolution);
   }
   if (options.any_user && device.parameters().coordinates) {
-    if (const auto said = any_grasp_remark(device, asks_any_user(device, options))) result.remarks.push_back(*said);
+    for (Remark& each : any_grasp_remarks(device, asks_any_user(device, options))) {
+      result.remarks.push_back(std::move(each));
+    }
   }
   if (asks_any_user(device, options) && result.region.most_damped && result.region.most_damped->damping > 0.0) {
     if (!bounds_all_users(device)) {

@@ -311,8 +311,8 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   const Progress while_judging = [&progress](double) { progress.go_on(); };
   const AbsoluteStabilityCheck users(device, options.limit_of, while_judging);
   result.absolute_stability_limit_now = users.now();
-  if (const auto said = any_grasp_remark(device, true); said && users.now()) {
-    result.remarks.push_back(*said);
+  if (users.now()) {
+    for (Remark& each : any_grasp_remarks(device, true)) result.remarks.push_back(std::move(each));
   }
   double limit = own.value;
   if (options.goal == StiffnessGoal::absolute_stability_limit) {

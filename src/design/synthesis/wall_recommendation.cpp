@@ -300,8 +300,8 @@ class Recommendation {
     if (!limits_.has_users()) {
       result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
     }
-    if (const auto said = any_grasp_remark(device_, true); said && limits_.has_users()) {
-      result.remarks.push_back(*said);
+    if (limits_.has_users()) {
+      for (Remark& each : any_grasp_remarks(device_, true)) result.remarks.push_back(std::move(each));
     }
     if (!device_.parameters().wall.filters.empty()) {
       result.remarks.push_back(note({.code = FindingCode::filters_stay, .key = "wall.filter"}));

@@ -17,6 +17,7 @@ constexpr double to_next_gain = 10.0;
 constexpr double in_proportion = 0.1;   // relative
 constexpr double rounded_steps = 10.0;  // of eps |A|: what an eigenvalue decomposition leaves
 constexpr double greatest_gain = 1e12;  // of the unit
+constexpr double lowest_gain = 1e-9;    // of the one that a march downwards begins at
 constexpr int most_gain_steps = 200000;
 constexpr int most_steps_down = 2000;
 constexpr int most_newton_steps = 40;
@@ -150,7 +151,34 @@ std::optional<GainLimit> polished_crossing(const GainLoop& loop, double gain, do
 GainLimit first_crossing(const GainLoop& loop) {
   const FirstGain first = first_known_gain(loop);
   if (first.kind != GainLimit::Kind::crossing) return {.kind = first.kind};
-  double gain = first.gain;
+  return crossing_above(loop, first.gain);
+}
+
+GainLimit crossing_below(const GainLoop& loop, double from) {
+  double gain = from;
+  std::vector<LoopPole> poles = poles_at(loop, gain);
+  std::optional<GainLimit> ahead;
+  double near = close_to_crossing;
+  for (int step = 0; step < most_gain_steps; ++step) {
+    const std::optional<double> certain = certain_step(poles);
+    if (!certain) break;
+    if (gain < lowest_gain * from) return {.kind = GainLimit::Kind::unbounded};
+    for (LoopPole& each : poles) each.growth = -each.growth;
+    const LoopPole* next = first_to_leave(poles);
+    const double gap = next != nullptr ? -next->excess / next->growth : std::numeric_limits<double>::infinity();
+    if (gap < near * gain) {
+      near = nearer * gap / gain;
+      ahead = polished_crossing(loop, gain - gap, next->angle);
+    }
+    if (ahead && ahead->gain < gain && gain <= (1.0 + followed_until) * ahead->gain) return *ahead;
+    if (!(*certain < gain)) return {.kind = GainLimit::Kind::unbounded};  // certain down to 0
+    gain -= of_certain_step * *certain;
+    poles = poles_at(loop, gain);
+  }
+  return {};
+}
+
+GainLimit crossing_above(const GainLoop& loop, double gain) {
   std::vector<LoopPole> poles = poles_at(loop, gain);
   std::optional<GainLimit> ahead;
   double near = close_to_crossing;
@@ -177,6 +205,15 @@ bool is_stable(const GainLoop& loop, double gain) {
     if (2.0 * delta.real() + std::norm(delta) > 0.0 && std::abs(delta) > free_pole_below) return false;
   }
   return true;
+}
+
+double stability_excess_at(const GainLoop& loop, std::complex<double> gain) {
+  double largest = -1.0;
+  const Eigen::MatrixXcd closed = loop.state.cast<std::complex<double>>() - gain * (loop.input * loop.output);
+  for (const std::complex<double>& delta : complex_eigenvalues(closed)) {
+    if (std::abs(delta) > free_pole_below) largest = std::max(largest, std::abs(1.0 + delta) - 1.0);
+  }
+  return largest;
 }
 
 double stability_excess(const GainLoop& loop, double gain) {

@@ -3,6 +3,7 @@
 // Up to which gain a loop of several outputs is stable, without a gap: the small-gain theorem, step by step.
 
 #include <Eigen/Core>
+#include <complex>
 #include <cstdint>
 #include <optional>
 
@@ -32,12 +33,20 @@ struct GainLimit {
 // begins where the last one ends, to the first gain at which a pole reaches the circle.
 [[nodiscard]] GainLimit first_crossing(const GainLoop& loop);
 
+// The same from a gain on at which the loop is stable, upwards and downwards: the first crossing above and below it;
+// `unbounded` where there is none, downwards as far as 1e-9 of the gain.
+[[nodiscard]] GainLimit crossing_above(const GainLoop& loop, double gain);
+[[nodiscard]] GainLimit crossing_below(const GainLoop& loop, double gain);
+
 // The crossing next to a gain, by Newton's method on the size of the pole nearest to the circle and to an angle; nothing
 // where it does not converge.
 [[nodiscard]] std::optional<GainLimit> polished_crossing(const GainLoop& loop, double gain, double angle);
 
 // The largest pole's size less 1; a pole at z = 1 that the wall neither moves nor sees does not count.
 [[nodiscard]] double stability_excess(const GainLoop& loop, double gain);
+
+// The same where the force also turns: of a complex gain, by eigenvalues alone.
+[[nodiscard]] double stability_excess_at(const GainLoop& loop, std::complex<double> gain);
 
 // Whether all poles lie inside the circle, but those at z = 1: by eigenvalues alone.
 [[nodiscard]] bool is_stable(const GainLoop& loop, double gain);

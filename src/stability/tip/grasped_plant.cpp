@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -12,14 +13,11 @@
 #include "stability/tip/grasp_stiffness.hpp"
 #include "stability/tip/tip_response.hpp"
 #include "stability/tip/tip_states.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 #include "zwidth/stability/grasp_limit.hpp"
 
 namespace zwidth {
 namespace {
-
-constexpr double tip_stands_below = 1e-9;  // what the tip moves of a normal
 
 DeviceParameters nobody_holding(DeviceParameters loop) {
   loop.user = {};
@@ -46,25 +44,29 @@ std::vector<std::complex<double>> corners_of(const Wall& wall, double period) {
   return corners;
 }
 
-}  // namespace
-
-struct GraspedPlant::Parts {
-  Parts(const TipMotion& motion, const DeviceParameters& with, const Eigen::Vector3d& normal)
-      : loop(nobody_holding(with)),
-        directions(tip_directions(motion)),
+// The plant whose tip is grasped in the directions of a motion.
+struct GraspedMotion {
+  GraspedMotion(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal)
+      : directions(tip_directions(motion)),
         plant(internal::sampled_tip(internal::tip_coordinates(motion, directions), loop)),
         search(motion, loop, directions, plant, corners_of(loop.wall, loop.loop.sampling_period)) {
     along.head(directions.cols()) = directions.transpose() * normal.normalized();
-    if (!(along.norm() > tip_stands_below))
-      throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_does_not_move,
-                                                .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
     discs.emplace(search, along);
   }
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
-  ~Parts() = default;
+  GraspedMotion(const GraspedMotion&) = delete;
+  GraspedMotion& operator=(const GraspedMotion&) = delete;
+  ~GraspedMotion() = default;
 
-  DeviceParameters loop;
+  [[nodiscard]] GraspedPlant::Disc at(double angle) const {
+    if (search.discs().is_undamped()) {
+      const Eigen::VectorXd wall = along.head(directions.cols());
+      return {(wall.transpose() * internal::TipResponse(plant).at(angle) * wall).value(),
+              std::numeric_limits<double>::infinity()};
+    }
+    const internal::TerminationDiscs::Disc disc = internal::disc_along(search.discs().at(angle), along);
+    return {disc.centre, disc.radius};
+  }
+
   Eigen::MatrixXd directions;
   internal::SampledTip plant;
   internal::GraspSearch search;
@@ -72,32 +74,57 @@ struct GraspedPlant::Parts {
   std::optional<internal::GraspSearch::Along> discs;
 };
 
+// The least disc that holds both.
+GraspedPlant::Disc around(const GraspedPlant::Disc& a, const GraspedPlant::Disc& b) {
+  const double apart = std::abs(b.centre - a.centre);
+  if (!(apart + b.radius > a.radius)) return a;
+  if (!(apart + a.radius > b.radius)) return b;
+  const double radius = 0.5 * (apart + a.radius + b.radius);
+  return {a.centre + (radius - a.radius) / apart * (b.centre - a.centre), radius};
+}
+
+}  // namespace
+
+struct GraspedPlant::Parts {
+  Parts(const TipMotion& motion, const DeviceParameters& with, const Eigen::Vector3d& normal)
+      : period(with.loop.sampling_period) {
+    internal::require_tip_moves_along(motion, normal);
+    for (const TipMotion& each : internal::grasped_motions(motion)) {
+      motions.emplace_back(each, nobody_holding(with), normal);
+    }
+  }
+
+  double period;
+  std::deque<GraspedMotion> motions;
+};
+
 GraspedPlant::GraspedPlant(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal)
     : parts_(std::make_shared<const Parts>(motion, loop, normal)) {}
 
 GraspedPlant::Disc GraspedPlant::at(double frequency) const {
-  const Eigen::Vector3d& normal = parts_->along;
-  const double angle = std::min(frequency * parts_->plant.period, std::numbers::pi);
-  const internal::GraspDiscs& discs = parts_->search.discs();
-  if (discs.is_undamped()) {
-    const Eigen::VectorXd along = normal.head(parts_->directions.cols());
-    return {(along.transpose() * internal::TipResponse(parts_->plant).at(angle) * along).value(),
-            std::numeric_limits<double>::infinity()};
-  }
-  const internal::TerminationDiscs::Disc disc = internal::disc_along(discs.at(angle), normal);
-  return {disc.centre, disc.radius};
+  const double angle = std::min(frequency * parts_->period, std::numbers::pi);
+  Disc disc = parts_->motions.front().at(angle);
+  for (std::size_t i = 1; i < parts_->motions.size(); ++i) disc = around(disc, parts_->motions[i].at(angle));
+  return disc;
 }
 
 GraspLimit GraspedPlant::least_gain(const std::function<Wall(double frequency)>& wall) const {
-  const double period = parts_->plant.period;
-  const internal::GraspSearch::Wall walls = parts_->search.wall([&](double angle) {
-    const auto [unit, closed] = wall(angle / period);
-    return internal::WallResponse{unit, closed};
-  });
-  const internal::GraspSearch::Least least = parts_->discs->least(walls);
-  return {least.gain, internal::frequency_of(least, period)};
+  const double period = parts_->period;
+  GraspLimit least{.stiffness = std::numeric_limits<double>::infinity()};
+  for (const GraspedMotion& each : parts_->motions) {
+    const internal::GraspSearch::Wall walls = each.search.wall([&](double angle) {
+      const auto [unit, closed] = wall(angle / period);
+      return internal::WallResponse{unit, closed};
+    });
+    const internal::GraspSearch::Least found = each.discs.value().least(walls);
+    if (found.gain < least.stiffness) least = {found.gain, internal::frequency_of(found, period)};
+  }
+  return least;
 }
 
-bool GraspedPlant::is_undamped() const { return parts_->search.discs().is_undamped(); }
+bool GraspedPlant::is_undamped() const {
+  return std::ranges::any_of(parts_->motions,
+                             [](const GraspedMotion& each) { return each.search.discs().is_undamped(); });
+}
 
 }  // namespace zwidth

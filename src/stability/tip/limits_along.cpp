@@ -28,7 +28,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double lowest_crossover = 1e-5;
 constexpr int crossover_angles = 120;
 constexpr double confirmed_to = 1e-6;  // relative, of K
-constexpr double still_normal = 1e-9;  // what the tip moves of it
 constexpr int most_halvings = 80;
 
 VirtualDamper damper_of(const DeviceParameters& loop) { return {loop.wall.damping, loop.wall.velocity_filter_hz}; }
@@ -55,14 +54,13 @@ struct Posed {
 
   // In the tip's directions, padded with 0.
   [[nodiscard]] Eigen::Vector3d along(const Eigen::Vector3d& normal) const {
+    internal::require_tip_moves_along(motion, normal);
     Eigen::Vector3d result = Eigen::Vector3d::Zero();
     result.head(directions.cols()) = directions.transpose() * normal.normalized();
-    if (result.norm() > still_normal) return result;
-    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_does_not_move,
-                                              .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
+    return result;
   }
 
-  const TipMotion& motion;
+  TipMotion motion;
   DeviceParameters loop;
   Eigen::MatrixXd directions;
   SampledTip plant;
@@ -71,37 +69,48 @@ struct Posed {
 // Any grasp of the tip, with the damper of the wall.
 class GraspsAtPose {
  public:
-  explicit GraspsAtPose(const Posed& posed)
-      : search_(posed.motion, posed.loop, posed.directions, posed.plant),
-        wall_(search_.wall([damper = damper_of(posed.loop), period = posed.plant.period](double angle) {
+  GraspsAtPose(const TipMotion& motion, const DeviceParameters& loop)
+      : posed_(motion, loop),
+        search_(posed_.motion, posed_.loop, posed_.directions, posed_.plant),
+        wall_(search_.wall([damper = damper_of(posed_.loop), period = posed_.plant.period](double angle) {
           return internal::WallResponse{1.0, internal::damper_response(damper, period, angle / period)};
-        })),
-        damper_(damper_of(posed.loop)),
-        period_(posed.plant.period) {}
+        })) {}
 
   [[nodiscard]] GraspLimit along(const Eigen::Vector3d& normal) const {
-    return limit_of(GraspSearch::Along(search_, normal).least(wall_));
+    return limit_of(GraspSearch::Along(search_, posed_.along(normal)).least(wall_));
   }
 
   [[nodiscard]] GraspLimit quickly_along(const Eigen::Vector3d& normal) const {
-    return limit_of(GraspSearch::Along(search_, normal).quickly_least(wall_));
+    return limit_of(GraspSearch::Along(search_, posed_.along(normal)).quickly_least(wall_));
   }
 
-  [[nodiscard]] PointGraspLimit of_point(Eigen::Index m) const {
-    const auto [least, most] = search_.least_of_point(m, damper_);
+  [[nodiscard]] PointGraspLimit of_point() const {
+    const auto [least, most] = search_.least_of_point(posed_.directions.cols(), damper_of(posed_.loop));
     return {least.gain, most.gain, limit_of(least).frequency};
   }
 
  private:
   [[nodiscard]] GraspLimit limit_of(const GraspSearch::Least& least) const {
-    return {least.gain, internal::frequency_of(least, period_)};
+    return {least.gain, internal::frequency_of(least, posed_.plant.period)};
   }
 
+  Posed posed_;
   GraspSearch search_;
   GraspSearch::Wall wall_;
-  VirtualDamper damper_;
-  double period_;
 };
+
+// What users leave: at the pose, or at each of those beside it.
+std::vector<GraspsAtPose> grasps_of(const TipMotion& motion, const DeviceParameters& loop, GraspedPose pose) {
+  std::vector<GraspsAtPose> grasps;
+  if (pose == GraspedPose::alone) {
+    grasps.emplace_back(motion, loop);
+    return grasps;
+  }
+  for (const TipMotion& each : internal::grasped_motions(motion)) grasps.emplace_back(each, loop);
+  return grasps;
+}
+
+GraspLimit lesser(const GraspLimit& a, const GraspLimit& b) { return b.stiffness < a.stiffness ? b : a; }
 
 // -1/P - B v, which is K where it is real.
 class CrossoverScan {
@@ -197,12 +206,12 @@ namespace internal {
 struct LimitsAtPose::Scans {
   Scans(const TipMotion& of, const DeviceParameters& loop, const NormalLimitsOptions& options)
       : motion(of), posed(motion, loop), crossovers(posed) {
-    if (options.any_grasp) grasps.emplace(posed);
+    if (options.any_grasp) grasps = grasps_of(motion, loop, GraspedPose::beside);
   }
   TipMotion motion;
   Posed posed;
   CrossoverScan crossovers;
-  std::optional<GraspsAtPose> grasps;
+  std::vector<GraspsAtPose> grasps;
 };
 
 LimitsAtPose::LimitsAtPose(const TipMotion& motion, const DeviceParameters& loop, const NormalLimitsOptions& options)
@@ -215,19 +224,32 @@ NormalLimits LimitsAtPose::nobody_along(const Eigen::Vector3d& normal) const {
 }
 
 GraspLimit LimitsAtPose::any_grasp_along(const Eigen::Vector3d& normal) const {
-  return scans_->grasps.value().quickly_along(scans_->posed.along(normal));
+  GraspLimit least{.stiffness = infinity};
+  for (const GraspsAtPose& each : scans_->grasps) least = lesser(least, each.quickly_along(normal));
+  return least;
 }
 
 }  // namespace internal
 
-GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal) {
-  const Posed posed(motion, loop);
-  return GraspsAtPose(posed).along(posed.along(normal));
+GraspLimit any_grasp_limit(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal,
+                           GraspedPose pose) {
+  internal::require_tip_moves_along(motion, normal);
+  GraspLimit least{.stiffness = infinity};
+  for (const GraspsAtPose& each : grasps_of(motion, loop, pose)) least = lesser(least, each.along(normal));
+  return least;
 }
 
-PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop) {
-  const Posed posed(motion, loop);
-  return GraspsAtPose(posed).of_point(posed.directions.cols());
+PointGraspLimit any_grasp_limit_of_point(const TipMotion& motion, const DeviceParameters& loop, GraspedPose pose) {
+  PointGraspLimit least{.at_least = infinity, .at_most = infinity};
+  for (const GraspsAtPose& each : grasps_of(motion, loop, pose)) {
+    const PointGraspLimit here = each.of_point();
+    if (here.at_least < least.at_least) {
+      least.at_least = here.at_least;
+      least.frequency = here.frequency;
+    }
+    least.at_most = std::min(least.at_most, here.at_most);
+  }
+  return least;
 }
 
 std::vector<NormalLimits> limits_along(const TipMotion& motion, const DeviceParameters& loop,

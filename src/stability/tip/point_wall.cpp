@@ -1,10 +1,13 @@
 #include "zwidth/stability/point_wall.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 
 #include "stability/tip/gain_march.hpp"
+#include "stability/tip/loop_crossovers.hpp"
 #include "stability/tip/tip_states.hpp"
 #include "zwidth/error.hpp"
 
@@ -54,6 +57,39 @@ PointWallLimit limit_along(const TipMotion& motion, const DeviceParameters& loop
   return limit;
 }
 
+// The factor at which a march from a gain ends.
+std::optional<double> factor_of(const GainLimit& limit, double gain, PointWallMargins& margins) {
+  if (limit.kind == GainLimit::Kind::not_determined) margins.margins_are_known = false;
+  if (limit.kind != GainLimit::Kind::crossing) return std::nullopt;
+  return limit.gain / gain;
+}
+
+// Of stiffness and damper together.
+void add_gain_margins(const internal::GainLoop& loop, PointWallMargins& margins) {
+  margins.gain_margin = factor_of(internal::crossing_above(loop, 1.0), 1.0, margins);
+  margins.lower_gain_margin = factor_of(internal::crossing_below(loop, 1.0), 1.0, margins);
+}
+
+void add_crossovers(const internal::TipCoordinates& of, const internal::SampledTip& plant, const DeviceParameters& loop,
+                    PointWallMargins& margins) {
+  const auto points = internal::all_unit_gain_points(plant, loop.wall);
+  if (!points) {
+    margins.margins_are_known = false;
+    return;
+  }
+  try {
+    margins.delay_margin = internal::delay_margin_of_tip(of, loop);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    margins.margins_are_known = false;
+    return;
+  }
+  for (const internal::UnitGainPoint& each : *points) {
+    margins.gain_crossovers.push_back({each.angle / plant.period, each.phase});
+    margins.phase_margin = std::min(margins.phase_margin.value_or(std::numbers::pi), std::abs(each.phase));
+  }
+}
+
 }  // namespace
 
 PointWallLimit point_wall_limit(const TipMotion& motion, const DeviceParameters& loop) {
@@ -69,15 +105,19 @@ PointWallMargins point_wall_margins(const TipMotion& motion, const DeviceParamet
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::no_wall_stiffness});
   }
   internal::require_plain_wall(loop);
-  const Eigen::MatrixXd directions = all_directions(motion);
-  const internal::GainLoop closed = internal::stiffness_loop(
-      internal::sampled_tip(internal::tip_coordinates(motion, directions, loop.user), loop), loop.wall);
+  const internal::TipCoordinates of = internal::tip_coordinates(motion, all_directions(motion), loop.user);
+  const internal::SampledTip plant = internal::sampled_tip(of, loop);
+  const internal::GainLoop closed = internal::stiffness_loop(plant, loop.wall);
   const double excess = internal::stability_excess(closed, *loop.wall.stiffness / closed.unit);
-  PointWallMargins margins{.stable = excess < 0.0, .spectral_radius = 1.0 + excess, .stiffness_margin = {}};
+  PointWallMargins margins;
+  margins.stable = excess < 0.0;
+  margins.spectral_radius = 1.0 + excess;
   if (!margins.stable) return margins;
-  const PointWallLimit limit = limit_along(motion, loop, directions);
-  const bool is_below = limit.status == StiffnessStatus::finite && limit.stiffness > *loop.wall.stiffness;
-  if (is_below) margins.stiffness_margin = limit.stiffness / *loop.wall.stiffness;
+  const double gain = *loop.wall.stiffness / closed.unit;
+  margins.margins_are_known = true;
+  margins.stiffness_margin = factor_of(internal::crossing_above(closed, gain), gain, margins);
+  add_gain_margins(internal::wall_loop(plant, loop.wall), margins);
+  add_crossovers(of, plant, loop, margins);
   return margins;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "model/normal_coordinates.hpp"
 #include "sampling/matrix_exponential.hpp"
@@ -48,6 +49,23 @@ Step step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double t) {
 }
 
 }  // namespace
+
+void require_tip_moves_along(const TipMotion& motion, const Eigen::Vector3d& normal) {
+  if (tip_moves_along(motion.tip, normal)) return;
+  throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::tip_does_not_move,
+                                            .evidence = {{"x", normal.x()}, {"y", normal.y()}, {"z", normal.z()}}});
+}
+
+std::vector<TipMotion> grasped_motions(const TipMotion& motion) {
+  if (motion.tips_beside.empty()) return {motion};
+  std::vector<TipMotion> beside;
+  for (const Eigen::MatrixXd& each : motion.tips_beside) {
+    beside.push_back(motion);
+    beside.back().tip = each;
+    beside.back().tips_beside.clear();
+  }
+  return beside;
+}
 
 TipCoordinates tip_coordinates(const TipMotion& motion, const Eigen::MatrixXd& directions, const User& user) {
   const NormalCoordinates normal = normal_coordinates(device_of(motion, user, directions));
@@ -118,8 +136,15 @@ SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   return plant;
 }
 
+namespace {
+
 // States: x, u[k-1] .. u[k-l-1], and of the damper y[k-1] and T v[k-1].
-GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall) {
+struct LoopStates {
+  GainLoop loop;             // of the stiffness, without the damper
+  Eigen::MatrixXd velocity;  // T v of the states; empty without a damper
+};
+
+LoopStates loop_states(const SampledTip& plant, const Wall& wall) {
   const Eigen::Index n = plant.Phi.rows();
   const Eigen::Index m = plant.C.rows();
   const Eigen::Index late = plant.delay_samples;
@@ -128,7 +153,8 @@ GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall) {
   const Eigen::Index last = wall.damping > 0.0 ? m : 0;
   const Eigen::Index filtered = wall.damping > 0.0 && pole != 0.0 ? m : 0;
   const Eigen::Index states = n + kept * m + last + filtered;
-  GainLoop loop;
+  LoopStates result;
+  GainLoop& loop = result.loop;
   loop.period = plant.period;
   const double size = plant.C.norm() * (plant.Gamma1.norm() + (plant.has_fraction() ? plant.Gamma2.norm() : 0.0));
   loop.unit = size > 0.0 ? 1.0 / size : 1.0;
@@ -151,11 +177,12 @@ GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall) {
     if (i > 0) loop.state.block(n + i * m, n + (i - 1) * m, m, m).setIdentity();
   }
   if (kept > 0) loop.input.middleRows(n, m).setIdentity();
-  if (last == 0) return loop;
+  if (last == 0) return result;
   const Eigen::Index at_last = n + kept * m;
   loop.state.block(at_last, 0, m, n) = plant.C;
   loop.state.block(at_last, at_last, m, m).diagonal().setConstant(-1.0);
-  Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(m, states);  // T v
+  Eigen::MatrixXd& velocity = result.velocity;
+  velocity = Eigen::MatrixXd::Zero(m, states);
   velocity.leftCols(n) = (1.0 - pole) * plant.C;
   velocity.middleCols(at_last, m).diagonal().setConstant(-(1.0 - pole));
   if (filtered > 0) {
@@ -163,7 +190,21 @@ GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall) {
     loop.state.bottomRows(m) = velocity;
     loop.state.bottomRightCorner(m, m).diagonal().array() -= 1.0;
   }
-  loop.state -= wall.damping / plant.period / loop.unit * loop.input * velocity;
+  return result;
+}
+
+}  // namespace
+
+GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall) {
+  auto [loop, velocity] = loop_states(plant, wall);
+  if (velocity.size() > 0) loop.state -= wall.damping / plant.period / loop.unit * loop.input * velocity;
+  return loop;
+}
+
+GainLoop wall_loop(const SampledTip& plant, const Wall& wall) {
+  auto [loop, velocity] = loop_states(plant, wall);
+  loop.output *= wall.stiffness.value_or(0.0) / loop.unit;
+  if (velocity.size() > 0) loop.output += wall.damping / plant.period / loop.unit * velocity;
   return loop;
 }
 

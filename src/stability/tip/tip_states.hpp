@@ -4,11 +4,18 @@
 // damper.
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth::internal {
+
+// Throws Error (invalid_argument) for a normal along which the tip cannot move.
+void require_tip_moves_along(const TipMotion& motion, const Eigen::Vector3d& normal);
+
+// The motion that users grasp: itself, or at a singular pose one with the tip of each pose beside it.
+[[nodiscard]] std::vector<TipMotion> grasped_motions(const TipMotion& motion);
 
 // In coordinates in which M is 1: z'' + D z' + K z = pushed' f + tip' f_h, along m directions.
 struct TipCoordinates {
@@ -46,6 +53,8 @@ struct GainLoop {
 };
 // Of the wall's stiffness in all those directions; the wall's damper is closed.
 [[nodiscard]] GainLoop stiffness_loop(const SampledTip& plant, const Wall& wall);
+// Of the whole wall, stiffness and damper: a gain of 1 is the wall itself.
+[[nodiscard]] GainLoop wall_loop(const SampledTip& plant, const Wall& wall);
 
 // Throws Error (invalid_argument) for what walls in several directions do not know: filters on the wall's force, a damper
 // in a loop of its own.

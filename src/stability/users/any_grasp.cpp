@@ -1,8 +1,10 @@
 #include "stability/users/any_grasp.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "stability/loop/damper_response.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -13,14 +15,38 @@ namespace zwidth::internal {
 
 bool is_grasped_in_many_directions(const Device& device) {
   const std::optional<TipMotion> motion = tip_motion_of(device);
-  return motion && device.parameters().mechanism && tip_directions(*motion).cols() > 1;
+  if (!motion || !device.parameters().mechanism) return false;
+  return tip_directions(*motion).cols() > 1 || !motion->tips_beside.empty();
 }
 
-std::optional<Remark> any_grasp_remark(const Device& device, bool is_known) {
-  if (!device.parameters().coordinates) return std::nullopt;
-  if (!is_known) return note({.code = FindingCode::any_grasp_not_known});
-  if (!is_grasped_in_many_directions(device)) return std::nullopt;
-  return note({.code = FindingCode::any_grasp_scanned});
+std::vector<Remark> any_grasp_remarks(const Device& device, bool is_known) {
+  std::vector<Remark> remarks;
+  if (!device.parameters().coordinates) return remarks;
+  if (is_pose_singular(device)) remarks.push_back(singular_pose_remark(tip_motion_of(device).value()));
+  if (!is_known) {
+    remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+  } else if (is_grasped_in_many_directions(device)) {
+    remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
+  }
+  return remarks;
+}
+
+bool is_pose_singular(const Device& device) {
+  const std::optional<TipMotion> motion = tip_motion_of(device);
+  return motion && !motion->tips_beside.empty();
+}
+
+Remark singular_pose_remark(const TipMotion& motion, std::optional<double> at_pose, std::optional<double> beside) {
+  Eigen::Index directions = 0;
+  for (const Eigen::MatrixXd& each : motion.tips_beside) directions = std::max(directions, tip_directions(each).cols());
+  Finding lost{.code = FindingCode::tip_loses_directions,
+               .evidence = {{"directions", static_cast<double>(tip_directions(motion).cols())},
+                            {"directions_beside", static_cast<double>(directions)}}};
+  if (at_pose && beside) {
+    lost.evidence.push_back({"at_pose", *at_pose, "N/m"});
+    lost.evidence.push_back({"beside", *beside, "N/m"});
+  }
+  return warning(std::move(lost));
 }
 
 AnyGrasp::AnyGrasp(const Device& device)
