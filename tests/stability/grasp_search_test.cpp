@@ -92,5 +92,20 @@ TEST(GraspSearch, NoFrequencyLeavesLess) {
   }
 }
 
+// Some grasp reaches the wall in a range of frequencies narrower than the search's points.
+TEST(GraspSearch, SeesWhatFewFrequenciesLeave) {
+  for (const unsigned seed : {473U, 582U}) {
+    SCOPED_TRACE(seed);
+    auto [motion, loop] = test::random_mechanism(seed);
+    test::Draws draws(5000 + seed);
+    loop.wall.damping = draws.decades(0.05, 20.0);
+    const Eigen::Vector3d normal = (motion.tip * draws.normal(motion.tip.cols(), 1)).normalized();
+    const double least = least_of_grid(GraspedPlant(motion, loop, normal), loop, 3000);
+    ASSERT_TRUE(std::isfinite(least));
+    EXPECT_LE(any_grasp_limit(motion, loop, normal).stiffness, least * (1.0 + 1e-6));
+    EXPECT_LE(limits_along(motion, loop, {normal}).front().any_grasp->stiffness, least * (1.0 + 1e-4));
+  }
+}
+
 }  // namespace
 }  // namespace zwidth
