@@ -91,8 +91,10 @@ set(slow
   "^RigRelay\\.AllTrials"
   "^UdpDriver\\..*OverTheLink"
   "^UnsafeLimit\\.IsNoFalseAlarm"
-  "^(Drive/OnDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc|serial)$"
   "^(AvrPaddle|FirmwareBuild)\\."
+  "^LimitGrowth\\.(WhatTheEncoder|NoneOf)"
+  "^DelayOfDrive\\."
+  "^(Drive/OnDrive|Drive/AnswersOfDrive|Drive/SignOfDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc|serial)$"
   "^Bench/OnDevice\\..*/([3-9]|1[0-9])$"
   "^Bench/IdentifiedDevice\\.")
 # What is skipped where something is missing: published recordings beside the project, MPI, a right to mount.

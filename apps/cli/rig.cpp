@@ -42,6 +42,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_rig[] = {{"fo
                                                                             {"velocity", "--velocity-limit"},
                                                                             {"saturation_duration", "--saturation"},
                                                                             {"ramp", "--ramp"},
+                                                                            {"missed_cycles", "--missed-cycles"},
                                                                             {"amplitude", "--amplitude"},
                                                                             {"relay.amplitude", "--amplitude"},
                                                                             {"relay.hysteresis", "--hysteresis"},
@@ -86,6 +87,7 @@ void check_permission(const RigArguments& arguments, const Trust& trust) {
 rig::RigOptions rig_options(const RigArguments& arguments, const Device& device) {
   rig::RigOptions options;
   options.limits = arguments.limits;
+  options.nudge = !arguments.no_nudge;
   const auto declared = device.parameters().actuator.force_limit;
   if (!options.limits.force) options.limits.force = declared;
   if (declared && options.limits.force && *options.limits.force > *declared) {
@@ -359,6 +361,10 @@ void run_rig(const RigArguments& arguments) {
           analysis.trust,     outputs,
           std::move(options), rig::open_driver(arguments.driver, device, {arguments.start, arguments.real_time}),
           lost_record};
+  if (const auto watchdog = rig.driver->facts().watchdog; watchdog && !rig.driver->facts().lock_step) {
+    const auto problem = find_problem(rig.options.limits, device.loop().sampling_period, *watchdog);
+    if (problem) refuse(*problem, options_of_rig);
+  }
   rig.watchdog_proved = proved_watchdog(arguments, *rig.driver);
   if (arguments.action == "check") return run_check(rig);
   if (arguments.action == "measure") return run_measure(rig);

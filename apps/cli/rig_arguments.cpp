@@ -76,12 +76,19 @@ void add_safety_options(CLI::App& command, RigArguments& arguments) {
   add("--velocity-limit", arguments.limits.velocity, "m/s or rad/s, at which the force goes to zero", "V");
   add("--saturation", arguments.limits.saturation_duration, "How long the force may be cut off", "S")
       ->capture_default_str();
+  add("--missed-cycles", arguments.limits.missed_cycles,
+      "Cycles in a row that may come late or bring no position; else\n25 ms of them, three at least; at most the "
+      "drive's "
+      "watchdog",
+      "N");
   add("--ramp", arguments.limits.ramp, "Over which the force grows at the start", "S")->capture_default_str();
   const auto flag = [&](const char* name, bool& value, const char* what) {
     command.add_flag(name, value, what)->group(safety_group);
   };
   flag("--accept-doubt", arguments.accept_doubt, "Act on a device that is doubtful (its file says why)");
   flag("--accept-unstable", arguments.accept_unstable, "wall: render one that is unstable by linear analysis");
+  flag("--no-nudge", arguments.no_nudge,
+       "On a drive, leave out the nudge that tells its sign before any\nwall; where a wall ran before");
   flag("--no-watchdog", arguments.no_watchdog, "Act on a drive whose firmware has no watchdog, or none proved");
 }
 

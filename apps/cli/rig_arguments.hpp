@@ -19,6 +19,7 @@ struct RigArguments {
   bool accept_doubt = false;
   bool accept_unstable = false;
   bool no_watchdog = false;
+  bool no_nudge = false;
   bool damper_on_drive = false;
   bool real_time = false;
   SafetyLimits limits;

@@ -31,10 +31,15 @@ static void to_json(Json& json, const RingDown& ring) {
           {"amplitude", ring.amplitude}};
 }
 
+static void to_json(Json& json, const Nudge& nudge) {
+  json = {{"force", nudge.force}, {"moved", nudge.moved}, {"reading", nudge.reading}};
+}
+
 static void to_json(Json& json, const LimitTrial& trial) {
   json = {{"stiffness", trial.stiffness},
           {"grows", trial.grows()},
           {"stopped", trial.stopped},
+          {"growth_error_per_s", trial.ring ? Json(trial.growth_error) : Json(nullptr)},
           {"oscillation", trial.ring}};
 }
 
@@ -48,6 +53,8 @@ Json session_json(const RigSession& session) {
           {"sampling_period_s", session.sampling_period},
           {"stop", session.stop},
           {"stopped_at_s", session.stop == StopReason::none ? Json(nullptr) : Json(session.stopped_at)},
+          {"nudge", session.nudge},
+          {"drive_force_limit", session.drive_force_limit},
           {"limits",
            {{"force", limits.force},
             {"position", limits.position},

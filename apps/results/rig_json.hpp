@@ -14,7 +14,12 @@ NLOHMANN_JSON_SERIALIZE_ENUM(StopReason, {{StopReason::none, nullptr},
                                           {StopReason::missed_cycles, "missed_cycles"},
                                           {StopReason::lost_link, "lost_link"},
                                           {StopReason::watchdog, "watchdog"},
-                                          {StopReason::oscillation, "oscillation"}})
+                                          {StopReason::oscillation, "oscillation"},
+                                          {StopReason::wrong_sign, "wrong_sign"},
+                                          {StopReason::unknown_sign, "unknown_sign"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(NudgeReading, {{NudgeReading::with_force, "with_force"},
+                                            {NudgeReading::against_force, "against_force"},
+                                            {NudgeReading::not_told, "not_told"}})
 
 // The documents of `rig ACTION --json`, schema "zwidth.rig_ACTION/1": see docs/rig.md.
 [[nodiscard]] Json rig_json(const Device& device, const RigCheck& check);

@@ -3,15 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/rig/wall_verdict.hpp"
 
 namespace zwidth::rig {
 namespace {
 
-constexpr double fallback_hz = 10.0;  // where theory has no frequency
+constexpr double fallback_hz = 10.0;                               // where theory has no frequency
+constexpr std::array nudge_shares{0.0625, 0.125, 0.25, 0.5, 1.0};  // of the force that an action may take
+
+/// The device with the damper that its drive closes as one of its own, N s/m or N m s/rad.
+Device damped_by_drive(const Device& device, double damping) {
+  if (!device.has_bodies() || !has_damper_loop(device.loop())) return device;
+  DeviceParameters parameters = device.parameters();
+  parameters.loop.damper.reset();
+  parameters.wall.damping = 0.0;
+  parameters.bodies[parameters.loop.actuated].damping += damping;
+  return Device(std::move(parameters));
+}
 
 }  // namespace
 
@@ -33,8 +47,41 @@ Recording recording_of(Played played, const Device& device, const Driver& driver
   return recording;
 }
 
-RigSession ended(RigRun& run, const RigOptions& options, StopReason otherwise) {
+SessionStart nudged(RigRun& run, const Device& device, double damping, const Driver& driver, const RigOptions& options,
+                    SignNeed need) {
+  SessionStart start{device};
+  const Device moved = damped_by_drive(device, damping);
+  if (driver.facts().is_simulated || !options.nudge) return start;
+  const double most = default_force(device, options.limits.force);
+  Segment ramped;  // a nudge whose force still grows would not come back
+  ramped.cycles = cycles_of(options.limits.ramp, device);
+  (void)run.play(ramped);
+  for (const double share : nudge_shares) {
+    Segment segment;
+    segment.force = nudge_force(moved, share * most);
+    segment.cycles = segment.force.size();
+    const Played played = run.play(segment);
+    if (run.is_stopped()) return start;
+    start.nudge = read_nudge(moved, played.force, played.position);
+    if (start.nudge->reading != NudgeReading::not_told) break;
+  }
+  if (start.nudge->reading == NudgeReading::with_force) return start;
+  if (start.nudge->reading == NudgeReading::not_told) {
+    if (need == SignNeed::for_wall) run.stop(StopReason::unknown_sign);
+    return start;
+  }
+  if (driver.facts().byte_rate && device.parameters().driver) {
+    start.nudge->mending_force_sign = -device.parameters().driver->force_sign;
+  }
+  run.stop(StopReason::wrong_sign);
+  return start;
+}
+
+RigSession ended(RigRun& run, const SessionStart& start, const RigOptions& options, StopReason otherwise) {
   RigSession session = run.end();
+  session.motion = start.device.parameters().motion;
+  session.nudge = start.nudge;
+  remark(session, start.device);
   if (options.record) options.record(run.recorder(), session.stop != StopReason::none ? session.stop : otherwise);
   return session;
 }

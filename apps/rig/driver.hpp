@@ -18,13 +18,15 @@ struct DriverFailed : std::runtime_error {
 
 struct DriverFacts {
   std::string name;
-  bool is_simulated = false;             ///< what it measures is what the device's file says
-  bool lock_step = false;                ///< its time moves one period with each command: there is no clock to keep
-  bool is_zeroed = false;                ///< its positions count from where the wall begins; else from the first one
-  std::optional<double> watchdog = {};   ///< s, of the firmware; absent: it has none
-  double bytes_per_cycle = 0.0;          ///< on a serial line: question, answer and force
-  std::optional<double> byte_rate = {};  ///< bytes/s that the line carries; absent: no serial line
-  bool estimates_velocity = false;       ///< its damper's velocity is that of an estimator which no analysis knows
+  bool is_simulated = false;               ///< what it measures is what the device's file says
+  bool lock_step = false;                  ///< its time moves one period with each command: there is no clock to keep
+  bool is_zeroed = false;                  ///< its positions count from where the wall begins; else from the first one
+  std::optional<double> watchdog = {};     ///< s, of the firmware; absent: it has none
+  double bytes_per_cycle = 0.0;            ///< on a serial line: question, answer and force
+  double force_bytes = 0.0;                ///< of them the force's, which leave after command() has returned
+  std::optional<double> byte_rate = {};    ///< bytes/s that the line carries; absent: no serial line
+  std::optional<double> force_limit = {};  ///< N or N m, of the drive itself; absent: it tells none
+  bool estimates_velocity = false;         ///< its damper's velocity is that of an estimator which no analysis knows
 };
 
 /// Why no damper can run on the drive of the driver of that name: it closes none beside the forces that it is sent.
@@ -46,6 +48,8 @@ class Driver {
   /// within `force_limit` of both together, N or N m. Before arm(). Throws Error (invalid_argument) where the drive
   /// cannot, DriverFailed where it does not.
   virtual void close_damper(const Device& device, std::optional<double> force_limit);
+  /// So many cycles in a row may go without a position. Before arm().
+  virtual void allow_missed(unsigned cycles) noexcept { (void)cycles; }
   /// Makes the drive take forces; it starts with none. Throws DriverFailed.
   virtual void arm() = 0;
   /// The position now, m or rad; nothing where none came in time.

@@ -18,6 +18,7 @@ constexpr int idle_frames = 2;
 // "can send 8001 11001d01 *XX", "OK *XX", "rcv 00000100 21000a2d01xxxxxxxx *XX", a torque and its "OK *XX", with ends.
 constexpr double bytes_per_cycle = 27 + 8 + 37 + 57 + 8;
 
+constexpr double force_bytes = 57;
 constexpr double bytes_of_damper = 32;  // of a torque beside it: no position, velocity 0, and a limit
 
 constexpr int fault_mode = 1;
@@ -36,6 +37,7 @@ MoteusDriver::MoteusDriver(const SerialLink& link)
     : SerialDriver({.name = "moteus:" + checked_port(link),
                     .watchdog = watchdog,
                     .bytes_per_cycle = bytes_per_cycle,
+                    .force_bytes = force_bytes,
                     .estimates_velocity = true},
                    link, default_baud),
       id_(link.drive.id.value_or(1)) {
@@ -62,7 +64,7 @@ int MoteusDriver::mode() {
 
 void MoteusDriver::close_damper(const Device& device, std::optional<double> force_limit) {
   set_damper(device, DriveFirmware::moteus, force_limit);
-  set_bytes_per_cycle(bytes_per_cycle + bytes_of_damper);
+  add_force_bytes(bytes_of_damper);
 }
 
 std::string MoteusDriver::said_to(const std::string& text) {

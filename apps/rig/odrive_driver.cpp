@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "rig/odrive_protocol.hpp"
 #include "rig/real_time.hpp"
@@ -22,6 +23,7 @@ constexpr int idle_frames = 2;
 
 // Lines with their ends: "f 0*118", "-12.345678 -12.345678*123", "c 0 -1.23456e-05*123", "r axis0.error*96", "0*48".
 constexpr double bytes_per_cycle = 8 + 27 + 21 + 17 + 6;
+constexpr double force_bytes = 21;
 constexpr double bytes_of_velocity = 2;  // of "v 0 0 ..."
 
 // Of odrive-interface.yaml:
@@ -50,6 +52,7 @@ OdriveDriver::OdriveDriver(const SerialLink& link)
     : SerialDriver({.name = "odrive:" + checked_port(link),
                     .watchdog = watchdog_of(link),
                     .bytes_per_cycle = bytes_per_cycle,
+                    .force_bytes = force_bytes,
                     .estimates_velocity = true},
                    link, default_baud),
       axis_(link.drive.id.value_or(0)),
@@ -57,15 +60,29 @@ OdriveDriver::OdriveDriver(const SerialLink& link)
   if (const long found = error(); (found & ~watchdog_expired) != 0) {
     throw DriverFailed(trouble_text(Trouble::fault, found));
   }
+  read_limits();
 }
 
-std::string OdriveDriver::property(std::string_view name) {
+std::string OdriveDriver::said_of(std::string_view name) {
   const SerialFrame line = odrive_line(fmt::format("r axis{}.{}", axis_, name));
-  const std::string text = ask_until_answered(line.view(), [](std::string_view frame) -> std::optional<std::string> {
+  return ask_until_answered(line.view(), [](std::string_view frame) -> std::optional<std::string> {
     const auto answer = odrive_answer(frame);
     if (!answer || odrive_feedback(*answer)) return std::nullopt;
     return std::string(*answer);
   });
+}
+
+void OdriveDriver::read_limits() {
+  const auto torque = as_number(said_of("motor.config.torque_lim"));
+  const auto current = as_number(said_of("motor.config.current_lim"));
+  const auto constant = as_number(said_of("motor.config.torque_constant"));
+  double least = torque.value_or(std::numeric_limits<double>::infinity());
+  if (current && constant) least = std::min(least, *current * *constant);
+  if (std::isfinite(least)) set_torque_limit(least);
+}
+
+std::string OdriveDriver::property(std::string_view name) {
+  const std::string text = said_of(name);
   if (!as_number(text)) {
     throw DriverFailed(fmt::format("the drive answers \"{}\" to axis{}.{}; is its firmware 0.5?", text, axis_, name));
   }
@@ -80,7 +97,7 @@ long OdriveDriver::error() { return std::strtol(property("error").c_str(), nullp
 
 void OdriveDriver::close_damper(const Device& device, std::optional<double> force_limit) {
   set_damper(device, DriveFirmware::odrive, force_limit);
-  set_bytes_per_cycle(bytes_per_cycle + bytes_of_velocity);
+  add_force_bytes(bytes_of_velocity);
 }
 
 void OdriveDriver::tell_damper() {

@@ -31,6 +31,9 @@ class OdriveDriver : public SerialDriver {
  private:
   [[nodiscard]] std::string property(std::string_view name);
   void set_property(std::string_view name, std::string_view value);
+  /// What the axis answers to that property, a number or not.
+  [[nodiscard]] std::string said_of(std::string_view name);
+  void read_limits();
   void tell_damper();
   void request_closed_loop();
   [[nodiscard]] long error();

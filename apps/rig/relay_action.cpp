@@ -91,6 +91,7 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   result.trust = trust_of(device);
   if (trials.damper_on_drive) driver.close_damper(device, options.limits.force);
   RigRun run(driver, options.limits, device.loop().sampling_period);
+  const SessionStart start = nudged(run, device, device.parameters().wall.damping, driver, options);
   Segment segment;
   segment.controller.kind = ControllerOptions::Kind::relay;
   segment.controller.amplitude = trials.relay.amplitude;
@@ -123,7 +124,7 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
     swung = largest(recordings.back().channels[1].samples);
     report(progress, part(i + 1, trials.trials));
   }
-  result.session = ended(run, options);
+  result.session = ended(run, start, options);
   if (recordings.empty()) {
     result.trust.refuse(
         {.code = FindingCode::first_trial_cut_short, .subjects = {{"reason", explanation(result.session)}}});

@@ -19,7 +19,8 @@
 namespace zwidth::rig {
 namespace {
 
-constexpr double swing = 1e-3;  // m or rad, of an impulse or a relay at the predicted limit
+constexpr double swing = 1e-3;        // m or rad, of an impulse or a relay at the predicted limit
+constexpr double swing_steps = 20.0;  // of the encoder, at least
 constexpr double share_of_force = 1.0 / 3.0;
 constexpr double above_friction = 3.0;
 constexpr double dwell_cycles = 40.0;  // of it, after each impulse
@@ -171,7 +172,8 @@ double default_force(const Device& device, std::optional<double> force_limit) {
   const auto limit = force_limit ? force_limit : device.parameters().actuator.force_limit;
   const double most = limit ? share_of_force * *limit : std::numeric_limits<double>::infinity();
   if (predicted.status != StiffnessStatus::finite) return limit ? most : std::max(1.0, moving_force(device));
-  return std::min(most, std::max(swing * predicted.stiffness, moving_force(device)));
+  const double distance = std::max(swing, swing_steps * device.parameters().sensor.resolution);
+  return std::min(most, std::max(distance * predicted.stiffness, moving_force(device)));
 }
 
 MeasureOptions default_measurement(const Device& device) {
@@ -217,9 +219,14 @@ RigCheck check(const Device& device, Driver& driver, const RigOptions& options, 
     Segment segment;
     segment.cycles = cycles_of(duration, device);
     (void)run.play(segment);
-    result.session = ended(run, options);
+    const SessionStart start = nudged(run, device, 0.0, driver, options, SignNeed::to_be_told);
+    result.session = ended(run, start, options);
   }
   result.trust = trust_of(device);
+  if (result.session.nudge && result.session.stop == StopReason::none &&
+      result.session.nudge->reading == NudgeReading::not_told) {
+    result.trust.doubt(finding_of(*result.session.nudge, device.parameters().motion));
+  }
   if (result.session.stop != StopReason::none) {
     result.trust.refuse({.code = FindingCode::check_cut_short, .subjects = {{"reason", explanation(result.session)}}});
   }
@@ -238,7 +245,7 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
   segment.ramps = true;
   report(progress, 0.0);
   Played played = run.play(segment);
-  result.session = ended(run, options);
+  result.session = ended(run, {device}, options);
   report(progress, 0.5);
   if (result.session.stop != StopReason::none) {
     judge(result, device);
@@ -304,8 +311,9 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     doubt_estimator(driver, result.trust);
   }
   RigRun run(driver, options.limits, period, options.watcher);
+  const SessionStart start = nudged(run, device, wall.controller.damping, driver, options);
   Played played = run.play(segment);
-  result.session = ended(run, options, played.stop);
+  result.session = ended(run, start, options, played.stop);
   result.oscillates = played.stop == StopReason::oscillation;
   result.peak_force = largest(played.force);
   result.peak_position = largest(played.position);
@@ -335,6 +343,7 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
     doubt_estimator(driver, result.predicted.trust);
   }
   RigRun run(driver, options.limits, period, options.watcher);
+  const SessionStart begun = nudged(run, device, device.parameters().wall.damping, driver, options);
   const auto hosted = [&](double stiffness) { return on_host(wall_of(device, stiffness), limit.damper_on_drive); };
   Segment holding;
   holding.controller = hosted(limit.search.start);
@@ -372,7 +381,7 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
     const Played played = with_impulse(*stiffness, LimitSearch::smaller_impulse);
     if (!run.is_stopped()) search.add_smaller(after_impulse(played), period);
   }
-  result.session = ended(run, options);
+  result.session = ended(run, begun, options);
   result.measured = search.measurement(device);
   if (result.session.stop != StopReason::none && !result.measured.stiffness) {
     result.measured.trust.refuse(

@@ -19,6 +19,8 @@ struct RigOptions {
   /// Takes the record, and why the session ended: none where it came to its end, oscillation where a wall was taken away.
   std::function<void(const FlightRecorder&, StopReason)> record = {};
   Watcher watcher = {};  ///< of wall and limit
+  /// The device is nudged before any wall or relay, and at the end of a check: a drive of wrong or unknown sign gets none.
+  bool nudge = true;
 };
 
 struct MeasureOptions {
@@ -80,7 +82,7 @@ struct LimitOptions {
                                      const LimitOptions& limit, const Progress& progress);
 
 /// Defaults from what theory predicts of the device: the band about its limiting crossover, a force that moves it by about
-/// a millimetre (milliradian) and is three times its dry friction, at most a third of its force limit, or of a tighter one
+/// a millimetre (milliradian), twenty steps of its encoder at least, and is three times its dry friction, at most a third of its force limit, or of a tighter one
 /// that is given. Throw Error where the critical stiffness is refused, or not finite and not given.
 [[nodiscard]] MeasureOptions default_measurement(const Device& device);
 [[nodiscard]] double default_force(const Device& device, std::optional<double> force_limit = {});

@@ -12,6 +12,11 @@ namespace {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
+/// ns, of a force's bytes: the system takes them at once, the line one after the other.
+std::int64_t time_on_wire(const DriverFacts& facts) {
+  return facts.byte_rate ? std::llround(1e9 * facts.force_bytes / *facts.byte_rate) : 0;
+}
+
 }  // namespace
 
 RunningSegment::RunningSegment(const Segment& segment, double sampling_period)
@@ -60,6 +65,7 @@ RigLoop::RigLoop(Driver& driver, const SafetyLimits& limits, double sampling_per
       period_(sampling_period),
       period_ns_(std::llround(1e9 * sampling_period)),
       has_clock_(!driver.facts().lock_step),
+      wire_ns_(time_on_wire(driver.facts())),
       guard_(limits, sampling_period),
       recorder_(sampling_period),
       has_origin_(driver.facts().is_zeroed) {}
@@ -128,7 +134,7 @@ void RigLoop::cycle(std::int64_t now, std::int64_t due) noexcept {
   board_.put(live);
   const std::int64_t end = clock_now();
   body_.add(end - begin);
-  if (has_clock_) delay_.add(end - begin);
+  if (has_clock_) delay_.add(end - begin + wire_ns_);
   cycles_.store(count + 1, std::memory_order_release);
 }
 

@@ -105,6 +105,7 @@ class RigLoop {
   double period_;
   std::int64_t period_ns_;
   bool has_clock_;
+  std::int64_t wire_ns_;  // that a force takes after it was handed to the line
   ForceGuard guard_;
   FlightRecorder recorder_;
   LiveBoard board_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rig/real_time.hpp"
+#include "zwidth/require_valid.hpp"
 
 namespace zwidth::rig {
 namespace {
@@ -18,6 +19,16 @@ constexpr auto between_tellings = std::chrono::milliseconds(100);
 
 std::atomic<bool> is_interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// As many as may be missed on this drive: it must not let go before the rig does.
+SafetyLimits with_missed_cycles(SafetyLimits limits, const Driver& driver, double sampling_period) {
+  const auto watchdog = driver.facts().watchdog;
+  if (watchdog && !driver.facts().lock_step) require_valid(find_problem(limits, sampling_period, *watchdog));
+  if (limits.missed_cycles) return limits;
+  limits.missed_cycles = allowed_missed_cycles(sampling_period);
+  while (watchdog && find_problem(limits, sampling_period, *watchdog)) --*limits.missed_cycles;
+  return limits;
+}
 
 void on_interrupt(int /*signal*/) { is_interrupted.store(true); }
 
@@ -42,12 +53,13 @@ InterruptsStopRigs::~InterruptsStopRigs() {
 
 RigRun::RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period, Watcher watcher)
     : driver_(driver),
-      limits_(limits),
+      limits_(with_missed_cycles(limits, driver, sampling_period)),
       period_(sampling_period),
-      loop_(driver, limits, sampling_period),
+      loop_(driver, limits_, sampling_period),
       watcher_(std::move(watcher)),
       told_(std::chrono::steady_clock::now()) {
   if (loop_.has_clock()) remarks_ = lock_memory();
+  driver_.allow_missed(*limits_.missed_cycles);
   driver_.arm();
   if (!loop_.has_clock()) return;
   try {
@@ -88,7 +100,7 @@ void RigRun::run_on_clock() noexcept {
 void RigRun::watch() noexcept {
   const std::int64_t period = std::llround(1e9 * period_);
   const std::int64_t look = std::max(shortest_look, period);
-  const std::int64_t patience = (limits_.missed_cycles + 1) * period + look;
+  const std::int64_t patience = (*limits_.missed_cycles + 1) * period + look;
   std::uint64_t seen = 0;
   std::int64_t since = clock_now();
   while (!is_ending_.load(std::memory_order_acquire)) {
@@ -137,6 +149,13 @@ Played RigRun::play(const Segment& segment) {
   return running.played();
 }
 
+void RigRun::stop(StopReason reason) {
+  loop_.request_stop(reason);
+  Segment one;
+  one.cycles = 1;
+  (void)play(one);
+}
+
 RigSession RigRun::end() {
   halt();
   RigSession session;
@@ -148,10 +167,10 @@ RigSession RigRun::end() {
   session.stop = loop_.stopped();
   session.stopped_at = loop_.stopped_at();
   session.timing = loop_.timing();
+  session.drive_force_limit = driver_.facts().force_limit;
   session.remarks = remarks_;
   std::ranges::move(thread_remarks_, std::back_inserter(session.remarks));
   if (session.stop == StopReason::lost_link) session.trouble = driver_.trouble();
-  if (auto finding = finding_of(session)) session.remarks.push_back(warning(*std::move(finding)));
   return session;
 }
 

@@ -40,6 +40,8 @@ class RigRun {
 
   /// Runs a segment to its end, or until the rig stops.
   [[nodiscard]] Played play(const Segment& segment);
+  /// Stops the rig: zero force from the next cycle on.
+  void stop(StopReason reason);
   [[nodiscard]] bool is_stopped() const noexcept { return loop_.stopped() != StopReason::none; }
   /// Ends the session: zero force. What it was, then.
   [[nodiscard]] RigSession end();

@@ -7,12 +7,14 @@
 #include <utility>
 
 #include "rig/real_time.hpp"
+#include "zwidth/rig/force_guard.hpp"
 #include "zwidth/rig/serial_rate.hpp"
 
 namespace zwidth::rig {
 namespace {
 
 constexpr std::int64_t lock_step_patience = 500'000'000;
+constexpr double expiry_before_last = 1.5;  // cycles: between the last two that may be missed, whatever the clock does
 constexpr double cycles_within_watchdog = 2.0;
 constexpr double printed_step = 1e-6;  // of drives that print six decimals
 constexpr double printed_share = 1e-3;
@@ -49,7 +51,9 @@ SerialDriver::SerialDriver(DriverFacts facts, const SerialLink& link, int defaul
       drive_(link.drive),
       port_(link.port, baud_of(link, default_baud)),
       patience_(link.lock_step ? lock_step_patience
-                               : std::llround(1e9 * serial_share_of_cycle * link.sampling_period)) {}
+                               : std::llround(1e9 * serial_share_of_cycle * link.sampling_period)) {
+  allow_missed(allowed_missed_cycles(link.sampling_period));
+}
 
 std::size_t SerialDriver::frame_size(std::string_view bytes) const noexcept {
   const std::size_t end = bytes.find('\n');
@@ -77,34 +81,38 @@ std::string_view SerialDriver::next_frame() noexcept {
 
 void SerialDriver::forget_input() noexcept {
   begin_ = end_ = 0;
-  owed_ = 0;
+  is_owed_ = false;
   while (fill(0)) begin_ = end_ = 0;
 }
 
-std::optional<double> SerialDriver::measure() noexcept {
-  const auto is_answer = [](const Heard& heard) { return heard.meaning != Meaning::other; };
-  do {  // what came since the last cycle: echoes, and what was owed
-    for (std::string_view frame = next_frame(); !frame.empty(); frame = next_frame()) {
-      if (is_answer(hear(frame)) && owed_ > 0) --owed_;
-    }
-  } while (fill(0));
-  const std::int64_t until = clock_now() + patience_;
-  port_.write(question().view());
+void SerialDriver::allow_missed(unsigned cycles) noexcept {
+  if (facts_.lock_step) return;  // its answers come, or never do
+  expiry_ = std::llround(1e9 * (std::max(cycles, 2U) - expiry_before_last) * sampling_period_);
+}
+
+std::optional<SerialDriver::Heard> SerialDriver::answer(std::int64_t until) noexcept {
   do {
     for (std::string_view frame = next_frame(); !frame.empty(); frame = next_frame()) {
       const Heard heard = hear(frame);
-      if (!is_answer(heard)) continue;
-      if (owed_ > 0) {
-        --owed_;
-        continue;
-      }
-      last_ = heard;
-      if (heard.meaning != Meaning::position) return std::nullopt;
-      return heard.turns * drive_.position_per_turn();
+      if (heard.meaning != Meaning::other) return heard;
     }
   } while (fill(until));
-  ++owed_;
   return std::nullopt;
+}
+
+std::optional<double> SerialDriver::measure() noexcept {
+  while (answer(0)) is_owed_ = false;  // what came since the last cycle: echoes, and what was owed
+  const std::int64_t until = clock_now() + patience_;
+  if (is_owed_ && clock_now() - asked_ < expiry_ && !answer(until)) return std::nullopt;
+  is_owed_ = true;
+  asked_ = clock_now();
+  port_.write(question().view());
+  const auto heard = answer(until);
+  if (!heard) return std::nullopt;
+  is_owed_ = false;
+  last_ = *heard;
+  if (heard->meaning != Meaning::position) return std::nullopt;
+  return heard->turns * drive_.position_per_turn();
 }
 
 std::string SerialDriver::trouble() const {
@@ -167,9 +175,15 @@ void SerialDriver::require_taken(std::string_view name, double told, std::string
       fmt::format("the drive has {} at {} instead of {:.6g}: it closes another damper", name, said, told));
 }
 
-void SerialDriver::set_bytes_per_cycle(double bytes) {
-  if (!facts_.lock_step) require_fast_line(bytes, bits_of_byte * facts_.byte_rate.value_or(0.0), sampling_period_);
-  facts_.bytes_per_cycle = bytes;
+void SerialDriver::add_force_bytes(double bytes) {
+  const double all = facts_.bytes_per_cycle + bytes;
+  if (!facts_.lock_step) require_fast_line(all, bits_of_byte * facts_.byte_rate.value_or(0.0), sampling_period_);
+  facts_.bytes_per_cycle = all;
+  facts_.force_bytes += bytes;
+}
+
+void SerialDriver::set_torque_limit(double torque) noexcept {
+  facts_.force_limit = torque / std::abs(drive_.torque_per_force());
 }
 
 void SerialDriver::tell(std::string_view frame) {

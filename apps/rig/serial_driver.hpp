@@ -27,12 +27,13 @@ struct SerialLink {
 
 /// What the drives on serial lines share: a question and its answer, then a force; units; what came too late.
 ///
-/// Answers carry no number of their question. One that did not come in time is still owed: the next that comes is taken
-/// for it and dropped, so that no position is ever a period older than it seems. Where it never comes, three cycles
-/// without a position stop the rig.
+/// Answers carry no number of their question. One that did not come in time is still owed: nothing more is asked until it
+/// comes, and is dropped, so that no position is ever a period older than it seems. One that has not come when all cycles
+/// but one that may be missed are over is lost, and the drive is asked again: one lost answer does not end a session.
 class SerialDriver : public Driver {
  public:
   [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
+  void allow_missed(unsigned cycles) noexcept override;
   [[nodiscard]] std::optional<double> measure() noexcept override;
   [[nodiscard]] std::string trouble() const override;
 
@@ -84,17 +85,21 @@ class SerialDriver : public Driver {
   void set_damper(const Device& device, DriveFirmware firmware, std::optional<double> force_limit);
   /// Throws DriverFailed where what the drive says is not the number that it was told, to the digits that it prints.
   static void require_taken(std::string_view name, double told, std::string_view said);
-  /// More bytes in each cycle than at first. Throws DriverFailed where the line does not carry them.
-  void set_bytes_per_cycle(double bytes);
+  /// So many more bytes in each force than at first. Throws DriverFailed where the line does not carry them.
+  void add_force_bytes(double bytes);
 
   [[nodiscard]] SerialPort& port() noexcept { return port_; }
   [[nodiscard]] const MotorDrive& drive() const noexcept { return drive_; }
+  /// Of the motor, N m: what the drive's own limits leave.
+  void set_torque_limit(double torque) noexcept;
   void set_watchdog(std::optional<double> watchdog) noexcept { facts_.watchdog = watchdog; }
 
  private:
   /// The first whole frame of what has come; empty: there is none. Valid until the next call.
   [[nodiscard]] std::string_view next_frame() noexcept;
   [[nodiscard]] bool fill(std::int64_t until) noexcept;
+  /// Reads until an answer comes: what it says; nothing where none does until then.
+  [[nodiscard]] std::optional<Heard> answer(std::int64_t until) noexcept;
 
   DriverFacts facts_;
   std::optional<Damper> damper_;
@@ -105,8 +110,10 @@ class SerialDriver : public Driver {
   std::array<char, 1024> bytes_{};
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  unsigned owed_ = 0;
-  Heard last_;  // answer of a cycle
+  bool is_owed_ = false;     // the answer to the last question
+  std::int64_t asked_ = 0;   // ns, when that was
+  std::int64_t expiry_ = 0;  // ns, after which it is lost
+  Heard last_;               // answer of a cycle
 };
 
 }  // namespace zwidth::rig

@@ -18,6 +18,7 @@ constexpr std::string_view angle_echo = "MG";
 
 // "MMG6", "MMG-12.345678", "M-1.23457e-05" and its echo "M-0.000012", with their ends.
 constexpr double bytes_per_cycle = 5 + 15 + 14 + 12;
+constexpr double force_bytes = 14;
 
 double constant(const std::optional<double>& given, std::string_view key, std::string_view unit) {
   if (given) return *given;
@@ -34,9 +35,16 @@ const std::string& checked_port(const SerialLink& link) {
 }  // namespace
 
 SimplefocDriver::SimplefocDriver(const SerialLink& link)
-    : SerialDriver({.name = "simplefoc:" + checked_port(link), .bytes_per_cycle = bytes_per_cycle}, link, default_baud),
+    : SerialDriver(
+          {.name = "simplefoc:" + checked_port(link), .bytes_per_cycle = bytes_per_cycle, .force_bytes = force_bytes},
+          link, default_baud),
       motor_(link.drive.command),
-      torque_per_target_(torque_per_target()) {}
+      torque_per_target_(torque_per_target()) {
+  const std::string_view limit = is_by_volts_ ? "LU" : "LC";
+  if (const auto most = as_number(setting(limit, limit)); most && *most > 0.0) {
+    set_torque_limit(*most * torque_per_target_);
+  }
+}
 
 std::string SimplefocDriver::setting(std::string_view command, std::string_view echo) {
   // Each time: the drive may have been reset in between, by opening its port.
@@ -63,6 +71,7 @@ double SimplefocDriver::torque_per_target() {
                       "control a current (motor.torque_controller)",
                       motor_));
     }
+    is_by_volts_ = true;
     return constant(drive().torque_per_volt, "torque_per_volt", "volts");
   }
   if (kind == "dc curr" || kind == "foc curr" || kind == "est. curr") {

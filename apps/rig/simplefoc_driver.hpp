@@ -35,6 +35,7 @@ class SimplefocDriver : public SerialDriver {
   void tell_damper();
 
   std::string motor_;
+  bool is_by_volts_ = false;
   double torque_per_target_;  // N m/A or N m/V
 };
 

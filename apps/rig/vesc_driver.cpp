@@ -19,6 +19,7 @@ constexpr double most_turns_per_cycle = 0.25;
 
 // Question, answer, current.
 constexpr double bytes_per_cycle = 10 + 16 + 10;
+constexpr double force_bytes = 10;
 
 double torque_constant_of(const SerialLink& link) {
   if (!link.drive.torque_constant) {
@@ -38,7 +39,10 @@ std::optional<std::string> payload_of_values(std::string_view frame) {
 VescDriver::VescDriver(const SerialLink& link) : VescDriver(link, torque_constant_of(link)) {}
 
 VescDriver::VescDriver(const SerialLink& link, double torque_constant)
-    : SerialDriver({.name = "vesc:" + link.port, .watchdog = default_watchdog, .bytes_per_cycle = bytes_per_cycle},
+    : SerialDriver({.name = "vesc:" + link.port,
+                    .watchdog = default_watchdog,
+                    .bytes_per_cycle = bytes_per_cycle,
+                    .force_bytes = force_bytes},
                    link, default_baud),
       torque_constant_(torque_constant) {
   if (const int fault = values().fault; fault != 0) {

@@ -251,6 +251,10 @@ enum class FindingCode : std::uint16_t {
   drive_in_trouble,             ///< there was no position: the drive itself says why
   watchdog_fired,               ///< the loop stood still
   oscillation_grew,             ///< an oscillation grew
+  moves_against_force,          ///< under a force the position moved the other way
+  moves_under_no_force,         ///< under a force the position did not move so that its sign is known
+  cycles_unanswered,            ///< cycles brought no position, and repeated the last force
+  drive_limits_force,           ///< the drive limits the force below the rig's force limit
   memory_not_locked,            ///< the system refuses to lock memory
   no_real_time_priority,        ///< the system refuses real-time priority
   no_processor_of_its_own,      ///< the system refuses to bind the loop to a processor
@@ -268,6 +272,8 @@ enum class FindingCode : std::uint16_t {
   device_bears_less,            ///< the limit measured lies below what the file promises
   prediction_above_measured,    ///< the predicted limit lies above the one measured
   file_promises_more,           ///< the limits of the file lie above the one measured
+  measured_below_promise,       ///< the limit measured lies below what the file promises, not surely
+  measured_above_promise,       ///< the limit measured lies above what the file promises
   user_was_not_there,           ///< the limit measured lies below that with the file's user alone
   friction_in_response,         ///< dry friction shows as damping in a response
   force_cut_off,                ///< the force was cut off after the impulse
@@ -277,6 +283,7 @@ enum class FindingCode : std::uint16_t {
   growth_not_bracketed,         ///< no oscillation was read on both sides of the limit
   encoder_coarse_for_swing,     ///< the encoder is coarse for the swing
   growth_not_known,             ///< the growth rate has a large standard error
+  growth_not_told,              ///< softer walls were tried of which nobody can tell whether their oscillation grows
   no_smaller_impulse,           ///< no smaller impulse was tried
   smaller_impulse_not_read,     ///< after a smaller impulse no oscillation was read
   smaller_swing_decays_faster,  ///< a smaller swing decays faster: the limit depends on the swing

@@ -79,6 +79,7 @@
 #include "zwidth/require_valid.hpp"
 #include "zwidth/rig/force_guard.hpp"
 #include "zwidth/rig/limit_search.hpp"
+#include "zwidth/rig/nudge.hpp"
 #include "zwidth/rig/oscillation_watch.hpp"
 #include "zwidth/rig/results.hpp"
 #include "zwidth/rig/serial_rate.hpp"

@@ -25,6 +25,8 @@ constexpr double ceiling_share = 1.5;       // of the predicted limit
 constexpr double least_swing_share = 0.01;  // of the swing at the end: what is smaller leaks from another oscillation
 constexpr double same_frequency = 0.2;      // relative: growth rates of one oscillation
 constexpr double sure_deviations = 3.0;     // of a growth rate; its windows overlap
+constexpr double clearly_beyond = 1.5;      // of a growth rate's error: a wall that shows growth
+constexpr double hop_cycles = 1.5;          // between windows of ring_down()
 constexpr double far_below = 0.95;          // of a stiffness
 constexpr double size_margin = 2.0;         // of the error by the size of the swing
 constexpr double least_difference = 0.2;    // of two swings, relative
@@ -87,11 +89,18 @@ double turning_error(double step, double swing, double samples_per_cycle, const 
          motion.growth;
 }
 
+/// By how much a growth rate may be off, 1/s: as of LimitSearch.
+double growth_error(const RingDown& ring, double step, double period) {
+  const double samples_per_cycle = 2.0 * std::numbers::pi / (ring.frequency * period);
+  const double span = hop_cycles * static_cast<double>(ring.windows - 1) * 2.0 * std::numbers::pi / ring.frequency;
+  const double swing = ring.amplitude * std::exp(-0.5 * ring.growth_rate * span);  // in the middle
+  return sure_deviations * ring.growth_deviation +
+         step / swing / std::sqrt(6.0 * samples_per_cycle) * 0.5 * ring.frequency;
+}
+
 /// The wall that a trial felt at the stiffest, where its oscillation surely grew.
 std::optional<double> sure_to_grow(const LimitTrial& trial, double step) {
-  const bool is_sure =
-      trial.stopped || (trial.ring && trial.ring->growth_rate > sure_deviations * trial.ring->growth_deviation);
-  if (!is_sure) return std::nullopt;
+  if (!trial.surely_grows()) return std::nullopt;
   if (step == 0.0) return trial.stiffness;
   const double swing = trial.ring ? trial.ring->amplitude : 0.0;
   return trial.stiffness * (1.0 + std::min(encoder_error(step, swing), 1.0));
@@ -175,10 +184,30 @@ LimitSearch::LimitSearch(LimitSearchOptions options) : options_(std::move(option
   require_valid(find_problem(options_));
 }
 
-const LimitTrial* LimitSearch::unstable() const {
+const LimitTrial* LimitSearch::surely_unstable() const {
   const LimitTrial* softest = nullptr;
   for (const LimitTrial& trial : trials_) {
-    if (trial.grows() && (softest == nullptr || trial.stiffness < softest->stiffness)) softest = &trial;
+    if (trial.surely_grows() && (softest == nullptr || trial.stiffness < softest->stiffness)) softest = &trial;
+  }
+  return softest;
+}
+
+const LimitTrial* LimitSearch::surely_stable() const {
+  const LimitTrial* above = surely_unstable();
+  const LimitTrial* stiffest = nullptr;
+  for (const LimitTrial& trial : trials_) {
+    if (!trial.surely_decays() || (above != nullptr && trial.stiffness > above->stiffness)) continue;
+    if (stiffest == nullptr || trial.stiffness > stiffest->stiffness) stiffest = &trial;
+  }
+  return stiffest;
+}
+
+const LimitTrial* LimitSearch::unstable() const {
+  const LimitTrial* below = surely_stable();
+  const LimitTrial* softest = nullptr;
+  for (const LimitTrial& trial : trials_) {
+    if (!trial.grows() || (below != nullptr && trial.stiffness < below->stiffness)) continue;
+    if (softest == nullptr || trial.stiffness < softest->stiffness) softest = &trial;
   }
   return softest;
 }
@@ -193,22 +222,28 @@ const LimitTrial* LimitSearch::stable() const {
   return stiffest;
 }
 
+double LimitSearch::stiffer() const {
+  const LimitTrial& last = trials_.back();
+  double stiffness = options_.step * last.stiffness;
+  if (trials_.size() >= 2) {
+    const LimitTrial& before = trials_[trials_.size() - 2];
+    if (const auto zero = zero_of_growth(before, last)) {
+      const double shown = *zero + clearly_beyond * last.growth_error / motion_between(before, last).growth;
+      stiffness = std::min(stiffness, std::max({beyond_extrapolation * *zero, shown, least_step * last.stiffness}));
+    }
+  }
+  return std::min(stiffness, options_.ceiling);
+}
+
 std::optional<double> LimitSearch::next() const {
   if (trials_.empty()) return options_.start;
   if (trials_.size() >= most_trials) return std::nullopt;
+  const bool has_reached_ceiling =
+      std::ranges::any_of(trials_, [&](const LimitTrial& each) { return each.stiffness >= options_.ceiling; });
+  if (surely_unstable() == nullptr && !has_reached_ceiling) return stiffer();
   const LimitTrial* low = stable();
   const LimitTrial* high = unstable();
-  if (high == nullptr) {
-    if (low->stiffness >= options_.ceiling) return std::nullopt;
-    double stiffness = options_.step * low->stiffness;
-    if (trials_.size() >= 2) {
-      const auto zero = zero_of_growth(trials_[trials_.size() - 2], trials_.back());
-      if (zero) {
-        stiffness = std::min(stiffness, std::max(beyond_extrapolation * *zero, least_step * low->stiffness));
-      }
-    }
-    return std::min(stiffness, options_.ceiling);
-  }
+  if (high == nullptr) return std::nullopt;
   if (low == nullptr) {
     const double softer = 0.5 * high->stiffness;
     return softer < softest_share * options_.start ? std::nullopt : std::optional(softer);
@@ -226,9 +261,12 @@ std::optional<double> LimitSearch::next() const {
 
 void LimitSearch::add(double stiffness, std::span<const double> position, double sampling_period, bool stopped,
                       bool cut) {
-  trials_.push_back({stiffness,
-                     least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor), stopped,
-                     cut});
+  LimitTrial& trial = trials_.emplace_back();
+  trial.stiffness = stiffness;
+  trial.ring = least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor);
+  trial.stopped = stopped;
+  trial.cut = cut;
+  if (trial.ring) trial.growth_error = growth_error(*trial.ring, options_.floor, sampling_period);
   period_ = sampling_period;
 }
 
@@ -242,6 +280,28 @@ std::optional<double> LimitSearch::next_smaller() const {
 void LimitSearch::add_smaller(std::span<const double> position, double sampling_period) {
   has_smaller_ = true;
   smaller_ = least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor);
+}
+
+void LimitSearch::doubt_untold(const Units& units, LimitMeasurement& result) const {
+  const LimitTrial* stable = surely_stable();
+  if (stable == nullptr) return;
+  double softest = 0.0;
+  double stiffest = 0.0;
+  for (const LimitTrial& trial : trials_) {
+    const bool is_told = !trial.ring || trial.surely_grows() || trial.surely_decays();
+    if (is_told || trial.stiffness > stable->stiffness) continue;
+    softest = softest == 0.0 ? trial.stiffness : std::min(softest, trial.stiffness);
+    stiffest = std::max(stiffest, trial.stiffness);
+  }
+  if (softest == 0.0) return;
+  result.trust.doubt({.code = FindingCode::growth_not_told,
+                      .evidence = {{"softest", softest, units.stiffness}, {"stiffest", stiffest, units.stiffness}}});
+  if (!result.interval) return;
+  double below = 0.0;
+  for (const LimitTrial& trial : trials_) {
+    if (trial.surely_decays() && trial.stiffness < softest) below = std::max(below, trial.stiffness);
+  }
+  result.interval->lower = std::min(result.interval->lower, below);
 }
 
 LimitMeasurement LimitSearch::measurement(const Device& device) const {
@@ -325,6 +385,7 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
                       {"threshold", most_error + std::min(of_step, most_error)}}});
     if (of_step < most_error) result.interval.reset();  // else the encoder makes it, for which it is wide enough
   }
+  doubt_untold(units, result);
   const double width = (high->stiffness - low->stiffness) / high->stiffness;
   if (width > options_.bracket) {
     result.trust.doubt({.code = FindingCode::bracket_wide,

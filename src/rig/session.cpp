@@ -1,8 +1,19 @@
 #include "zwidth/rig/session.hpp"
 
+#include "zwidth/quantity.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {
+
+Finding finding_of(const Nudge& nudge, Motion motion) {
+  const Units units = units_of(motion);
+  Finding finding{.code = FindingCode::moves_under_no_force, .evidence = {{"force", nudge.force, units.force}}};
+  if (nudge.reading != NudgeReading::against_force) return finding;
+  finding.code = FindingCode::moves_against_force;
+  finding.evidence.push_back({"moved", -nudge.moved, units.length});
+  if (nudge.mending_force_sign) finding.evidence.push_back({"mending_force_sign", *nudge.mending_force_sign});
+  return finding;
+}
 
 std::optional<Finding> finding_of(const RigSession& session) {
   using enum FindingCode;
@@ -28,6 +39,9 @@ std::optional<Finding> finding_of(const RigSession& session) {
       return Finding{.code = watchdog_fired};
     case StopReason::oscillation:
       return Finding{.code = oscillation_grew};
+    case StopReason::wrong_sign:
+    case StopReason::unknown_sign:
+      return finding_of(session.nudge.value_or(Nudge{}), session.motion);
   }
   return std::nullopt;
 }

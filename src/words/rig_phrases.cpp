@@ -33,6 +33,23 @@ std::span<const Phrase> rig_phrases() {
              "the loop stood still and the watchdog set the force to zero; give it a processor of its own and "
              "real-time priority"},
       Phrase{oscillation_grew, "oscillation_grew", warning, "an oscillation grew: the force is zero; render softer"},
+      Phrase{moves_against_force, "moves_against_force", refusal,
+             "the device moved against the force: by {moved} under {force}: a wall would push it away", "",
+             "{?mending_force_sign|set driver.force_sign to {mending_force_sign:n} where the position counts the right "
+             "way, driver.sign and driver.force_sign both the other way round where the force pushes the right way}"
+             "{!mending_force_sign|turn the force or the position round in the drive}"},
+      Phrase{moves_under_no_force, "moves_under_no_force", refusal,
+             "the device did not move with the nudge of {force} so that the drive's sign is known", "",
+             "free it, or state its dry friction (body.coulomb), against which the nudge is made; where the sign is "
+             "known, leave the nudge out"},
+      Phrase{cycles_unanswered, "cycles_unanswered", doubt,
+             "{share:%.2f} % of the cycles brought no position, and their force came a period late{?error|: the limit "
+             "may be {error:%.1f} % lower by that}",
+             "", "a better cable, a shorter line or a longer sampling period"},
+      Phrase{drive_limits_force, "drive_limits_force", warning,
+             "the drive itself limits the force to {drive_limit}, below the force limit of {force_limit}: beyond it "
+             "walls are softer than they seem",
+             "", "raise the limit in the drive, or lower the force limit"},
       Phrase{memory_not_locked, "memory_not_locked", warning, "memory could not be locked: {error}", cycles_late,
              "raise the limit: ulimit -l unlimited, or memlock in limits.conf"},
       Phrase{no_real_time_priority, "no_real_time_priority", warning, "real-time priority is not allowed: {error}",
@@ -74,6 +91,15 @@ std::span<const Phrase> rig_phrases() {
       Phrase{file_promises_more, "file_promises_more", doubt,
              "the device's file promises {promised:limit}, more than was measured: identify the device before any of "
              "its limits is used"},
+      Phrase{measured_below_promise, "measured_below_promise", warning,
+             "the limit measured, {measured}, lies {difference:%} % below the {promised:limit} that the device's file "
+             "promises, if not surely",
+             "walls in between are called stable, and may shake on the device",
+             "measure again, harder or for longer; identify the device, and render softer until then"},
+      Phrase{measured_above_promise, "measured_above_promise", note,
+             "the limit measured, {measured}, lies {difference:%} % above the {promised:limit} that the device's file "
+             "promises: the file is not that of the device",
+             "", "identify it"},
       Phrase{
           user_was_not_there, "user_was_not_there", note,
           "the limit measured, {at_most} at most, lies below that with the file's user, {with_user:limit}, not below "
@@ -101,6 +127,10 @@ std::span<const Phrase> rig_phrases() {
       Phrase{growth_not_known, "growth_not_known", doubt,
              "the oscillation's growth is not known well enough: the limit may be off by {error:%} %", "",
              "knock harder"},
+      Phrase{growth_not_told, "growth_not_told", doubt,
+             "whether an oscillation grows in walls of {softest} to {stiffest}, softer than the limit, cannot be told: "
+             "its growth is not known well enough",
+             "", "knock harder, or let the trials last longer"},
       Phrase{no_smaller_impulse, "no_smaller_impulse", doubt,
              "no smaller knock was tried, which would show whether the limit is that of this swing alone"},
       Phrase{

@@ -56,18 +56,18 @@ TEST(DeviceDriver, HasTheKeysOfItsDocument) {
     if (line.starts_with("| **`")) is_inside = line.starts_with("| **`[driver]`**");
     if (is_inside && line.starts_with("| `")) keys.push_back(line.substr(3, line.find('`', 3) - 3));
   }
-  EXPECT_EQ(keys, (std::vector<std::string>{"travel", "gear", "sign", "torque_constant", "torque_per_volt", "id",
-                                            "command", "baud"}));
-  for (const std::string least :
-       {"travel = 1e-9\n", "gear = 0.001\n", "sign = -1\n", "torque_constant = 1e-6\n", "torque_per_volt = 1e-6\n",
-        "id = 0\n", "id = 127\n", "command = \"z\"\n", "baud = 1200\n", "baud = 4000000\n"}) {
+  EXPECT_EQ(keys, (std::vector<std::string>{"travel", "gear", "sign", "force_sign", "torque_constant",
+                                            "torque_per_volt", "id", "command", "baud"}));
+  for (const std::string least : {"travel = 1e-9\n", "gear = 0.001\n", "sign = -1\n", "force_sign = -1\n",
+                                  "torque_constant = 1e-6\n", "torque_per_volt = 1e-6\n", "id = 0\n", "id = 127\n",
+                                  "command = \"z\"\n", "baud = 1200\n", "baud = 4000000\n"}) {
     EXPECT_EQ(refusal_of_drive(rotary + least).str(), "") << least;
   }
 }
 
 TEST(DeviceDriver, IsWrittenAsItWasRead) {
   for (const std::string text :
-       {"travel = 0.025\nsign = -1\nbaud = 115200\n", "travel = 1\nid = 7\ncommand = \"z\"\n"}) {
+       {"travel = 0.025\nsign = -1\nforce_sign = -1\nbaud = 115200\n", "travel = 1\nid = 7\ncommand = \"z\"\n"}) {
     const auto device = parse_device(linear + text, "f.toml");
     ASSERT_TRUE(device) << device.error().str();
     const std::string written = write_device(device->parameters());
@@ -75,6 +75,7 @@ TEST(DeviceDriver, IsWrittenAsItWasRead) {
     ASSERT_TRUE(again) << again.error().str();
     EXPECT_EQ(write_device(again->parameters()), written);
     EXPECT_EQ(again->parameters().driver->sign, device->parameters().driver->sign);
+    EXPECT_EQ(again->parameters().driver->force_sign, device->parameters().driver->force_sign);
     EXPECT_EQ(again->parameters().driver->baud, device->parameters().driver->baud);
     EXPECT_EQ(again->parameters().driver->id, device->parameters().driver->id);
     EXPECT_EQ(again->parameters().driver->command, device->parameters().driver->command);

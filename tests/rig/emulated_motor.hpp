@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -16,6 +17,8 @@
 
 namespace zwidth::test {
 
+using Clock = std::chrono::steady_clock;
+
 /// The motor behind an emulated drive: a simulated device whose time moves one sampling period with each torque.
 class EmulatedMotor {
  public:
@@ -27,13 +30,18 @@ class EmulatedMotor {
 
   /// Turns of its shaft.
   [[nodiscard]] double turns() {
+    measured_at_ = Clock::now();
     if (is_not_a_number) return std::numeric_limits<double>::quiet_NaN();
     return (damped_ ? damped_->measure() : loop_.measure()) / drive_.position_per_turn();
   }
   /// N m at its shaft, from now on.
   void set_torque(double torque) {
-    const double force = torque / drive_.torque_per_force();
+    const double force = (has_wrong_sign ? -1.0 : 1.0) * torque / drive_.torque_per_force();
     force_ = force;
+    if (measured_at_ != Clock::time_point{}) {
+      delay_ += std::chrono::nanoseconds(Clock::now() - measured_at_).count();
+      ++delays_;
+    }
     if (damped_) {
       damped_->move(force);
     } else {
@@ -69,7 +77,13 @@ class EmulatedMotor {
   [[nodiscard]] double largest_force() const { return largest_force_; }
   [[nodiscard]] int times_let_go() const { return times_let_go_; }
 
+  /// s, in the mean, from when its position was asked for on the drive to when the force was there; and forget it.
+  [[nodiscard]] double mean_delay() {
+    return 1e-9 * static_cast<double>(delay_.exchange(0)) / std::max(1, delays_.exchange(0));
+  }
+
   std::atomic<bool> is_not_a_number = false;
+  std::atomic<bool> has_wrong_sign = false;  ///< its torque turns it against the way that it counts
 
  private:
   Device device_;
@@ -78,13 +92,14 @@ class EmulatedMotor {
   std::optional<rig::DampedDevice> damped_;
   std::atomic<double> damping_ = 0.0;
   MotorDrive drive_;
+  Clock::time_point measured_at_;
+  std::atomic<std::int64_t> delay_ = 0;  // ns, sum
+  std::atomic<int> delays_ = 0;
   std::atomic<double> force_ = 0.0;
   std::atomic<int> forces_ = 0;
   std::atomic<int> nonzero_forces_ = 0;
   std::atomic<double> largest_force_ = 0.0;
   std::atomic<int> times_let_go_ = 0;
 };
-
-using Clock = std::chrono::steady_clock;
 
 }  // namespace zwidth::test

@@ -16,6 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 SafetyLimits limits() {
   SafetyLimits limits;
+  limits.missed_cycles = 3;
   limits.force = 5.0;
   limits.position = 0.1;
   limits.velocity = 2.0;
@@ -162,8 +163,39 @@ TEST(ForceGuard, RefusesLimitsThatAreNone) {
   EXPECT_EQ(member([](SafetyLimits& l) { l.velocity = nan; }), "velocity");
   EXPECT_EQ(member([](SafetyLimits& l) { l.saturation_duration = 0.0; }), "saturation_duration");
   EXPECT_EQ(member([](SafetyLimits& l) { l.missed_cycles = 0; }), "missed_cycles");
+  EXPECT_EQ(member([](SafetyLimits& l) { l.missed_cycles = 1001; }), "missed_cycles");
   EXPECT_EQ(member([](SafetyLimits& l) { l.ramp = -1.0; }), "ramp");
   EXPECT_THROW(ForceGuard({.force = -1.0, .position = {}, .velocity = {}}, period), Error);
+}
+
+// Three late cycles of a loop of 1 kHz ended a session: 3 ms.
+TEST(ForceGuard, AllowsAsManyMissedCyclesAsFitInto25ms) {
+  EXPECT_EQ(allowed_missed_cycles(1e-3), 25U);
+  EXPECT_EQ(allowed_missed_cycles(0.5e-3), 50U);
+  EXPECT_EQ(allowed_missed_cycles(5e-3), 5U);
+  EXPECT_EQ(allowed_missed_cycles(0.05), 3U);
+  SafetyLimits limits;
+  ForceGuard guard(limits, 1e-3);
+  (void)guard.update(0.0, 0.0);
+  for (int k = 0; k < 24; ++k) (void)guard.no_position();
+  EXPECT_EQ(guard.stopped(), StopReason::none);
+  (void)guard.no_position();
+  EXPECT_EQ(guard.stopped(), StopReason::lost_link);
+}
+
+// Else the drive would let go while the rig still waits for it.
+TEST(ForceGuard, TheDrivesWatchdogBoundsThem) {
+  SafetyLimits limits;
+  EXPECT_FALSE(find_problem(limits, 1e-3, 0.1));
+  EXPECT_FALSE(find_problem(limits, 1e-3, 0.01)) << "what nobody gave is made to fit";
+  limits.missed_cycles = 100;
+  EXPECT_FALSE(find_problem(limits, 1e-3, 0.1));
+  limits.missed_cycles = 101;
+  const auto problem = find_problem(limits, 1e-3, 0.1);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->member, "missed_cycles");
+  limits.missed_cycles = 3;
+  EXPECT_FALSE(find_problem(limits, 0.05, 0.1)) << "three always are allowed";
 }
 
 }  // namespace

@@ -151,7 +151,9 @@ class OdriveFirmware : public Firmware {
 
   std::map<std::string, double> numbers_{{"controller.config.vel_gain", 1.0 / 6.0},  // its defaults
                                          {"controller.config.vel_integrator_gain", 1.0 / 3.0},
-                                         {"motor.config.torque_lim", 1e9}};
+                                         {"motor.config.torque_lim", 1e9},
+                                         {"motor.config.current_lim", 10.0},
+                                         {"motor.config.torque_constant", 0.04}};
   std::string line_;
   bool is_whole_ = true;
   long error_ = 0;

@@ -12,7 +12,9 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -41,7 +43,7 @@ class PtyEmulator {
     wrong_checksum,
     not_a_number,
     late,
-    lost_answers,  // every third
+    lost_answers,  // every seventh
     stalled,
     no_watchdog,
     failed_drive,
@@ -80,6 +82,8 @@ class PtyEmulator {
   [[nodiscard]] const EmulatedMotor& motor() const { return motor_; }
   /// Where frames are cut off: any number.
   void set_place(unsigned place) { place_ = place; }
+  /// What is told to it acts at once.
+  [[nodiscard]] EmulatedMotor& motor() { return motor_; }
   /// ms, by which answers come late.
   void set_answer_delay(int answer_delay) { answer_delay_ = answer_delay; }
   void set_fault(Fault fault) {
@@ -95,7 +99,7 @@ class PtyEmulator {
     std::array<char, 4096> bytes{};
     while (!is_ending_) {
       pollfd waiting{master_, POLLIN, 0};
-      const timespec longest{0, 2'000'000};  // the watchdog looks although nothing comes
+      const timespec longest = longest_wait();
       const bool has_input = master_ >= 0 && ppoll(&waiting, 1, &longest, nullptr) > 0;
       firmware_->tick(Clock::now(), fault_ != Fault::no_watchdog, motor_);
       if (fault_ == Fault::unplugged) {
@@ -110,24 +114,56 @@ class PtyEmulator {
         }
       }
       if (fault_ == Fault::failed_drive && !std::exchange(has_failed_, true)) firmware_->fail(motor_);
-      if (!has_input) continue;
-      const ssize_t count = read(master_, bytes.data(), bytes.size());
-      if (count <= 0 || !has_same_speed()) continue;
-      take_time(static_cast<std::size_t>(count));
-      for (std::string& frame : firmware_->receive({bytes.data(), static_cast<std::size_t>(count)}, motor_)) {
-        answer(std::move(frame));
+      if (has_input) {
+        const ssize_t count = read(master_, bytes.data(), bytes.size());
+        if (count > 0 && has_same_speed()) travel(inbox_, {bytes.data(), static_cast<std::size_t>(count)});
       }
+      while (const auto arrived = inbox_.arrived()) {
+        for (std::string& frame : firmware_->receive(*arrived, motor_)) answer(std::move(frame));
+      }
+      while (const auto arrived = outbox_.arrived()) put(*arrived);
     }
+  }
+
+  /// Bytes under way in one direction, one after the other.
+  struct Wire {
+    std::deque<std::pair<Clock::time_point, std::string>> under_way;
+    Clock::time_point free_at;
+
+    [[nodiscard]] std::optional<std::string> arrived() {
+      if (under_way.empty() || under_way.front().first > Clock::now()) return std::nullopt;
+      std::string bytes = std::move(under_way.front().second);
+      under_way.pop_front();
+      return bytes;
+    }
+  };
+
+  void travel(Wire& wire, std::string bytes) const {
+    const double time = line_.is_paced ? 10.0 * static_cast<double>(bytes.size()) / line_.baud : 0.0;
+    wire.free_at = std::max(wire.free_at, Clock::now()) +
+                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));
+    wire.under_way.emplace_back(wire.free_at, std::move(bytes));
+  }
+
+  [[nodiscard]] timespec longest_wait() const {
+    Clock::duration wait = std::chrono::milliseconds(2);  // the watchdog looks although nothing comes
+    for (const Wire* wire : {&inbox_, &outbox_}) {
+      if (!wire->under_way.empty()) wait = std::min(wait, wire->under_way.front().first - Clock::now());
+    }
+    return {0, std::max<long>(0, std::chrono::duration_cast<std::chrono::nanoseconds>(wait).count())};
   }
 
   void answer(std::string frame) {
     const Fault fault = fault_;
     if (fault == Fault::silent) return;
-    if (fault == Fault::lost_answers && ++answers_ % 3 == 0) return;
+    if (fault == Fault::lost_answers && ++answers_ % 7 == 0) return;
     if (fault == Fault::wrong_checksum) frame[frame.size() / 2] ^= 1;
     if (fault == Fault::half_frames) frame.resize(place_ % frame.size());
     if (fault == Fault::late) std::this_thread::sleep_for(std::chrono::milliseconds(answer_delay_));
-    take_time(frame.size());
+    travel(outbox_, std::move(frame));
+  }
+
+  void put(const std::string& frame) {
     std::size_t sent = 0;
     while (sent < frame.size() && !is_ending_) {
       const ssize_t count = write(master_, frame.data() + sent, frame.size() - sent);
@@ -136,16 +172,9 @@ class PtyEmulator {
     }
   }
 
-  void take_time(std::size_t bytes) {
-    if (!line_.is_paced) return;
-    const std::chrono::duration<double> time(10.0 * static_cast<double>(bytes) / line_.baud);
-    free_at_ = std::max(free_at_, Clock::now()) + std::chrono::duration_cast<Clock::duration>(time);
-    std::this_thread::sleep_until(free_at_);
-  }
-
   [[nodiscard]] bool has_same_speed() const {
-    constexpr std::array<std::pair<int, speed_t>, 4> speeds{
-        {{115200, B115200}, {921600, B921600}, {1000000, B1000000}, {4000000, B4000000}}};
+    constexpr std::array<std::pair<int, speed_t>, 5> speeds{
+        {{9600, B9600}, {115200, B115200}, {921600, B921600}, {1000000, B1000000}, {4000000, B4000000}}};
     termios settings{};
     if (tcgetattr(slave_, &settings) != 0) return false;
     const auto* const own =
@@ -159,7 +188,8 @@ class PtyEmulator {
   int master_;
   int slave_ = -1;
   std::string path_;
-  Clock::time_point free_at_;
+  Wire inbox_;
+  Wire outbox_;
   int answers_ = 0;
   bool has_failed_ = false;
   std::atomic<bool> is_ending_ = false;

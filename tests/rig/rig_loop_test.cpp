@@ -106,6 +106,7 @@ TEST(RigRun, EachFaultIsToldAndRecorded) {
     ToldDriver driver(false);
     SafetyLimits limits;
     limits.position = 0.1;
+    limits.missed_cycles = 3;
     RigRun run(driver, limits, 1e-3);
     (void)run.play(test::wall_segment(50));
     fault(driver);

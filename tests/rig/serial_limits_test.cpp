@@ -92,6 +92,7 @@ TEST_P(FrictionOnDrive, AMeasurementMovesTheDeviceAndIsDoubtful) {
 // A limit found with a force that was cut off is that of another wall.
 TEST_P(LimitsOnDrive, TheForceIsCutOffAndTheLimitRefused) {
   RigOptions options;
+  options.nudge = false;
   options.limits.force = 1.0;
   options.limits.saturation_duration = 100.0;
   LimitOptions limit = default_limit(device);
@@ -105,6 +106,7 @@ TEST_P(LimitsOnDrive, TheForceIsCutOffAndTheLimitRefused) {
 
 TEST_P(LimitsOnDrive, ForceBeyondTheLimitForTooLongIsZeroForce) {
   RigOptions options;
+  options.nudge = false;
   options.limits.force = 1.0;
   options.limits.saturation_duration = 0.05;
   options.limits.ramp = 0.0;
@@ -120,6 +122,7 @@ TEST_P(LimitsOnDrive, ForceBeyondTheLimitForTooLongIsZeroForce) {
 
 TEST_P(LimitsOnDrive, APositionBeyondItsLimitIsZeroForce) {
   RigOptions options;
+  options.nudge = false;
   options.limits.position = 2e-3;
   WallOptions wall;
   wall.controller = wall_controller(device.parameters().wall);
@@ -132,6 +135,7 @@ TEST_P(LimitsOnDrive, APositionBeyondItsLimitIsZeroForce) {
 
 TEST_P(LimitsOnDrive, AVelocityBeyondItsLimitIsZeroForce) {
   RigOptions options;
+  options.nudge = false;
   options.limits.velocity = 0.02;
   WallOptions wall;
   wall.controller = wall_controller(device.parameters().wall);

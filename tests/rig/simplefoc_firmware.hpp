@@ -96,6 +96,9 @@ class SimplefocFirmware : public Firmware {
         if (!is_sentinel(input[2])) found->second = std::atof(input + 2);
         return echo(std::string("V") + input[1]) + number(found->second);
       }
+      case 'L':
+        if (input[1] != 'U' && input[1] != 'C') return echo(std::string_view(input, 2)) + "err\r\n";
+        return echo(std::string_view(input, 2)) + number(input[1] == 'U' ? voltage_limit : current_limit);
       case 'E':
         if (!is_sentinel(input[1])) is_enabled_ = std::atoi(input + 1) != 0;
         if (!is_enabled_) motor.idle();
@@ -123,6 +126,8 @@ class SimplefocFirmware : public Firmware {
   std::size_t count_ = 0;
   bool is_for_machines_ = false;
   int decimals_ = 3;
+  static constexpr double voltage_limit = 12.0;
+  static constexpr double current_limit = 2.0;
   static constexpr int torque_motion = 0;
   static constexpr int velocity_motion = 1;
   int motion_ = 2;

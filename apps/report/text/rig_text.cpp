@@ -70,16 +70,27 @@ std::string predicted_lines(const HoldingLimits& limits, const Units& units) {
   return lines;
 }
 
+std::string nudge_text(const Nudge& nudge, const Units& units) {
+  if (nudge.reading == NudgeReading::not_told) {
+    return fmt::format("NOT TOLD: the device hardly moved under {}", quantity(nudge.force, units.force));
+  }
+  const bool is_right = nudge.reading == NudgeReading::with_force;
+  return fmt::format("{}: {} of force moved the position by {}{}", is_right ? "right" : "WRONG",
+                     quantity(nudge.force, units.force), nudge.moved > 0.0 ? "+" : "",
+                     quantity(nudge.moved, units.length));
+}
+
 std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
   TextTable table{{Align::right, Align::right, Align::right, Align::left}, {{"K", "Hz", "grows by (1/s)", ""}}};
   for (const LimitTrial& trial : measured.trials) {
     table.rows.push_back({quantity(trial.stiffness, units.stiffness),
                           trial.ring ? number(hertz(trial.ring->frequency)) : "-",
                           trial.ring ? number(trial.ring->growth_rate) : "-",
-                          trial.stopped   ? "grew: taken away at once"
-                          : trial.cut     ? "force was cut off"
-                          : trial.grows() ? "grew"
-                                          : ""});
+                          trial.stopped                          ? "grew: taken away at once"
+                          : trial.cut                            ? "force was cut off"
+                          : trial.surely_grows()                 ? "grew"
+                          : trial.ring && !trial.surely_decays() ? "grew or not: cannot be told"
+                                                                 : ""});
   }
   return layout(table);
 }
@@ -105,6 +116,7 @@ std::string rig_text(const Device& device, const RigCheck& check) {
   } else {
     text += labelled("  watchdog", "none to prove: there is no firmware that has one");
   }
+  if (session.nudge) text += labelled("  sign", nudge_text(*session.nudge, units_of(device.parameters().motion)));
   if (session.timing.delay.count > 0) {
     if (session.driver != "simulated") {  // whose delay is that of its file
       text += labelled("  delay", fmt::format("{}; for analyze: --set loop.delay={:.3g}",

@@ -11,6 +11,7 @@ struct MotorDrive {
   std::optional<double> travel;           ///< of the device per turn behind the gear, m or rad; > 0; absent: 2 pi rad
   double gear = 1.0;                      ///< turns of the motor per turn behind the gear; > 0
   double sign = 1.0;                      ///< 1; -1 where the drive counts against the device
+  double force_sign = 1.0;                ///< 1; -1 where its torque pushes against the way that it counts
   std::optional<double> torque_constant;  ///< of the motor, N m/A; > 0
   std::optional<double> torque_per_volt;  ///< of the motor at rest, N m/V; > 0
   std::optional<int> id;                  ///< ODrive: axis, 0 or 1; moteus: 1 to 127; absent: the firmware's default
@@ -19,8 +20,9 @@ struct MotorDrive {
 
   /// m or rad of the device per turn of the motor: sign travel/gear.
   [[nodiscard]] double position_per_turn() const { return sign * travel.value_or(2.0 * std::numbers::pi) / gear; }
-  /// N m, torque of the motor that pushes the device with a unit of force: position_per_turn()/(2 pi), an ideal gear.
-  [[nodiscard]] double torque_per_force() const { return position_per_turn() / (2.0 * std::numbers::pi); }
+  /// N m, torque of the motor that pushes the device with a unit of force: force_sign position_per_turn()/(2 pi), an ideal
+  /// gear.
+  [[nodiscard]] double torque_per_force() const { return force_sign * position_per_turn() / (2.0 * std::numbers::pi); }
 };
 
 }  // namespace zwidth

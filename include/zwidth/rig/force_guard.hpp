@@ -20,6 +20,8 @@ enum class StopReason {
   lost_link,      ///< too many in a row brought no position
   watchdog,       ///< the loop stood still, and another thread set the force to zero
   oscillation,    ///< it grew: this run alone ends
+  wrong_sign,     ///< the device moved against the force that nudged it
+  unknown_sign,   ///< the device did not move with the force that nudged it so that its sign is known
 };
 
 /// What a rig allows before its force goes to zero.
@@ -28,12 +30,24 @@ struct SafetyLimits {
   std::optional<double> position;     ///< m or rad, from where it started, either way. Absent: none
   std::optional<double> velocity;     ///< m/s or rad/s. Absent: none
   double saturation_duration = 0.25;  ///< s, of a force that is cut off; time within the limit is counted off it
-  unsigned missed_cycles = 3;         ///< in a row: late by a period or more, or without a position
-  double ramp = 0.1;                  ///< s, over which the force grows to its full size; 0: at once; <= 10
+  /// In a row: late by a period or more, or without a position. Absent: allowed_missed_cycles().
+  std::optional<unsigned> missed_cycles = {};
+  double ramp = 0.1;  ///< s, over which the force grows to its full size; 0: at once; <= 10
 };
 
 /// The first member outside its domain.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const SafetyLimits& limits);
+
+/// How many cycles in a row may be missed where nobody says: 25 ms of them, three at least. An adapter that gathers bytes
+/// for 16 ms has then handed on what was asked before.
+///
+/// `sampling_period` in s, > 0.
+[[nodiscard]] unsigned allowed_missed_cycles(double sampling_period);
+
+/// Why a drive's watchdog (s) would let go before the rig gives up: more cycles are allowed than it waits for. Three always
+/// are.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const SafetyLimits& limits, double sampling_period,
+                                                        double watchdog);
 
 /// Judges every cycle of a rig: the force that may go out, or zero from then on.
 ///
@@ -66,6 +80,7 @@ class ForceGuard {
   VelocityFilter filter_;
   double ramp_step_ = 1.0;
   double saturated_most_ = 0.0;  // cycles
+  unsigned missed_most_ = 0;
   StopReason reason_ = StopReason::none;
   bool started_ = false;
   double origin_ = 0.0;

@@ -8,6 +8,7 @@
 #include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/signal/ring_down.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
@@ -41,7 +42,12 @@ struct LimitTrial {
   std::optional<RingDown> ring;  ///< the oscillation that decays least; absent where none was read
   bool stopped = false;          ///< it grew so much that the run was ended early
   bool cut = false;              ///< a limit or a ramp kept force back: the wall was softer than its stiffness
-  [[nodiscard]] bool grows() const { return stopped || (ring && ring->growth_rate > 0.0); }  ///< the wall is unstable
+  double growth_error = 0.0;     ///< 1/s: the growth rate is off by no more, by its deviation and the encoder's step
+  [[nodiscard]] bool grows() const {
+    return stopped || (ring && ring->growth_rate > 0.0);
+  }  ///< the wall seems unstable
+  [[nodiscard]] bool surely_grows() const { return stopped || (ring && ring->growth_rate > growth_error); }
+  [[nodiscard]] bool surely_decays() const { return !stopped && ring && ring->growth_rate < -growth_error; }
 };
 
 /// The limit of stable walls as measured on a rig.
@@ -63,11 +69,18 @@ struct LimitMeasurement {
   Trust trust;                     ///< of the stiffness
 };
 
-/// Raises the stiffness of a wall, trial by trial, until an oscillation grows; then closes in on where it begins to.
+/// Raises the stiffness of a wall, trial by trial, until an oscillation surely grows; then closes in on where it begins to.
 ///
-/// From `start` by `step`, but no further than a hundredth beyond where the last two growth rates extrapolate to zero;
-/// after the first that grows, inside the bracket, by the line through the growth rates at its ends. K_CR is where that
-/// line passes zero. Ends with the bracket, at the ceiling, and after 60 trials. The one that decays least counts, of
+/// From `start` by `step`, but no further than a hundredth (or what the growth rate's error asks for) beyond where the last
+/// two growth rates extrapolate to zero; after the first that surely grows, inside the bracket, by the line through the
+/// growth rates at its ends. K_CR is where that line passes zero. A growth rate may be off by
+///
+///     3 sigma_s + q/(A sqrt(6 n)) w/2
+///
+/// sigma_s its standard error, q the encoder's step, A the swing in the middle of what was read and n samples per cycle:
+/// rounding turns the position's first harmonic by q/(A sqrt(6 n)), and a wall moves an oscillation by K |dp/dK| <= w/2 at
+/// most (Rayleigh's quotient). Of walls whose growth is no larger nobody knows whether they are stable: they count by sign
+/// next to the limit alone, and where a stiffer one surely decays they make the limit doubtful. Ends with the bracket, at the ceiling, and after 60 trials. The one that decays least counts, of
 /// the oscillations near the predicted frequencies and of the strongest one. A last trial with a smaller impulse tells
 /// whether the size of the swing matters, as with dry friction, of which the device's file may know nothing: all swings
 /// of a linear device grow alike.
@@ -96,8 +109,12 @@ class LimitSearch {
   [[nodiscard]] LimitMeasurement measurement(const Device& device) const;
 
  private:
-  [[nodiscard]] const LimitTrial* stable() const;    // the stiffest below
-  [[nodiscard]] const LimitTrial* unstable() const;  // the softest
+  [[nodiscard]] const LimitTrial* surely_unstable() const;  // the softest
+  [[nodiscard]] const LimitTrial* surely_stable() const;    // the stiffest below that
+  [[nodiscard]] const LimitTrial* unstable() const;         // the softest above that
+  [[nodiscard]] const LimitTrial* stable() const;           // the stiffest below that
+  [[nodiscard]] double stiffer() const;                     // the next wall while none surely grows
+  void doubt_untold(const Units& units, LimitMeasurement& result) const;
 
   LimitSearchOptions options_;
   double period_ = 0.0;  // s, of the last trial

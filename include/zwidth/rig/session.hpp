@@ -8,6 +8,7 @@
 #include "zwidth/finding.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/rig/force_guard.hpp"
+#include "zwidth/rig/nudge.hpp"
 
 namespace zwidth {
 
@@ -29,29 +30,36 @@ struct DurationCount {
 
 /// How the cycles of a rig ran.
 struct LoopTiming {
-  std::uint64_t cycles = 0;           ///< of the loop
-  std::uint64_t missed = 0;           ///< late by a period or more
-  std::uint64_t unanswered = 0;       ///< without a position
-  LatencySummary latency;             ///< from the instant of the clock to the cycle's begin; none in lock step
-  LatencySummary period;              ///< from one begin to the next; none in lock step
-  LatencySummary body;                ///< from a cycle's begin to its end
-  LatencySummary delay;               ///< from asking for the position to having sent the force; none in lock step
+  std::uint64_t cycles = 0;      ///< of the loop
+  std::uint64_t missed = 0;      ///< late by a period or more
+  std::uint64_t unanswered = 0;  ///< without a position
+  LatencySummary latency;        ///< from the instant of the clock to the cycle's begin; none in lock step
+  LatencySummary period;         ///< from one begin to the next; none in lock step
+  LatencySummary body;           ///< from a cycle's begin to its end
+  /// From asking for the position to the last byte of the force having left on a serial line; none in lock step.
+  LatencySummary delay;
   std::vector<DurationCount> delays;  ///< the same of all cycles, rising
 };
 
 /// One session on a rig: what it ran on, how, and how it ended.
 struct RigSession {
   std::string driver;                       ///< "simulated", "udp:127.0.0.1:7000", ...
+  Motion motion = Motion::linear;           ///< of the device
   bool lock_step = false;                   ///< the device's time moves with the cycles: as fast as they run
   double sampling_period = 0.0;             ///< s
   SafetyLimits limits;                      ///< beyond which the force went to zero
   std::optional<double> firmware_watchdog;  ///< s; absent: the firmware has none, or there is no firmware
   StopReason stop = StopReason::none;       ///< none: the work came to its end
   double stopped_at = 0.0;                  ///< s from the start
+  std::optional<Nudge> nudge;               ///< before any wall; absent: none was given
+  std::optional<double> drive_force_limit;  ///< N or N m, of the drive itself; absent: it tells none
   std::string trouble;                      ///< why there was no position, where the drive itself said so; else empty
   LoopTiming timing;                        ///< of clock and drive
   std::vector<Remark> remarks;              ///< what is worth knowing beside it
 };
+
+/// What a nudge that tells no sign, or the wrong one, says.
+[[nodiscard]] Finding finding_of(const Nudge& nudge, Motion motion);
 
 /// Why the force went to zero; nothing where it did not.
 [[nodiscard]] std::optional<Finding> finding_of(const RigSession& session);

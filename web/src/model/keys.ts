@@ -51,6 +51,7 @@ const shown: Record<string, { label?: string; first?: Pair }> = {
   'operator.stiffness': { first: [100, 0.1] },
   'driver.travel': { first: [0.025, 6.2832] },
   'driver.sign': { first: [-1, -1] },
+  'driver.force_sign': { first: [-1, -1] },
   'driver.id': { first: [1, 1] },
   'driver.command': { first: [0, 0] },
   'driver.baud': { first: [921600, 921600] },
