@@ -87,6 +87,7 @@ auto MicrocontrollerDriver::answer(MicrocontrollerCommand command, Decode decode
 MicrocontrollerDriver::MicrocontrollerDriver(const SerialLink& link)
     : facts_(facts_of(link)),
       sign_(link.drive.sign),
+      force_sign_(link.drive.sign * link.drive.force_sign),
       port_(link.port, baud_of(link)),
       patience_(link.lock_step ? lock_step_patience
                                : std::llround(1e9 * serial_share_of_cycle * link.sampling_period)) {
@@ -100,6 +101,7 @@ MicrocontrollerDriver::MicrocontrollerDriver(const SerialLink& link)
     }
     require_usable(*found, link.sampling_period);
     facts_.watchdog = found->watchdog;
+    facts_.force_limit = found->force_limit;
     return;
   }
   throw DriverFailed(
@@ -155,7 +157,7 @@ std::string MicrocontrollerDriver::trouble() const {
 }
 
 void MicrocontrollerDriver::send(double force) noexcept {
-  port_.write(microcontroller_force(sign_ * force, next_sequence()).view());
+  port_.write(microcontroller_force(force_sign_ * force, next_sequence()).view());
 }
 
 void MicrocontrollerDriver::send_idle() noexcept {

@@ -48,7 +48,8 @@ class MicrocontrollerDriver : public Driver {
   void require_usable(const MicrocontrollerDescription& found, double sampling_period) const;
 
   DriverFacts facts_;
-  double sign_;  // of [driver]
+  double sign_;        // of [driver]
+  double force_sign_;  // and of its forces
   SerialPort port_;
   std::int64_t patience_;  // ns, for a position
   std::array<char, 256> bytes_{};
