@@ -161,7 +161,8 @@ std::vector<ComplexNumber> GraspDiscs::free_poles() const {
 
 std::vector<ComplexNumber> GraspDiscs::lossless_points() const {
   std::vector<ComplexNumber> points;
-  if (lag_ > 0.0) points.emplace_back(-period_ / lag_, 0.0);
+  if (drive_.lag > 0.0) points.emplace_back(-period_ / drive_.lag, 0.0);
+  if (drive_.tracking > 0.0) points.emplace_back(-period_ * drive_.tracking, 0.0);
   const Eigen::MatrixXd still = still_motions();
   const Eigen::Index n = still.cols();
   if (n == 0 || undamped_) return points;

@@ -22,7 +22,7 @@ namespace {
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
-constexpr double narrowest = 1e-7;  // of the angle
+constexpr double narrowest_interval = 1e-7;  // of the angle
 constexpr double least_angle = 1e-6;
 constexpr std::size_t most_intervals = 300000;
 constexpr double deep_pole = 0.5;  // of smaller size, poles are taken together: those of delays crowd at 0
@@ -126,7 +126,7 @@ std::optional<std::vector<Interval>> intervals_left(const ClosedResponse& closed
     const Interval each = open.back();
     open.pop_back();
     if (clearance(closed, each) > 0.0) continue;
-    if (each.high - each.low > narrowest * std::max(each.high, least_angle)) {
+    if (each.high - each.low > narrowest_interval * std::max(each.high, least_angle)) {
       const double middle = 0.5 * (each.low + each.high);
       open.push_back({middle, each.high});
       open.push_back({each.low, middle});
