@@ -8,7 +8,7 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double clear_ellipse = 4.0;    // rho
+constexpr double clear_of_poles = 4.0;    // rho
 constexpr double shortest_panel = 1e-7;  // of the whole interval: poles on the axis itself
 
 // Cosine and sine of (2 i + 1) pi/(2 n), from which nodes and their barycentric weights are.
@@ -32,7 +32,7 @@ const UnitNodes& unit_nodes() {
 bool is_clear_of(const Panel& panel, std::complex<double> pole) {
   const std::complex<double> at = (pole - panel.centre) / panel.half;
   const std::complex<double> root = std::sqrt(at * at - 1.0);
-  return std::max(std::abs(at + root), std::abs(at - root)) >= clear_ellipse;
+  return std::max(std::abs(at + root), std::abs(at - root)) >= clear_of_poles;
 }
 
 }  // namespace
