@@ -8,7 +8,7 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double clear_of_poles = 4.0;    // rho
+constexpr double clear_of_poles = 4.0;   // rho
 constexpr double shortest_panel = 1e-7;  // of the whole interval: poles on the axis itself
 
 // Cosine and sine of (2 i + 1) pi/(2 n), from which nodes and their barycentric weights are.

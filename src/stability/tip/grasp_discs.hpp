@@ -53,7 +53,8 @@ class GraspDiscs {
   // 0 <= angle <= pi.
   [[nodiscard]] Others others_at(double angle) const;
 
-  // sT at which R = 0, those with a positive imaginary part, and of the lag: the poles of all of the frequency's own but `plant`.
+  // sT at which R = 0, those with a positive imaginary part, of the lag and of a drive that tracks: the poles of all of the
+  // frequency's own but `plant`.
   //
   //     S' [(l + K) D^-1 (l + K) - l D] S x = 0,   l = s^2,   M = 1,   S: the motions in which the tip stands still
   //
