@@ -318,6 +318,9 @@ class PlantDerivatives {
       case Kind::filter_depth:
       case Kind::filter_ratio:
       case Kind::transmission:
+      case Kind::mechanism_damping:
+      case Kind::mechanism_stiffness:
+      case Kind::mechanism_inertia:
       case Kind::joint_position:
         break;
     }
