@@ -24,7 +24,7 @@ TEST(ExactPartialFractions, PolesOfAllMagnitudesAreFound) {
       "175259030475651762235640501702980791520249925";
   ASSERT_EQ(fmpz_poly_set_str(fraction.denominator, coefficients), 0);
   internal::KnownPoles known;
-  const ModalForm form = internal::exact_partial_fractions(fraction, 0.0, {}, known);
+  const ModalForm form = internal::exact_partial_fractions(fraction, internal::DrivePath{}, {}, known);
   std::size_t poles = 0;
   for (const ModalTerm& term : form.terms) poles += term.degree;
   EXPECT_EQ(poles, 4U);
