@@ -7,6 +7,7 @@ namespace {
 
 constexpr double no_slope_below = 1e-3;  // of the slope of J
 constexpr double same_rows = 1e-4;
+constexpr double rounding_below = 1e-9;  // of J: no joint turns it by less
 
 // Orthonormal rows.
 Eigen::MatrixXd row_space(const Eigen::MatrixXd& tip) {
@@ -38,7 +39,7 @@ void add_tip_beside(MechanismAtPose& at, const MechanismAtPose& before, const Me
   const Eigen::MatrixXd own = row_space(at.tip);
   Eigen::MatrixXd gained = lost * change;
   gained -= gained * own.transpose() * own;
-  if (!(gained.norm() > no_slope_below * change.norm())) return;
+  if (!(change.norm() > rounding_below * at.tip.norm()) || !(gained.norm() > no_slope_below * change.norm())) return;
   const Eigen::MatrixXd tip = directions * directions.transpose() * at.tip + at.tip.norm() / gained.norm() * gained;
   const Eigen::MatrixXd rows = row_space(tip);
   for (const Eigen::MatrixXd& each : at.tips_beside) {

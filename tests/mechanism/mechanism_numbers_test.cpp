@@ -235,5 +235,17 @@ TEST(MechanismNumbers, AreSweptAndStudied) {
   EXPECT_EQ(study->distributions.parameters[0].distribution.centre, 400.0);
 }
 
+// A joint that is damped through its cable alone still is: what users leave does not jump where the cable's damping goes to 0.
+TEST(MechanismNumbers, WhatUsersLeaveGoesOnToACableWithoutDamping) {
+  const auto any_user = [](const std::string& damping) {
+    const Device device =
+        read(reference_arm, {"mechanism.joint.elbow.damping=0", "mechanism.tendon.cable 2.damping=" + damping});
+    const Analysis analysis = analyze(device, {});
+    EXPECT_LT(analysis.any_user.value().stiffness, 0.95 * analysis.critical.stiffness);
+    return analysis.any_user.value().stiffness;
+  };
+  EXPECT_NEAR(any_user("0") / any_user("1e-9"), 1.0, 1e-4);
+}
+
 }  // namespace
 }  // namespace zwidth

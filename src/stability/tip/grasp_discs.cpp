@@ -19,7 +19,7 @@ constexpr double past_modes = 2.5;    // aliases beyond this many times the high
 constexpr double past_corners = 4.0;  // beyond this many times the highest corner frequency its tail begins
 constexpr std::size_t least_aliases = 12;
 constexpr double most_aliases = 2000.0;
-constexpr double undamped_below = 1e-12;  // relative, of what the tip's motions dissipate
+constexpr double undamped_below = 1e-12;  // relative, of what a motion of the tip dissipates by itself
 constexpr double least_damping = 1e-9;    // relative, of a motion that nothing damps, where R = 0 is sought
 
 // Quicker than the division, which looks for what overflows.
@@ -90,13 +90,18 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
       least_aliases + static_cast<std::size_t>(std::min(std::ceil(past_modes * highest_mode / spacing), most_aliases));
   rule_ = alias_sum_quadrature(exact, past_corners * highest_corner / spacing, spacing * delay_);
   undamped_ = !(dampings.maxCoeff() > 0.0);
-  for (const double angle : {0.1, 1.0, pi}) {
-    if (!undamped_) undamped_ = !alias(angle / period_).left.allFinite();
+  std::vector<double> looked_at{0.1 / period_, 1.0 / period_, pi / period_};
+  for (const AliasSumQuadrature::Node& node : rule_.nodes) {
+    if (node.number > 0.0) looked_at.push_back(node.number * spacing);
+  }
+  for (const double frequency : looked_at) {
+    if (!undamped_) undamped_ = !alias(frequency).left.allFinite();
   }
 }
 
 // R = 2 w^2 g^H D g with g = G(held -> all), in which nothing cancels; R = L L^H.
 GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
+  const Eigen::Matrix3cd endless = Eigen::Matrix3cd::Constant(HUGE_VAL);
   const Eigen::Index m = of_.tip.rows();
   Eigen::MatrixXcd rows = of_.stiffness.cast<ComplexNumber>();
   rows += ComplexNumber(0.0, frequency) * of_.damping;
@@ -106,7 +111,6 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   const Eigen::MatrixXcd damped = of_.damping * g;
   Eigen::Matrix3cd r = Eigen::Matrix3cd::Zero();
   r.topLeftCorner(m, m) = 2.0 * frequency * frequency * (g.adjoint() * damped);
-  const double size = r.norm();
   // Columns: L^-1 h_s^H, L^-1 h_a.
   Eigen::Matrix<ComplexNumber, 3, 6> both = Eigen::Matrix<ComplexNumber, 3, 6>::Zero();
   both.block(0, 0, m, m) = (of_.sensed * g).adjoint();
@@ -118,9 +122,11 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
       r(i, j) = entry / r(j, j).real();
       both.row(i) -= r(i, j) * both.row(j);
     }
-    double square = r(i, i).real();
+    const double own = r(i, i).real();
+    double square = own;
     for (Eigen::Index k = 0; k < i; ++k) square -= std::norm(r(i, k));
-    if (!(square > undamped_below * size)) return {1.0, {}, Eigen::Matrix3cd::Constant(HUGE_VAL), {}};
+    // Of its own row: directions may be damped by magnitudes more and less.
+    if (!(square > undamped_below * own)) return {1.0, endless, endless, endless};
     r(i, i) = std::sqrt(square);
     both.row(i) /= r(i, i).real();
   }

@@ -153,7 +153,7 @@ bool is_resolved(const Panel& panel, const std::vector<PartsOfProbes>& at_nodes,
     for (int i = 0; i < panel_nodes; ++i) said += weights[i] * at_nodes[static_cast<std::size_t>(i)];
     const PartsOfProbes is = parts_at(end);
     for (Eigen::Index i = 0; i < is.rows(); ++i) {
-      if (error_of(is.row(i).transpose(), said.row(i).transpose(), largest.row(i).transpose()) > 1.0) return false;
+      if (!(error_of(is.row(i).transpose(), said.row(i).transpose(), largest.row(i).transpose()) <= 1.0)) return false;
     }
   }
   return true;

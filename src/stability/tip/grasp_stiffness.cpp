@@ -86,6 +86,8 @@ PointStiffness least_stiffness_of_point(const GraspDiscs::Sample& sample, Eigen:
     right += shared * each.weight / size * each.right.topLeftCorner(m, m);
   };
   PointStiffness least;
+  const auto is_known = [](const GraspDiscs::Alias& each) { return each.left.allFinite() && each.right.allFinite(); };
+  if (!is_known(sample.own) || !std::ranges::all_of(sample.others.blocks, is_known)) return {0.0, 0.0};
   add(sample.own);
   least.at_most = least_of_block(centre, left, right, closed);
   for (const GraspDiscs::Alias& each : sample.others.blocks) add(each);

@@ -19,13 +19,13 @@ double least_root(double constant, double half, double quadratic) {
 //
 //     1 + 2 Re[d c] + A |d|² + 2 g (Re[u c] + A Re[u conj d]) + g² A |u|² = 0
 GainCondition gain_condition(const TerminationDiscs::Disc& disc, const WallResponse& wall) {
+  if (!std::isfinite(disc.radius)) return {-1.0, 0.0, 0.0};  // some user destabilises any wall
   const auto& [unit, closed] = wall;
   return {disc.one + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),
           (unit * disc.centre).real() + disc.power * (unit * std::conj(closed)).real(), disc.power * std::norm(unit)};
 }
 
 double least_gain(const TerminationDiscs::Disc& disc, const WallResponse& wall) {
-  if (!std::isfinite(disc.radius)) return 0.0;
   const GainCondition condition = gain_condition(disc, wall);
   return least_root(condition.constant, condition.half, condition.quadratic);
 }
