@@ -240,7 +240,7 @@ TEST(MechanismNumbers, WhatUsersLeaveGoesOnToACableWithoutDamping) {
   const auto any_user = [](const std::string& damping) {
     const Device device =
         read(reference_arm, {"mechanism.joint.elbow.damping=0", "mechanism.tendon.cable 2.damping=" + damping});
-    const Analysis analysis = analyze(device, {});
+    const Analysis analysis = analyze(device);
     EXPECT_LT(analysis.any_user.value().stiffness, 0.95 * analysis.critical.stiffness);
     return analysis.any_user.value().stiffness;
   };
