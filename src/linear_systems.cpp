@@ -13,6 +13,10 @@ Eigen::VectorXd solve_pivoted(const Eigen::MatrixXd& matrix, const Eigen::Vector
   return matrix.fullPivLu().solve(right);
 }
 
+Eigen::MatrixXcd solve_complex_columns(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right) {
+  return matrix.partialPivLu().solve(right);
+}
+
 Eigen::VectorXcd solve_complex(const Eigen::MatrixXcd& matrix, const Eigen::VectorXcd& right) {
   return matrix.fullPivLu().solve(right);
 }

@@ -14,6 +14,9 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& righ
 Eigen::VectorXd solve_pivoted(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 Eigen::VectorXcd solve_complex(const Eigen::MatrixXcd& matrix, const Eigen::VectorXcd& right);
 
+/// X of M X = B by LU factors with partial pivoting. M is regular.
+Eigen::MatrixXcd solve_complex_columns(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right);
+
 /// x of M x = b by L D L^T. M is symmetric; its lower triangle is read.
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 

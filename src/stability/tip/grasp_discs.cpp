@@ -1,6 +1,5 @@
 #include "stability/tip/grasp_discs.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "eigenvalues.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -175,15 +175,15 @@ std::vector<ComplexNumber> GraspDiscs::lossless_points() const {
   Eigen::MatrixXd damping = period_ * of_.damping;
   damping.diagonal().array() += least_damping * damping.norm();
   const Eigen::MatrixXd stiffness = period_ * period_ * of_.stiffness;
-  const Eigen::LDLT<Eigen::MatrixXd> damped(damping);
-  const Eigen::MatrixXd moved = damped.solve(still);               // D^-1 S
-  const Eigen::MatrixXd sprung = damped.solve(stiffness * still);  // D^-1 K S
+  const Eigen::MatrixXd damped = inverse_of_symmetric(damping);
+  const Eigen::MatrixXd moved = damped * still;               // D^-1 S
+  const Eigen::MatrixXd sprung = damped * stiffness * still;  // D^-1 K S
   const Eigen::MatrixXd mixed = still.transpose() * stiffness * moved;
-  const Eigen::LDLT<Eigen::MatrixXd> leading(still.transpose() * moved);
+  const Eigen::MatrixXd leading = inverse_of_symmetric(still.transpose() * moved);
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   companion.topRightCorner(n, n).setIdentity();
-  companion.bottomLeftCorner(n, n) = -leading.solve(still.transpose() * stiffness * sprung);
-  companion.bottomRightCorner(n, n) = -leading.solve(mixed + mixed.transpose() - still.transpose() * damping * still);
+  companion.bottomLeftCorner(n, n) = -leading * still.transpose() * stiffness * sprung;
+  companion.bottomRightCorner(n, n) = -leading * (mixed + mixed.transpose() - still.transpose() * damping * still);
   for (const ComplexNumber& square : eigenvalues(companion)) {
     const ComplexNumber root = std::sqrt(square);
     points.push_back(root.imag() >= 0.0 ? root : -root);

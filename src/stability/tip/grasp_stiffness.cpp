@@ -1,11 +1,12 @@
 #include "stability/tip/grasp_stiffness.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "eigenvalues.hpp"
+#include "linear_systems.hpp"
 #include "stability/loop/damper_response.hpp"
 
 namespace zwidth::internal {
@@ -25,8 +26,8 @@ bool is_beaten_without_spring(const Eigen::MatrixXcd& centre, const Eigen::Matri
   if (damper == 0.0) return false;
   Eigen::MatrixXcd closed = damper * centre;
   closed.diagonal().array() += 1.0;
-  const Eigen::MatrixXcd far = closed.adjoint().partialPivLu().solve(right);
-  const Eigen::MatrixXcd gain = std::norm(damper) * closed.partialPivLu().solve(left) * far;
+  const Eigen::MatrixXcd far = solve_complex_columns(closed.adjoint(), right);
+  const Eigen::MatrixXcd gain = std::norm(damper) * solve_complex_columns(closed, left) * far;
   return !(complex_eigenvalues(gain).cwiseAbs().maxCoeff() < 1.0);
 }
 
@@ -42,7 +43,7 @@ double least_of_block(const Eigen::MatrixXcd& centre, const Eigen::MatrixXcd& le
   closed.bottomRows(m) *= std::conj(damper);
   closed.diagonal().array() += 1.0;
   double least = std::numeric_limits<double>::infinity();
-  const Eigen::MatrixXcd quotient = closed.partialPivLu().solve(n);
+  const Eigen::MatrixXcd quotient = solve_complex_columns(closed, n);
   for (const std::complex<double>& each : complex_eigenvalues(quotient)) {
     if (each.real() < 0.0 && std::abs(each.imag()) <= real_to * std::abs(each)) {
       least = std::min(least, -1.0 / each.real());

@@ -1,6 +1,6 @@
 #include "stability/tip/loop_crossovers.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "eigenvalues.hpp"
+#include "linear_systems.hpp"
 #include "stability/loop/damper_response.hpp"
 #include "stability/margins/delay_margin.hpp"
 #include "stability/tip/tip_response.hpp"
@@ -72,7 +73,7 @@ class ClosedResponse {
         (stiffness_ + damper_response(damper_, period_, angle / period_)) * response_.at(angle);
     Eigen::MatrixXcd closed = loop;
     closed.diagonal().array() += 1.0;
-    return closed.partialPivLu().solve(loop);
+    return solve_complex_columns(closed, loop);
   }
 
   // An upper bound within an interval.
