@@ -3,7 +3,7 @@
 # compiler says so, and what follows is compiled alone.
 function(zwidth_unity target)
   # Long by themselves and with little in common: alone, they spread over the cores.
-  set(alone plant_sensitivity identifiability pole_count_in_digits)
+  set(alone plant_sensitivity identifiability pole_count_in_digits grasp_discs loop_crossovers)
   list(APPEND alone wall_recommendation mat5_matrix welch)  # some names of theirs are others in wall_search, mat_recording
   # What the program loads on demand. The kernel includes itself besides, once per instruction set.
   list(APPEND alone stiffness_kernel mat73_file least_squares quiet_solve exact_sampling transfer_function mujoco_file mechanism_text)
@@ -12,7 +12,7 @@ function(zwidth_unity target)
   list(APPEND alone absolute_stability_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
     diagnosis_property_test drive_gains_test export_test hybrid_loop_linear_test hybrid_loop_property_test
     inverse_dynamics_test
-    pooled_response_test relay_trials_test same_answer_on_recordings_test simulate_test study_test
+    pooled_response_test relay_trials_test tracking_test same_answer_on_recordings_test simulate_test study_test
     time_axis_test uff_recording_test velocity_filter_test wall_filter_file_test)
   foreach(source IN LISTS ARGN)
     cmake_path(GET source STEM name)
