@@ -28,6 +28,7 @@ std::optional<TipMotion> tip_motion_of(const Device& device) {
 }
 
 Eigen::MatrixXd tip_directions(const Eigen::MatrixXd& tip) {
+  if (tip.size() == 0) return {tip.rows(), 0};
   Eigen::JacobiSVD<Eigen::MatrixXd> svd;
   svd.setThreshold(tip_stands_below);
   svd.compute(tip, Eigen::ComputeThinU);

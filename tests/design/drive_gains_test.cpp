@@ -206,6 +206,7 @@ TEST(DriveGains, TheFilesTrackingIsTheEstimators) {
   const auto limit_of = [](DriveFirmware firmware, double tracking, const DriveLoopOptions& options) {
     DeviceParameters parameters = knob();
     parameters.sensor.tracking_bandwidth = tracking;
+    parameters.actuator.force_limit = 1.0;
     return drive_gains(Device(parameters), firmware, options).on_drive.critical.stiffness;
   };
   constexpr double corner = 2.48;

@@ -64,7 +64,8 @@ TEST(Sensitivity, CoversEveryParameterThatMatters) {
   std::set<std::string> expected;
   for (const std::string& key : parameter_keys(device)) {
     const bool is_for_simulation = key.ends_with(".coulomb") || key == "actuator.force_limit" ||
-                                   key == "sensor.resolution" || key == "wall.stiffness";
+                                   key == "sensor.resolution" || key == "wall.stiffness" ||
+                                   key == "sensor.tracking_bandwidth";  // 0: none
     const bool is_of_two_rates = key.starts_with("loop.damper.");
     if (!is_for_simulation && !is_of_two_rates) expected.insert(key);
   }

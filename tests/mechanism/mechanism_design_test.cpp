@@ -121,7 +121,7 @@ TEST(MechanismDesign, slopes_are_those_of_the_limits_of_changed_mechanisms) {
     parameters.actuator.time_constant = 2e-4;
     const Device device = device_of_mechanism(std::move(parameters));
     const std::vector<Sensitivity> slopes = stiffness_sensitivities(device);
-    EXPECT_EQ(slopes.size(), 19U);  // 2 joints, 10 of motors, period, delay, lag, damper, user
+    EXPECT_EQ(slopes.size(), 23U);  // 2 joints, 10 of motors, 4 of the file, period, delay, lag, damper, user
     for (const Sensitivity& each : slopes) {
       if (each.value == 0.0) continue;
       SCOPED_TRACE(each.key);
@@ -139,7 +139,7 @@ TEST(MechanismDesign, slopes_are_those_of_the_limits_of_changed_mechanisms) {
 TEST(MechanismDesign, slopes_of_any_grasp_are_those_of_its_limits) {
   const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   const std::vector<Sensitivity> slopes = absolute_stability_sensitivities(device);
-  EXPECT_EQ(slopes.size(), 16U);  // without the user's
+  EXPECT_EQ(slopes.size(), 20U);  // without the user's
   for (const char* key : {"mechanism.pose.elbow", "transmission.0.ratio", "transmission.1.damping"}) {
     SCOPED_TRACE(key);
     const Sensitivity* const found = find_sensitivity(slopes, key);
@@ -196,8 +196,8 @@ TEST(MechanismDesign, slopes_are_those_of_the_same_device_of_bodies) {
 TEST(MechanismDesign, a_design_finds_where_another_crossover_takes_over_but_not_along_a_joint) {
   const Design found = design(device_of_mechanism(posed_arm(0.3, 1.2)));
   EXPECT_TRUE(found.trust.sound());
-  EXPECT_EQ(found.sensitivities.size(), 19U);
-  EXPECT_EQ(found.absolute_stability_sensitivities.size(), 16U);
+  EXPECT_EQ(found.sensitivities.size(), 23U);
+  EXPECT_EQ(found.absolute_stability_sensitivities.size(), 20U);
   ASSERT_TRUE(found.branch_switches.has_value());
   for (const BranchSwitch& each : *found.branch_switches) {
     SCOPED_TRACE(each.key);

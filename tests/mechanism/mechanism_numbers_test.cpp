@@ -177,7 +177,7 @@ TEST(MechanismNumbers, WhatIsNotThereIsRefusedWithWhatIs) {
   }
   EXPECT_EQ(refused(reference_arm, {"mechanism.joint.elbow=3"}).problem->code, ProblemCode::of_other_type);
   EXPECT_EQ(refused(reference_arm, {"mechanism.joint=3"}).place.key, "mechanism.joint");
-  EXPECT_EQ(refused(reference_arm, {}, "[mechanism.joint.knee]\ndamping = 1\n").place.line, 43U);
+  EXPECT_EQ(refused(reference_arm, {}, "[mechanism.joint.knee]\ndamping = 1\n").place.line, 44U);
   DeviceParameters unknown = read(reference_arm).parameters();
   EXPECT_THROW(set_parameter(unknown, "mechanism.joint.wrist.damping", 1.0), Error);
   unknown.mechanism->mechanism.numbers["body.upper.mass"] = 1.0;

@@ -45,11 +45,11 @@ TEST(DeviceKey, DefaultsAreThoseOfTheModel) {
   EXPECT_EQ(stated_defaults<Loop>(DeviceTable::loop), 1);
   EXPECT_EQ(stated_defaults<LoopDamper>(DeviceTable::loop_damper), 0);
   EXPECT_EQ(stated_defaults<Actuator>(DeviceTable::actuator), 1);
-  EXPECT_EQ(stated_defaults<Sensor>(DeviceTable::sensor), 1);
+  EXPECT_EQ(stated_defaults<Sensor>(DeviceTable::sensor), 2);
   EXPECT_EQ(stated_defaults<Wall>(DeviceTable::wall), 2);
   EXPECT_EQ(stated_defaults<WallFilter>(DeviceTable::filter), 2);
   EXPECT_EQ(stated_defaults<User>(DeviceTable::user), 3);
-  EXPECT_EQ(stated_defaults<MotorDrive>(DeviceTable::driver), 2);
+  EXPECT_EQ(stated_defaults<MotorDrive>(DeviceTable::driver), 3);
 }
 
 TEST(DeviceKey, TablesAreInTheirOrderAndEveryKeyStandsOnce) {

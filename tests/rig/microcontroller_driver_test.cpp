@@ -44,11 +44,11 @@ TEST_F(OnMicrocontroller, ALostAnswerCostsItsOwnCycleAlone) {
   PtyEmulator emulator(std::make_unique<MicrocontrollerFirmware>(), device);
   emulator.set_fault(PtyEmulator::Fault::no_watchdog);
   MicrocontrollerDriver driver(link(emulator));
-  emulator.set_fault(PtyEmulator::Fault::lost_answers);  // every third
+  emulator.set_fault(PtyEmulator::Fault::lost_answers);  // every seventh
   int answered = 0;
   for (int i = 0; i < 12; ++i) answered += driver.measure() ? 1 : 0;
-  EXPECT_LE(answered, 8);
-  EXPECT_GE(answered, 6);
+  EXPECT_LE(answered, 11);
+  EXPECT_GE(answered, 9);
   emulator.set_fault(PtyEmulator::Fault::late);
   EXPECT_FALSE(driver.measure());
   emulator.set_fault(PtyEmulator::Fault::none);

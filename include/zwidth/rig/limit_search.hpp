@@ -46,7 +46,9 @@ struct LimitTrial {
   [[nodiscard]] bool grows() const {
     return stopped || (ring && ring->growth_rate > 0.0);
   }  ///< the wall seems unstable
+  /// by more than growth_error
   [[nodiscard]] bool surely_grows() const { return stopped || (ring && ring->growth_rate > growth_error); }
+  /// by more than growth_error
   [[nodiscard]] bool surely_decays() const { return !stopped && ring && ring->growth_rate < -growth_error; }
 };
 

@@ -42,7 +42,9 @@ KernelColumns::KernelColumns(const DeviceParameters& base, std::span<const Param
     return;
   }
   const auto is_unknown = [](const ParameterValues& each) {
-    return each.key.starts_with("loop.damper.") || each.key == "sensor.tracking_bandwidth";
+    const bool is_tracking = each.key == "sensor.tracking_bandwidth" &&
+                             !std::ranges::all_of(each.values, [](double value) { return value == 0.0; });
+    return each.key.starts_with("loop.damper.") || is_tracking;
   };
   if (std::ranges::any_of(changes, is_unknown)) return;
   suits_ = true;

@@ -19,8 +19,9 @@ constexpr double past_modes = 2.5;    // aliases beyond this many times the high
 constexpr double past_corners = 4.0;  // beyond this many times the highest corner frequency its tail begins
 constexpr std::size_t least_aliases = 12;
 constexpr double most_aliases = 2000.0;
-constexpr double undamped_below = 1e-12;  // relative, of what a motion of the tip dissipates by itself
-constexpr double least_damping = 1e-9;    // relative, of a motion that nothing damps, where R = 0 is sought
+constexpr double undamped_below = 1e-12;   // of a motion of the tip, relative: what the motions before it do not damp
+constexpr double rounded_damping = 1e-14;  // relative, of an eigenvalue of D that is rounding
+constexpr double least_damping = 1e-9;     // relative, of a motion that nothing damps, where R = 0 is sought
 
 // Quicker than the division, which looks for what overflows.
 ComplexNumber reciprocal(ComplexNumber value) { return std::conj(value) / std::norm(value); }
@@ -77,7 +78,9 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
   // A grasp in one basis of the tip's motions is one in any other: in an orthonormal one near a singular pose no row is small.
   const Eigen::HouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
   of_.tip = (tip.householderQ() * Eigen::MatrixXd::Identity(of_.tip.cols(), of_.tip.rows())).transpose();
-  const Eigen::VectorXd dampings = symmetric_eigenvalues(of_.damping);
+  const auto [dampings, motions] = symmetric_eigen(of_.damping);
+  const double none = rounded_damping * std::max(dampings.maxCoeff(), 0.0);
+  dampers_ = (dampings.array() > none).select(dampings.array(), 0.0).sqrt().matrix().asDiagonal() * motions.transpose();
   const Eigen::VectorXd stiffnesses = symmetric_eigenvalues(of_.stiffness);
   const double highest_mode = std::sqrt(std::max(stiffnesses.maxCoeff(), 0.0));
   double highest_corner =
@@ -99,7 +102,8 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
   }
 }
 
-// R = 2 w^2 g^H D g with g = G(held -> all), in which nothing cancels; R = L L^H.
+// R = W^H W with W = sqrt(2) w F g, g = G(held -> all), D = F^T F, in which nothing cancels; R = L L^H by Gram and Schmidt: motions may
+// be damped by magnitudes more and less than one another.
 GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   const Eigen::Matrix3cd endless = Eigen::Matrix3cd::Constant(HUGE_VAL);
   const Eigen::Index m = of_.tip.rows();
@@ -108,27 +112,22 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   rows.diagonal().array() -= frequency * frequency;
   Eigen::MatrixXcd g = of_.tip.transpose().cast<ComplexNumber>();
   solve_motion(rows, g);
-  const Eigen::MatrixXcd damped = of_.damping * g;
-  Eigen::Matrix3cd r = Eigen::Matrix3cd::Zero();
-  r.topLeftCorner(m, m) = 2.0 * frequency * frequency * (g.adjoint() * damped);
   // Columns: L^-1 h_s^H, L^-1 h_a.
   Eigen::Matrix<ComplexNumber, 3, 6> both = Eigen::Matrix<ComplexNumber, 3, 6>::Zero();
   both.block(0, 0, m, m) = (of_.sensed * g).adjoint();
   both.block(0, 3, m, m) = (of_.pushed * g).transpose();
+  Eigen::MatrixXcd damped = std::sqrt(2.0) * frequency * (dampers_ * g);
   for (Eigen::Index i = 0; i < m; ++i) {
+    const double own = damped.col(i).norm();
     for (Eigen::Index j = 0; j < i; ++j) {
-      ComplexNumber entry = r(i, j);
-      for (Eigen::Index k = 0; k < j; ++k) entry -= r(i, k) * std::conj(r(j, k));
-      r(i, j) = entry / r(j, j).real();
-      both.row(i) -= r(i, j) * both.row(j);
+      const ComplexNumber shared = damped.col(j).dot(damped.col(i));
+      damped.col(i) -= shared * damped.col(j);
+      both.row(i) -= std::conj(shared) * both.row(j);
     }
-    const double own = r(i, i).real();
-    double square = own;
-    for (Eigen::Index k = 0; k < i; ++k) square -= std::norm(r(i, k));
-    // Of its own row: directions may be damped by magnitudes more and less.
-    if (!(square > undamped_below * own)) return {1.0, endless, endless, endless};
-    r(i, i) = std::sqrt(square);
-    both.row(i) /= r(i, i).real();
+    const double rest = damped.col(i).norm();
+    if (!(rest > undamped_below * own)) return {1.0, endless, endless, endless};
+    damped.col(i) /= rest;
+    both.row(i) /= rest;
   }
   const Eigen::Matrix3cd left = both.leftCols<3>();
   const Eigen::Matrix3cd right = both.rightCols<3>();

@@ -82,6 +82,7 @@ class GraspDiscs {
   double period_ = 0.0;
   double delay_ = 0.0;
   DrivePath drive_;
+  Eigen::MatrixXd dampers_;  // F
   bool undamped_ = false;
   AliasSumQuadrature rule_;
 };
