@@ -108,13 +108,15 @@ std::string rivals_text(const Identification& identified, ShownFindings shown) {
       const bool takes_prefix = !each.unit.empty() && each.unit.find_first_of(" /") == std::string::npos;
       return takes_prefix ? quantity(value, each.unit) : number(value) + (each.unit.empty() ? "" : " " + each.unit);
     };
-    const auto range = identified.trust.refused() ? std::nullopt : each.stiffness_interval;
-    const auto end = [&](double stiffness) { return limit_value_text(stiffness, units.stiffness); };
+    const bool has_range = each.stiffness_interval.has_value() && !identified.trust.refused();
+    const auto end = [&](double Interval::*which) {
+      return has_range ? limit_value_text((*each.stiffness_interval).*which, units.stiffness) : "-";
+    };
     std::string name = each.code;
     std::ranges::replace(name, '_', ' ');
     table.rows.push_back({std::move(name), each.parameter, size(each.value),
                           each.standard_deviation ? size(*each.standard_deviation) : "not determined",
-                          range ? end(range->lower) : "-", range ? end(range->upper) : "-"});
+                          end(&Interval::lower), end(&Interval::upper)});
   }
   std::string text = listed.empty() ? "" : "\n" + layout(table);
   if (const std::size_t rest = identified.rivals.size() - listed.size(); rest > 0) {
