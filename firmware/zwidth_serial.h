@@ -50,10 +50,11 @@ typedef struct {
   uint8_t bytes[ZWIDTH_SERIAL_MOST_IN];
 } zwidth_serial_t;
 
-/* `force_limit`, N or N m: what is more is cut to it. `watchdog`, ms: 10 to 1000. */
+/* `force_limit`, N or N m, more than 0: what is more is cut to it; one that is none lets no force through. `watchdog`, ms: 10 to
+ * 1000. */
 static inline void zwidth_serial_begin(zwidth_serial_t *zwidth, float force_limit, uint16_t watchdog) {
   memset(zwidth, 0, sizeof *zwidth);
-  zwidth->force_limit = force_limit;
+  zwidth->force_limit = force_limit > 0.0f ? force_limit : 0.0f;
   zwidth->watchdog = watchdog;
 }
 

@@ -113,6 +113,9 @@ void MicrocontrollerDriver::require_usable(const MicrocontrollerDescription& fou
                     "zwidth_serial.h of this program",
                     found.version, known_version));
   }
+  if (!(found.force_limit > 0.0)) {
+    throw DriverFailed("the sketch's force limit is none; give zwidth_serial_begin() more than 0 N or N m");
+  }
   if (found.state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_text(found.state));
   const double shortest = facts_.lock_step ? 0.0 : cycles_within_watchdog * sampling_period;
   if (found.watchdog >= shortest && found.watchdog <= longest_watchdog) return;

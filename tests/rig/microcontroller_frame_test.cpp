@@ -52,6 +52,16 @@ class Board {
   float position = -0.25F;
 };
 
+TEST(ZwidthSerial, AForceLimitThatIsNoneLetsNoForceThrough) {
+  for (const float limit : {-2.0F, 0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+    Board board(limit);
+    EXPECT_EQ(board.force(0, 1.0F), 0.0) << "alone";
+    (void)board.told(microcontroller_frame(Command::hold, 6));
+    (void)board.told(microcontroller_force(0.5, 7));
+    EXPECT_EQ(board.force(), 0.0);
+  }
+}
+
 // By hand from the tables of docs/rig_serial.md, the CRCs bit by bit in Python.
 TEST(MicrocontrollerFrame, IsTheDocumentedOne) {
   EXPECT_EQ(hex_of(microcontroller_frame(Command::question, 7).view()), "037107033fae00");
