@@ -84,13 +84,18 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
       least_aliases + static_cast<std::size_t>(std::min(std::ceil(past_modes * highest_mode / spacing), most_aliases));
   rule_ = alias_sum_quadrature(exact, past_corners * highest_corner / spacing, spacing * delay_);
   undamped_ = !(dampings.maxCoeff() > 0.0);
-  for (const double angle : {0.1, 1.0, pi}) {
-    if (!undamped_) undamped_ = !alias(angle / period_).left.allFinite();
+  std::vector<double> looked_at{0.1 / period_, 1.0 / period_, pi / period_};
+  for (const AliasSumQuadrature::Node& node : rule_.nodes) {
+    if (node.number > 0.0) looked_at.push_back(node.number * spacing);
+  }
+  for (const double frequency : looked_at) {
+    if (!undamped_) undamped_ = !alias(frequency).left.allFinite();
   }
 }
 
 // R = 2 w^2 g^H D g with g = G(held -> all), in which nothing cancels; R = L L^H.
 GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
+  const Eigen::Matrix3cd endless = Eigen::Matrix3cd::Constant(HUGE_VAL);
   const Eigen::Index m = of_.tip.rows();
   Eigen::MatrixXcd rows = of_.stiffness.cast<ComplexNumber>();
   rows += ComplexNumber(0.0, frequency) * of_.damping;
@@ -114,7 +119,7 @@ GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
     }
     double square = r(i, i).real();
     for (Eigen::Index k = 0; k < i; ++k) square -= std::norm(r(i, k));
-    if (!(square > undamped_below * size)) return {1.0, {}, Eigen::Matrix3cd::Constant(HUGE_VAL), {}};
+    if (!(square > undamped_below * size)) return {1.0, endless, endless, endless};
     r(i, i) = std::sqrt(square);
     both.row(i) /= r(i, i).real();
   }
