@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "rig/real_time.hpp"
 #include "zwidth/rig/serial_rate.hpp"
@@ -17,8 +16,6 @@ constexpr unsigned known_version = 1;
 constexpr int tries_while_booting = 12;  // many boards start anew when their port is opened: 3 s
 constexpr std::int64_t booting_patience = 250'000'000;
 constexpr std::int64_t setup_patience = 500'000'000;
-constexpr std::int64_t lock_step_patience = 500'000'000;
-constexpr double cycles_within_watchdog = 2.0;
 constexpr double longest_watchdog = 1.0;  // s
 constexpr double silence_over_watchdog = 2.5;
 constexpr int idle_frames = 3;  // one may be lost
@@ -30,11 +27,7 @@ int baud_of(const SerialLink& link) { return link.drive.baud.value_or(default_ba
 
 DriverFacts facts_of(const SerialLink& link) {
   const double baud = baud_of(link);
-  if (!link.lock_step) {
-    if (const auto problem = find_problem(SerialLoad{bytes_per_cycle, baud, link.sampling_period})) {
-      throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
-    }
-  }
+  if (!link.lock_step) require_fast_line(bytes_per_cycle, baud, link.sampling_period);
   return {.name = "serial:" + link.port,
           .lock_step = link.lock_step,
           .bytes_per_cycle = bytes_per_cycle,
@@ -50,22 +43,10 @@ std::uint16_t MicrocontrollerDriver::next_sequence() noexcept {
   return static_cast<std::uint16_t>(sequence_.fetch_add(1, std::memory_order_relaxed) + 1);
 }
 
-bool MicrocontrollerDriver::fill(std::int64_t until) noexcept {
-  std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_), bytes_.begin() + static_cast<std::ptrdiff_t>(end_),
-            bytes_.begin());
-  end_ -= std::exchange(begin_, 0);
-  if (end_ == bytes_.size()) end_ = 0;  // no frame is that long
-  const std::ptrdiff_t count = port_.read(std::span(bytes_).subspan(end_), until);
-  if (count > 0) end_ += static_cast<std::size_t>(count);
-  return count > 0;
-}
-
 std::optional<std::string_view> MicrocontrollerDriver::next_frame() noexcept {
-  const std::string_view all(bytes_.data() + begin_, end_ - begin_);
-  const std::size_t end = all.find('\0');
+  const std::size_t end = input_.bytes().find('\0');
   if (end == std::string_view::npos) return std::nullopt;
-  begin_ += end + 1;
-  return all.substr(0, end + 1);
+  return input_.take(end + 1);
 }
 
 template <typename Decode>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include "rig/driver.hpp"
 #include "rig/microcontroller_frame.hpp"
 #include "rig/serial_driver.hpp"
+#include "rig/serial_input.hpp"
 #include "rig/serial_port.hpp"
 
 namespace zwidth::rig {
@@ -42,7 +42,7 @@ class MicrocontrollerDriver : public Driver {
   template <typename Decode>
   [[nodiscard]] auto answer(MicrocontrollerCommand command, Decode decode, std::int64_t patience) noexcept;
   [[nodiscard]] std::optional<std::string_view> next_frame() noexcept;
-  [[nodiscard]] bool fill(std::int64_t until) noexcept;
+  [[nodiscard]] bool fill(std::int64_t until) noexcept { return input_.fill(port_, until); }
   /// Throws DriverFailed.
   [[nodiscard]] MicrocontrollerDescription description();
   void require_usable(const MicrocontrollerDescription& found, double sampling_period) const;
@@ -52,9 +52,7 @@ class MicrocontrollerDriver : public Driver {
   double force_sign_;  // and of its forces
   SerialPort port_;
   std::int64_t patience_;  // ns, for a position
-  std::array<char, 256> bytes_{};
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
+  SerialInput input_;
   std::atomic<unsigned> sequence_ = 0;
   bool is_armed_ = false;
   unsigned trouble_ = MicrocontrollerState::holding;  // state that it had instead

@@ -13,20 +13,12 @@
 namespace zwidth::rig {
 namespace {
 
-constexpr std::int64_t lock_step_patience = 500'000'000;
 constexpr double expiry_before_last = 1.5;  // cycles: between the last two that may be missed, whatever the clock does
-constexpr double cycles_within_watchdog = 2.0;
 constexpr double printed_step = 1e-6;  // of drives that print six decimals
 constexpr double printed_share = 1e-3;
 constexpr double bits_of_byte = 10.0;  // with start and stop
 
 int baud_of(const SerialLink& link, int otherwise) { return link.drive.baud.value_or(otherwise); }
-
-void require_fast_line(double bytes_per_cycle, double baud, double sampling_period) {
-  if (const auto problem = find_problem(SerialLoad{bytes_per_cycle, baud, sampling_period})) {
-    throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
-  }
-}
 
 /// Refuses what cannot work before a single byte goes out.
 DriverFacts checked(DriverFacts facts, const SerialLink& link, int baud) {
@@ -45,6 +37,12 @@ DriverFacts checked(DriverFacts facts, const SerialLink& link, int baud) {
 
 }  // namespace
 
+void require_fast_line(double bytes_per_cycle, double baud, double sampling_period) {
+  if (const auto problem = find_problem(SerialLoad{bytes_per_cycle, baud, sampling_period})) {
+    throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
+  }
+}
+
 SerialDriver::SerialDriver(DriverFacts facts, const SerialLink& link, int default_baud)
     : facts_(checked(std::move(facts), link, baud_of(link, default_baud))),
       sampling_period_(link.sampling_period),
@@ -60,29 +58,12 @@ std::size_t SerialDriver::frame_size(std::string_view bytes) const noexcept {
   return end == std::string_view::npos ? 0 : end + 1;
 }
 
-bool SerialDriver::fill(std::int64_t until) noexcept {
-  if (begin_ > 0) {
-    std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_), bytes_.begin() + static_cast<std::ptrdiff_t>(end_),
-              bytes_.begin());
-    end_ -= std::exchange(begin_, 0);
-  }
-  if (end_ == bytes_.size()) end_ = 0;  // no frame is that long
-  const std::ptrdiff_t count = port_.read(std::span(bytes_).subspan(end_), until);
-  if (count > 0) end_ += static_cast<std::size_t>(count);
-  return count > 0;
-}
-
-std::string_view SerialDriver::next_frame() noexcept {
-  const std::string_view all(bytes_.data() + begin_, end_ - begin_);
-  const std::size_t size = frame_size(all);
-  begin_ += size;
-  return all.substr(0, size);
-}
+std::string_view SerialDriver::next_frame() noexcept { return input_.take(frame_size(input_.bytes())); }
 
 void SerialDriver::forget_input() noexcept {
-  begin_ = end_ = 0;
+  input_.forget();
   is_owed_ = false;
-  while (fill(0)) begin_ = end_ = 0;
+  while (fill(0)) input_.forget();
 }
 
 void SerialDriver::allow_missed(unsigned cycles) noexcept {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,6 +10,7 @@
 
 #include "rig/driver.hpp"
 #include "rig/serial_frame.hpp"
+#include "rig/serial_input.hpp"
 #include "rig/serial_port.hpp"
 #include "zwidth/design/drive_gains.hpp"
 #include "zwidth/model/motor_drive.hpp"
@@ -24,6 +24,12 @@ struct SerialLink {
   double sampling_period = 0.0;  ///< s
   bool lock_step = false;        ///< the drive is a simulation whose time moves with the forces it gets
 };
+
+inline constexpr std::int64_t lock_step_patience = 500'000'000;  ///< ns, for an answer where no clock is kept
+inline constexpr double cycles_within_watchdog = 2.0;            ///< of the loop, at least
+
+/// Throws DriverFailed where the line does not carry so many bytes a cycle.
+void require_fast_line(double bytes_per_cycle, double baud, double sampling_period);
 
 /// What the drives on serial lines share: a question and its answer, then a force; units; what came too late.
 ///
@@ -97,7 +103,7 @@ class SerialDriver : public Driver {
  private:
   /// The first whole frame of what has come; empty: there is none. Valid until the next call.
   [[nodiscard]] std::string_view next_frame() noexcept;
-  [[nodiscard]] bool fill(std::int64_t until) noexcept;
+  [[nodiscard]] bool fill(std::int64_t until) noexcept { return input_.fill(port_, until); }
   /// Reads until an answer comes: what it says; nothing where none does until then.
   [[nodiscard]] std::optional<Heard> answer(std::int64_t until) noexcept;
 
@@ -107,9 +113,7 @@ class SerialDriver : public Driver {
   MotorDrive drive_;
   SerialPort port_;
   std::int64_t patience_;  // ns, for an answer
-  std::array<char, 1024> bytes_{};
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
+  SerialInput input_;
   bool is_owed_ = false;     // the answer to the last question
   std::int64_t asked_ = 0;   // ns, when that was
   std::int64_t expiry_ = 0;  // ns, after which it is lost

@@ -1,5 +1,6 @@
 // What is copied runs nothing but the program, and holds the text to the letter, whatever stands in it.
-import { execFileSync } from 'node:child_process'
+import { execFileSync, spawn } from 'node:child_process'
+import { once } from 'node:events'
 import { fileURLToPath } from 'node:url'
 import { describe, expect, it } from 'vitest'
 import { commandLine, cppCode, pythonCode } from '../../src/model/commands'
@@ -51,7 +52,7 @@ describe('commands', () => {
     }
   })
 
-  it('give C++ that compiles against the library, and prints every digit', () => {
+  it('give C++ that compiles against the library, and prints every digit', { timeout: 600_000 }, async () => {
     const code = cppCode('name = "a"\n[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n')
     const words = [
       '-std=c++20',
@@ -64,7 +65,9 @@ describe('commands', () => {
       'c++',
       '-',
     ]
-    execFileSync('c++', words, { input: code, stdio: ['pipe', 'inherit', 'inherit'] })
+    const compiler = spawn('c++', words, { stdio: ['pipe', 'inherit', 'inherit'] }) // while vitest's worker goes on
+    compiler.stdin.end(code)
+    expect(await once(compiler, 'exit')).toEqual([0, null])
     expect(code).toContain('setprecision(17) << analysis.critical.stiffness')
   })
 
