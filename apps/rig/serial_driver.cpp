@@ -14,7 +14,7 @@ namespace zwidth::rig {
 namespace {
 
 constexpr double expiry_before_last = 1.5;  // cycles: between the last two that may be missed, whatever the clock does
-constexpr double printed_step = 1e-6;  // of drives that print six decimals
+constexpr double printed_step = 1e-6;       // of drives that print six decimals
 constexpr double printed_share = 1e-3;
 constexpr double bits_of_byte = 10.0;  // with start and stop
 

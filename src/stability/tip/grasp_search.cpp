@@ -81,14 +81,6 @@ std::vector<Eigen::Matrix<double, 6, 1>> probes(Eigen::Index m) {
   return products;
 }
 
-// The gain that the disc leaves; where none is left, more than the gain at which one comes closest to it.
-double extended_gain(const GainCondition& condition) {
-  const auto& [constant, half, quadratic] = condition;
-  const double square = half * half - quadratic * constant;
-  if (!(square < 0.0 && half < 0.0 && constant > 0.0)) return least_root(constant, half, quadratic);
-  return constant / -half * (1.0 + std::sqrt(-square) / -half);
-}
-
 // How far from leaving a gain, relative; not positive where one is left.
 double openness(const GainCondition& condition) {
   const double product = condition.quadratic * condition.constant;
@@ -110,6 +102,49 @@ std::pair<double, double> minimum(double first, double last, int bits, const Fun
       },
       first, last, bits, most);
 }
+
+struct Looked {
+  double gain = infinity;
+  double x = 0.0;
+};
+
+// The least gain that is left beside `inside`, which leaves one. Where a gain is left may end beside it, and the least lie there.
+template <typename ConditionAt>
+Looked least_beside(double before, double inside, double after, int bits, const ConditionAt& condition_at) {
+  Looked least;
+  const auto gain = [&](double x) {
+    const double left = real_gain(condition_at(x));
+    if (left < least.gain) least = {left, x};
+    return left;
+  };
+  if (!std::isfinite(gain(inside))) return least;
+  const auto end = [&](double outside) {
+    if (std::isfinite(gain(outside))) return outside;
+    double within = inside;
+    for (int i = 0; i < bits; ++i) {
+      const double middle = 0.5 * (within + outside);
+      (std::isfinite(gain(middle)) ? within : outside) = middle;
+    }
+    return within;
+  };
+  const double first = end(before);
+  minimum(first, end(after), bits, gain);
+  return least;
+}
+
+// The least gain of all that is looked at on the way to where `function` of the condition is least.
+template <typename ConditionAt, typename Function>
+Looked least_towards(double before, double after, int bits, const ConditionAt& condition_at, const Function& function) {
+  Looked least;
+  minimum(before, after, bits, [&](double x) {
+    const GainCondition at = condition_at(x);
+    if (const double gain = real_gain(at); gain < least.gain) least = {gain, x};
+    return function(at);
+  });
+  return least;
+}
+
+double constant_of(const GainCondition& condition) { return condition.constant; }
 
 const Eigen::Matrix<double, points_per_panel, panel_nodes>& to_points() {
   static const Eigen::Matrix<double, points_per_panel, panel_nodes> weights = [] {
@@ -333,13 +368,12 @@ std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall) 
   std::vector<double> gains;
   conditions.reserve(points.size());
   gains.reserve(points.size());
-  double least = infinity;
   for (std::size_t i = 0; i < points.size(); ++i) {
     conditions.push_back(gain_condition(at_points_[i], wall.at_points[i]));
-    gains.push_back(extended_gain(conditions.back()));
-    if (gains.back() < least) least = std::min(least, real_gain(conditions.back()));
+    gains.push_back(real_gain(conditions.back()));
   }
   std::vector<Low> lows;
+  const double least = std::ranges::min(gains);
   if (least == 0.0) {
     const auto beaten = std::ranges::min_element(conditions, {}, &GainCondition::constant) - conditions.begin();
     const auto i = static_cast<std::size_t>(beaten);
@@ -352,30 +386,27 @@ std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall) 
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1;
     const std::size_t after = std::min(i + 1, points.size() - 1);
-    const auto& [constant, half, quadratic] = conditions[i];
-    const bool is_open = half * half < quadratic * constant && half < 0.0;
-    const double closest = is_open ? constant / -half : gains[i];
-    // What is least may lie at the end of where a gain is left: all that is looked at counts.
-    const auto refine = [&](const auto& function) {
-      Low low{infinity, points[i], points[before], points[after]};
-      minimum(points[before], points[after], quick_bits, [&](double x) {
-        const GainCondition at = condition_near(x);
-        if (const double gain = real_gain(at); gain < low.gain) low.gain = gain, low.x = x;
-        return function(at);
-      });
-      if (std::isfinite(low.gain)) lows.push_back(low);
+    const auto add = [&](const Looked& looked) {
+      if (std::isfinite(looked.gain)) lows.push_back({looked.gain, looked.x, points[before], points[after]});
     };
-    if (is_open && openness(conditions[i]) <= openness(conditions[before]) &&
-        openness(conditions[i]) <= openness(conditions[after])) {
-      refine(openness);
+    const auto beside = [&](double x) {
+      return least_beside(points[before], x, points[after], quick_bits, condition_near);
+    };
+    const auto is_least_at = [&](const auto& function) {
+      return function(conditions[i]) <= function(conditions[before]) &&
+             function(conditions[i]) <= function(conditions[after]);
+    };
+    if (std::isfinite(gains[i])) {
+      const bool is_end = !std::isfinite(gains[before] + gains[after]);
+      const bool is_low = gains[i] <= gains[before] && gains[i] <= gains[after] && gains[i] <= worth_refining * least;
+      if (is_end || is_low) add(beside(points[i]));
+    } else if (conditions[i].half < 0.0 && is_least_at(openness)) {
+      const Looked found = least_towards(points[before], points[after], quick_bits, condition_near, openness);
+      if (std::isfinite(found.gain)) add(beside(found.x));
     }
-    const bool is_low = gains[i] <= gains[before] && gains[i] <= gains[after];
-    if (is_low && std::isfinite(gains[i]) && closest <= worth_refining * least) {
-      refine(extended_gain);
+    if (conditions[i].constant < damper_nearly_beaten && is_least_at(constant_of)) {
+      add(least_towards(points[before], points[after], quick_bits, condition_near, constant_of));
     }
-    const bool is_nearly_beaten = constant <= conditions[before].constant && constant <= conditions[after].constant &&
-                                  constant < damper_nearly_beaten;
-    if (is_nearly_beaten) refine([](const GainCondition& at) { return at.constant; });
   }
   return lows;
 }
@@ -399,19 +430,20 @@ GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
     return gain_condition(disc_along(search_->discs_.at(angle), normal_), wall.at(angle));
   };
   Least least;
-  const auto take = [&](double gain, double x) {
-    if (gain < least.gain) least = search_->least_at(gain, x);
+  const auto take = [&](const Looked& looked) {
+    if (looked.gain < least.gain) least = search_->least_at(looked.gain, looked.x);
+    return std::isfinite(looked.gain);
   };
   for (const Low& each : found) {
     if (each.gain > worth_refining_exactly * quick) continue;
-    const auto look = [&](double x) {
-      const GainCondition at = condition(x);
-      take(real_gain(at), x);
-      return extended_gain(at);
-    };
-    look(each.x);
-    if (least.gain == 0.0) return least;
-    minimum(each.before, each.after, exact_bits, look);
+    if (each.gain == 0.0) {
+      take(least_towards(each.before, each.after, exact_bits, condition, constant_of));
+      if (least.gain == 0.0) return least;
+    }
+    if (take(least_beside(each.before, each.x, each.after, exact_bits, condition))) continue;
+    // Only the polynomials leave a gain at x: the discs beside it, or within what the polynomials err.
+    const Looked beside = least_towards(each.before, each.after, exact_bits, condition, openness);
+    take(std::isfinite(beside.gain) ? beside : Looked{each.gain, each.x});
   }
   return least;
 }
