@@ -31,8 +31,6 @@ constexpr int deep_terms = 64;
 constexpr double unmoved_pole_below = 1e-11;
 constexpr std::uintmax_t most_root_steps = 60;
 
-Complex half_off(const Complex& eigenvalue) { return eigenvalue - 0.5; }
-
 // T on the circle, and how fast it may change.
 class ClosedResponse {
  public:
@@ -140,30 +138,42 @@ std::optional<std::vector<Interval>> intervals_left(const ClosedResponse& closed
   return left;
 }
 
-UnitGainPoint unit_gain_point(double angle, const Complex& eigenvalue) {
-  return {angle, std::arg(-eigenvalue / (1.0 - eigenvalue))};
+// Eigenvalues l of L on Riemann's sphere, by those of T = l / (1 + l): a height of 0 where |l| = 1. It turns slowly where l
+// is near -1 or large.
+std::vector<Eigen::Vector3d> loop_eigenvalues(const ClosedResponse& closed, double angle) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Complex& t : complex_eigenvalues(closed.at(angle))) {
+    const Complex along = t * std::conj(1.0 - t);
+    const double size = std::norm(t) + std::norm(1.0 - t);
+    points.emplace_back(2.0 * along.real() / size, 2.0 * along.imag() / size, (2.0 * t.real() - 1.0) / size);
+  }
+  return points;
 }
 
-Complex nearest_of(const Eigen::VectorXcd& values, const Complex& to) {
-  return *std::ranges::min_element(values, {}, [&](const Complex& each) { return std::abs(each - to); });
+UnitGainPoint unit_gain_point(double angle, const Eigen::Vector3d& eigenvalue) {
+  return {angle, std::atan2(-eigenvalue.y(), -eigenvalue.x())};
+}
+
+Eigen::Vector3d nearest_of(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& to) {
+  return *std::ranges::min_element(points, {}, [&](const Eigen::Vector3d& each) { return (each - to).squaredNorm(); });
 }
 
 void add_points(const ClosedResponse& closed, const Interval& within, std::vector<UnitGainPoint>& points) {
   const double low = std::max(within.low, std::numeric_limits<double>::min());
-  const Eigen::VectorXcd at_low = complex_eigenvalues(closed.at(low));
-  const Eigen::VectorXcd at_high = complex_eigenvalues(closed.at(within.high));
+  const auto at_low = loop_eigenvalues(closed, low);
+  const auto at_high = loop_eigenvalues(closed, within.high);
   std::size_t crossings = 0;
-  for (const Complex& first : at_low) {
-    const Complex last = nearest_of(at_high, first);
-    if (!(half_off(first).real() * half_off(last).real() < 0.0)) continue;
+  for (const Eigen::Vector3d& first : at_low) {
+    const Eigen::Vector3d last = nearest_of(at_high, first);
+    if (!(first.z() * last.z() < 0.0)) continue;
     const auto tracked = [&](double angle) {
       const double part = (angle - low) / (within.high - low);
-      return nearest_of(complex_eigenvalues(closed.at(angle)), first + part * (last - first));
+      return nearest_of(loop_eigenvalues(closed, angle), first + part * (last - first));
     };
     std::uintmax_t most = most_root_steps;
-    const auto [from, to] = boost::math::tools::toms748_solve(
-        [&](double angle) { return half_off(tracked(angle)).real(); }, low, within.high, half_off(first).real(),
-        half_off(last).real(), boost::math::tools::eps_tolerance<double>(50), most);
+    const auto [from, to] =
+        boost::math::tools::toms748_solve([&](double angle) { return tracked(angle).z(); }, low, within.high, first.z(),
+                                          last.z(), boost::math::tools::eps_tolerance<double>(50), most);
     const double angle = 0.5 * (from + to);
     points.push_back(unit_gain_point(angle, tracked(angle)));
     ++crossings;
@@ -171,7 +181,7 @@ void add_points(const ClosedResponse& closed, const Interval& within, std::vecto
   if (crossings > 0) return;
   // An eigenvalue that comes as near as rounding tells: it may cross and come back.
   const auto nearest =
-      std::ranges::min_element(at_low, {}, [](const Complex& each) { return std::abs(half_off(each).real()); });
+      std::ranges::min_element(at_low, {}, [](const Eigen::Vector3d& each) { return std::abs(each.z()); });
   points.push_back(unit_gain_point(low, *nearest));
   points.push_back(unit_gain_point(within.high, nearest_of(at_high, *nearest)));
 }
