@@ -24,6 +24,7 @@ it.each([1280, 390])('is written with its units, judged at its fields, and taken
     travel: 0.025,
     gear: 2,
     sign: -1,
+    force_sign: 1,
     torque_constant: 0.05,
     torque_per_volt: 0.2,
     id: 3,
