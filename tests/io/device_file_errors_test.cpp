@@ -89,7 +89,9 @@ const BadText texts[] = {
      {{"f.toml", 7, 1, "loop.stiffness"},
       {.code = ProblemCode::unknown_key,
        .subjects = {{"name", "stiffness"},
-                    {"homes", "[[body]] or [[link]] or [[transmission]] or [wall] or [operator]"}}}}},
+                    {"homes",
+                     "[[body]] or [[link]] or [mechanism.joint.NAME] or [mechanism.tendon.NAME] or "
+                     "[[transmission]] or [wall] or [operator]"}}}}},
     {"unheard_of_key",
      body_text("") + loop_text() + "[wall]\ncolour = 3\n",
      {{"f.toml", 9, 1, "wall.colour"},

@@ -51,7 +51,7 @@ TEST(DeviceKey, EveryNumberIsReadInItsUnitAndRefusedOutsideItsRange) {
     EXPECT_EQ(with_key(key, "0").has_value(), key.range->takes_zero) << key.name;
     EXPECT_FALSE(with_key(key, "\"1 furlong\"")) << key.name;
   }
-  EXPECT_EQ(count, 26);
+  EXPECT_EQ(count, 27);
 }
 
 TEST(DeviceKey, EveryNumberOfTheLoopIsAParameter) {
