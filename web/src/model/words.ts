@@ -75,6 +75,22 @@ export type WallWord = 'stable for anyone' | 'stable alone only' | 'unstable'
 export const wallWord = (wall: NonNullable<Analysis['wall']>): WallWord =>
   !wall.stable ? 'unstable' : wall.stable_for.any_user ? 'stable for anyone' : 'stable alone only'
 
+/** A margin that is null is none, or was left out: then one of these was found. */
+const marginsLeftOut = {
+  gain: ['left_out_beside_damper_loop'],
+  phase: ['margins_contradict', 'point_margins_left_out'],
+  delay: ['margins_contradict', 'point_margins_left_out', 'delay_margin_contradicts', 'left_out_beside_damper_loop'],
+}
+const marginText = (of: Analysis, margin: keyof typeof marginsLeftOut, value: number | null, inUnits: (value: number) => string): string =>
+  value !== null ? inUnits(value) : of.findings.some((each) => marginsLeftOut[margin].includes(each.code)) ? 'not known' : 'none'
+/** How far a stable wall is from instability, in words; a dash beside one that is not. */
+export const marginWord = {
+  gain: (of: Analysis): string => (of.wall?.stable ? marginText(of, 'gain', of.wall.gain_margin_db, (db) => `${say(db, '', 3)} dB`) : '–'),
+  phase: (of: Analysis): string =>
+    of.wall?.stable ? marginText(of, 'phase', of.wall.phase_margin_rad, (phase) => `${say((phase * 180) / Math.PI, '', 3)}°`) : '–',
+  delay: (of: Analysis): string => (of.wall?.stable ? marginText(of, 'delay', of.wall.delay_margin_s, (delay) => say(delay, 's', 3)) : '–'),
+}
+
 /** Beside numbers that are not yet those of what the page shows. */
 export const stale = 'of the device before; computing …'
 

@@ -174,6 +174,7 @@ export function everythingAt(width: number): void {
     await expect.poll(() => nobody(again.page)).toBe(answer)
     await expect.poll(() => row(again.page, 'body.handle.mass').locator('input[type="text"]').isDisabled()).toBe(true)
     await settled(again.page)
+    await again.page.locator('#panel-bar').scrollIntoViewIfNeeded() // out of view its text is not laid out
     await expect.poll(() => again.page.locator('#panel-bar').innerText()).toContain('design 1')
     await again.context.close()
     await context.close()
