@@ -51,8 +51,9 @@ TEST(DeviceFileProblemText, SaysWhichKeyIsMeant) {
   EXPECT_EQ(told_of_body("dampin = 1"), "f.toml:4:1: body.a.dampin: unknown key \"dampin\"; did you mean \"damping\"?");
   EXPECT_EQ(told_of_body("delay = 1"),
             "f.toml:4:1: body.a.delay: unknown key \"delay\"; it belongs in [loop] or [loop.damper]");
-  EXPECT_EQ(told_of_device(body_text("") + loop_text() + "[sensor]\ncolour = 3\n"),
-            "f.toml:9:1: sensor.colour: unknown key \"colour\"; the keys of [sensor] are resolution, tracking_bandwidth");
+  EXPECT_EQ(
+      told_of_device(body_text("") + loop_text() + "[sensor]\ncolour = 3\n"),
+      "f.toml:9:1: sensor.colour: unknown key \"colour\"; the keys of [sensor] are resolution, tracking_bandwidth");
   EXPECT_EQ(told_of_body("J = 1"),
             "f.toml:4:1: body.a.J: unknown key \"J\"; did you mean \"mass\", or of rotary motion \"inertia\"?");
   EXPECT_EQ(told_of_body("k = 1"),
