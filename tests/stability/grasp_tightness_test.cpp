@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "campaign.hpp"
+#include "stability/matrix_products.hpp"
 #include "stability/random_mechanism.hpp"
 #include "zwidth/stability/grasp_limit.hpp"
 #include "zwidth/stability/point_wall.hpp"
@@ -25,6 +26,10 @@ using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 using Complex = std::complex<double>;
 using std::numbers::pi;
+using test::add_square;
+using test::complex_of;
+using test::complex_product;
+using test::product;
 
 constexpr double above_limit = 1.001;      // at which the grasp destabilises
 constexpr double surely_unstable = 1e-12;  // |z| - 1
@@ -45,13 +50,15 @@ class ExtremalGrasp {
     stiffness_ = damping_ = Eigen::MatrixXd::Zero(n, n);
     for (const Coordinates::Element& each : motion.elements) {
       const Eigen::Map<const Eigen::VectorXd> along(each.weights.data(), n);
-      stiffness_ += each.stiffness * along * along.transpose();
-      damping_ += each.damping * along * along.transpose();
+      add_square(stiffness_, each.stiffness, along);
+      add_square(damping_, each.damping, along);
     }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(motion.tip, Eigen::ComputeThinU);
-    Eigen::Index m = 0;
-    while (m < svd.singularValues().size() && svd.singularValues()(m) > 1e-9 * svd.singularValues()(0)) ++m;
-    jacobian_ = svd.matrixU().leftCols(m).transpose() * motion.tip;
+    const test::Axes axes = test::axes_of(product(motion.tip, motion.tip.transpose()));
+    Eigen::Index m = 0;  // directions in which the tip moves
+    while (m < 3 && axes.values(2 - m) > 1e-14 * axes.values(2)) ++m;
+    jacobian_ = product(axes.vectors.rightCols(m).transpose(), motion.tip);
+    sensed_ = complex_of(product(normal_.transpose(), motion_.sensed));
+    pushed_ = complex_of(product(motion_.pushed.transpose(), normal_));
   }
 
   // Whether a grasp that is extremal at this frequency and at so many aliases on each side destabilises the wall there. As
@@ -87,26 +94,23 @@ class ExtremalGrasp {
 
   [[nodiscard]] std::optional<Answer> answer(double frequency) const {
     const Complex jw(0.0, frequency);
-    const ComplexMatrix dynamic = stiffness_.cast<Complex>() - frequency * frequency * motion_.mass.cast<Complex>() +
-                                  jw * damping_.cast<Complex>();
-    const ComplexMatrix along = jacobian_.transpose().cast<Complex>();
-    const ComplexMatrix g = dynamic.partialPivLu().solve(along);
+    ComplexMatrix dynamic = complex_of(stiffness_);
+    dynamic -= complex_of(frequency * frequency * motion_.mass);
+    dynamic += jw * complex_of(damping_);
+    const ComplexMatrix g = test::solution(dynamic, complex_of(jacobian_.transpose()));
     Answer of;
-    of.held = jw * along.transpose() * g;
+    of.held = jw * complex_product(complex_of(jacobian_), g);
     // R = 2 w^2 g^H D g, in which nothing cancels.
-    const Eigen::MatrixXd r = (2.0 * frequency * frequency * (g.adjoint() * damping_.cast<Complex>() * g)).real();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (r + r.transpose()));
-    if (!(solver.eigenvalues()(0) > 0.0)) return std::nullopt;
-    of.root = solver.operatorSqrt();
-    const ComplexMatrix inverse = solver.operatorInverseSqrt().cast<Complex>();
-    const ComplexVector sensed = ((normal_.transpose() * motion_.sensed).cast<Complex>() * g).transpose();
-    const ComplexVector pushed = g.transpose() * (normal_.transpose() * motion_.pushed).transpose().cast<Complex>();
-    of.left = (inverse * sensed).conjugate();
-    of.right = inverse * pushed;
-    const Eigen::VectorXd push = (normal_.transpose() * motion_.pushed).transpose();
-    of.free =
-        ((normal_.transpose() * motion_.sensed).cast<Complex>() * dynamic.partialPivLu().solve(push.cast<Complex>()))
-            .value();
+    const ComplexMatrix damped = complex_product(g.adjoint(), complex_product(complex_of(damping_), g));
+    const test::Axes r = test::axes_of(2.0 * frequency * frequency * damped.real());
+    if (!(r.values(0) > 0.0)) return std::nullopt;
+    const Eigen::VectorXd roots = r.values.cwiseSqrt();
+    of.root = product(r.vectors * roots.asDiagonal(), r.vectors.transpose());
+    const ComplexMatrix inverse =
+        complex_of(product(r.vectors * roots.cwiseInverse().asDiagonal(), r.vectors.transpose()));
+    of.left = complex_product(inverse, complex_product(sensed_, g).transpose()).conjugate();
+    of.right = complex_product(inverse, complex_product(g.transpose(), pushed_));
+    of.free = complex_product(sensed_, test::solution(dynamic, pushed_)).value();
     of.centre = of.free - jw * of.left.dot(of.right);
     of.radius = of.left.norm() * of.right.norm();
     of.left.normalize();
@@ -141,6 +145,16 @@ class ExtremalGrasp {
     return std::arg(-1.0 / (limit + damper(frequency)) - centre);
   }
 
+  // A unitary matrix with that first column, of length 1: a mirror that moves e_1 there.
+  [[nodiscard]] static ComplexMatrix with_first(const ComplexVector& column) {
+    const Complex turn = std::polar(1.0, std::arg(column(0)));
+    ComplexVector off = column / turn;
+    off(0) -= 1.0;
+    ComplexMatrix w = ComplexMatrix::Identity(off.size(), off.size());
+    if (off.norm() > 1e-14) w -= complex_product(off * (2.0 / off.squaredNorm()), off.adjoint());
+    return turn * w;
+  }
+
   // X of (Z^-1 + Y)^-1 = R^-1/2 (1 + U) R^-1/2 with U right = e^{j phi} left, unitary and symmetric, as Z = jX is.
   [[nodiscard]] std::optional<Eigen::MatrixXd> extremal_reactance(double signed_frequency, double phase) const {
     const std::optional<Answer> found = answer(std::abs(signed_frequency));
@@ -152,21 +166,21 @@ class ExtremalGrasp {
     if (signed_frequency < 0.0) phi = -phi;
     const ComplexVector to = std::polar(1.0, phi) * of.left;
     // U = W S W', conj(W) e_1 = right: S e_1 = W^H to.
-    ComplexMatrix w = of.right.conjugate().householderQr().householderQ() * ComplexMatrix::Identity(m, m);
-    w.col(0) *= w.col(0).dot(of.right.conjugate());
-    const ComplexVector s = w.adjoint() * to;
+    const ComplexMatrix w = with_first(of.right.conjugate());
+    const ComplexVector s = complex_product(w.adjoint(), to);
     ComplexVector turn(m);
     turn(0) = std::polar(1.0, 0.5 * std::arg(s(0)));
     for (Eigen::Index i = 1; i < m; ++i) turn(i) = std::polar(1.0, std::arg(s(i))) / turn(0);
     Eigen::MatrixXd mirror = Eigen::MatrixXd::Identity(m, m);
     Eigen::VectorXd off = s.cwiseAbs();
     off(0) -= 1.0;
-    if (off.norm() > 1e-14) mirror -= 2.0 * off * off.transpose() / off.squaredNorm();
-    const ComplexMatrix symmetric = turn.asDiagonal() * mirror.cast<Complex>() * turn.asDiagonal();
-    const ComplexMatrix one_and = ComplexMatrix::Identity(m, m) + w * symmetric * w.transpose();
-    const ComplexMatrix root = of.root.cast<Complex>();
-    const ComplexMatrix admittance = root * one_and.inverse() * root - of.held;
-    const Eigen::MatrixXd x = admittance.inverse().imag();
+    if (off.norm() > 1e-14) add_square(mirror, -2.0 / off.squaredNorm(), off);
+    const ComplexMatrix turned = complex_product(w, turn.asDiagonal());
+    ComplexMatrix one_and = complex_product(turned, complex_product(complex_of(mirror), turned.transpose()));
+    one_and.diagonal().array() += 1.0;
+    const ComplexMatrix root = complex_of(of.root);
+    const ComplexMatrix admittance = complex_product(root, complex_product(test::inverse_of(one_and), root)) - of.held;
+    const Eigen::MatrixXd x = test::inverse_of(admittance).imag();
     if (!x.allFinite()) return std::nullopt;
     return 0.5 * (x + x.transpose());
   }
@@ -176,9 +190,7 @@ class ExtremalGrasp {
     double stiffness = 0.0;  // c
     double frequency = 0.0;  // p
     Eigen::VectorXd direction;
-    [[nodiscard]] Eigen::MatrixXd reactance(double w) const {
-      return stiffness * w / (frequency * frequency - w * w) * direction * direction.transpose();
-    }
+    [[nodiscard]] double reactance(double w) const { return stiffness * w / (frequency * frequency - w * w); }
   };
 
   // Foster's form: X(w) = sum of c w/(p^2 - w^2) u u', each p so near its own w that it hardly acts at the others'.
@@ -195,20 +207,20 @@ class ExtremalGrasp {
         if (!is_plain) rest -= w * mass - spring / w;
         for (std::size_t j = 0; j < wanted.size(); ++j) {
           if (j == i) continue;
-          for (const Absorber& each : absorbers[j]) rest -= each.reactance(w);
+          for (const Absorber& each : absorbers[j]) add_square(rest, -each.reactance(w), each.direction);
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(0.5 * (rest + rest.transpose()));
+        const test::Axes axes = test::axes_of(rest);
         absorbers[i].clear();
         if (is_plain) {
           mass.setZero();
           spring.setZero();
         }
         for (Eigen::Index k = 0; k < rest.rows(); ++k) {
-          const double x = axes.eigenvalues()(k);
-          const Eigen::VectorXd u = axes.eigenvectors().col(k);
+          const double x = axes.values(k);
+          const Eigen::VectorXd u = axes.vectors.col(k);
           if (is_plain) {
-            if (x > 0.0) mass += x / w * u * u.transpose();
-            if (x < 0.0) spring -= x * w * u * u.transpose();
+            if (x > 0.0) add_square(mass, x / w, u);
+            if (x < 0.0) add_square(spring, -x * w, u);
           } else if (x != 0.0) {
             const double p = x > 0.0 ? w * (1.0 + detuning) : w * (1.0 - detuning);
             absorbers[i].push_back({x * (p - w) * (p + w) / w, p, u});
@@ -222,11 +234,11 @@ class ExtremalGrasp {
   [[nodiscard]] TipMotion held_by(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& spring,
                                   const std::vector<std::vector<Absorber>>& absorbers) const {
     TipMotion held = motion_;
-    held.mass += jacobian_.transpose() * mass * jacobian_;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(spring);
+    held.mass += product(jacobian_.transpose(), product(mass, jacobian_));
+    const test::Axes axes = test::axes_of(spring);
     for (Eigen::Index k = 0; k < spring.rows(); ++k) {
-      if (!(axes.eigenvalues()(k) > 0.0)) continue;
-      test::add_element(held, jacobian_.transpose() * axes.eigenvectors().col(k), axes.eigenvalues()(k), 0.0);
+      if (!(axes.values(k) > 0.0)) continue;
+      test::add_element(held, product(jacobian_.transpose(), axes.vectors.col(k)), axes.values(k), 0.0);
     }
     for (const std::vector<Absorber>& at_one : absorbers) {
       for (const Absorber& each : at_one) {
@@ -238,7 +250,7 @@ class ExtremalGrasp {
           rows->conservativeResizeLike(Eigen::MatrixXd::Zero(3, n + 1));
         }
         Eigen::VectorXd stretch = -Eigen::VectorXd::Unit(n + 1, n);
-        stretch.head(jacobian_.cols()) = jacobian_.transpose() * each.direction;
+        stretch.head(jacobian_.cols()) = product(jacobian_.transpose(), each.direction).col(0);
         test::add_element(held, stretch, each.stiffness, 0.0);
       }
     }
@@ -252,6 +264,8 @@ class ExtremalGrasp {
   Eigen::MatrixXd stiffness_;
   Eigen::MatrixXd damping_;
   Eigen::MatrixXd jacobian_;  // of the tip along its directions, m x n
+  ComplexMatrix sensed_;      // along the normal, a row
+  ComplexMatrix pushed_;      // a column
 };
 
 bool is_reached(const TipMotion& motion, const DeviceParameters& loop, const Eigen::Vector3d& normal,
