@@ -26,7 +26,7 @@ TEST(PointWallMargins, AreThoseOfClosedLoopEigenvalues) {
   constexpr double most_samples = 25.0;
   unsigned phases = 0;
   unsigned delays = 0;
-  const unsigned mechanisms = test::by_tier(20U, 500U);
+  const unsigned mechanisms = test::by_tier(8U, 500U);
   for (unsigned seed = 0; seed < mechanisms; ++seed) {
     SCOPED_TRACE(seed);
     auto [motion, loop] = test::random_mechanism(seed);

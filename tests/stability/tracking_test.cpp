@@ -9,6 +9,7 @@
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "campaign.hpp"
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
 #include "stability/random_mechanism.hpp"
@@ -275,8 +276,9 @@ TEST(Tracking, TheWorstUserIsAsBadAsSaid) {
 
 // Of mechanisms: along a normal the states of the tip and the device's own modal form say the same.
 TEST(Tracking, TipsOfMechanisms) {
+  const int mechanisms = test::by_tier(4, 20);
   int compared = 0;
-  for (unsigned seed = 1; compared < 20 && seed < 80; ++seed) {
+  for (unsigned seed = 1; compared < mechanisms && seed < 80; ++seed) {
     test::RandomMechanism mechanism = test::random_mechanism(seed);
     test::Draws draws(seed + 1000);
     mechanism.loop.sensor.tracking_bandwidth = draws.decades(300.0, 1e4);
@@ -295,7 +297,7 @@ TEST(Tracking, TipsOfMechanisms) {
     }
     ++compared;
   }
-  EXPECT_EQ(compared, 20);
+  EXPECT_EQ(compared, mechanisms);
 }
 
 }  // namespace zwidth
