@@ -141,8 +141,10 @@ static inline void zwidth_serial_look(zwidth_serial_t *zwidth, uint32_t now) {
   ++zwidth->times_let_go;
 }
 
-/* Something is wrong with the device: 16 to 255, no force until it is told 0, and the host then takes hold anew. */
+/* Something is wrong with the device: 16 to 255, no force until it is told 0, and the host then takes hold anew. 0 where
+ * nothing was wrong changes nothing. */
 static inline void zwidth_serial_fail(zwidth_serial_t *zwidth, uint8_t fault) {
+  if (fault == 0 && zwidth->state < 16) return;
   zwidth->state = fault == 0 ? ZWIDTH_SERIAL_RELEASED : fault < 16 ? 16 : fault;
 }
 

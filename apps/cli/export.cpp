@@ -171,7 +171,10 @@ std::string exported_for_drive(const ExportArguments& arguments, const Outputs& 
     }
     loop.sampling_period = 1.0 / *rate;
   }
-  if (const auto problem = find_problem(loop, *arguments.units, wall.device)) refuse(*problem, options_of_drive);
+  if (const auto problem = find_problem(loop, *arguments.units, wall.device)) {
+    if (!option_of(options_of_drive, problem->member).empty()) refuse(*problem, options_of_drive);
+    refuse_key(file, problem->member, problem->what, problem->allowed);
+  }
   const DriveGains gains = worked(file, [&] { return drive_gains(wall.device, *arguments.units, loop); });
   const Trust& trust = gains.on_drive.trust;
   if (trust.refused()) throw WorkFailed(file, "closed on the drive: " + report::verdict_text(trust));

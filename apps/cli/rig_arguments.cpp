@@ -77,9 +77,8 @@ void add_safety_options(CLI::App& command, RigArguments& arguments) {
   add("--saturation", arguments.limits.saturation_duration, "How long the force may be cut off", "S")
       ->capture_default_str();
   add("--missed-cycles", arguments.limits.missed_cycles,
-      "Cycles in a row that may come late or bring no position; else\n25 ms of them, three at least; at most the "
-      "drive's "
-      "watchdog",
+      "Cycles in a row that may come late or bring no position; else\n25 ms of them, three at least; beyond three at "
+      "most the\ndrive's watchdog",
       "N");
   add("--ramp", arguments.limits.ramp, "Over which the force grows at the start", "S")->capture_default_str();
   const auto flag = [&](const char* name, bool& value, const char* what) {

@@ -47,12 +47,13 @@ Recording recording_of(Played played, const Device& device, const Driver& driver
   return recording;
 }
 
-SessionStart nudged(RigRun& run, const Device& device, double damping, const Driver& driver, const RigOptions& options,
-                    SignNeed need) {
+SessionStart nudged(RigRun& run, const Device& device, const Driver& driver, const RigOptions& options,
+                    const NudgeRequest& request) {
   SessionStart start{device};
-  const Device moved = damped_by_drive(device, damping);
+  const Device moved = damped_by_drive(device, request.damping);
   if (driver.facts().is_simulated || !options.nudge) return start;
-  const double most = default_force(device, options.limits.force);
+  const double by_default = default_force(device, options.limits.force);
+  const double most = std::min(by_default, request.most_force.value_or(by_default));
   Segment ramped;  // a nudge whose force still grows would not come back
   ramped.cycles = cycles_of(options.limits.ramp, device);
   (void)run.play(ramped);
@@ -67,11 +68,11 @@ SessionStart nudged(RigRun& run, const Device& device, double damping, const Dri
   }
   if (start.nudge->reading == NudgeReading::with_force) return start;
   if (start.nudge->reading == NudgeReading::not_told) {
-    if (need == SignNeed::for_wall) run.stop(StopReason::unknown_sign);
+    if (request.need == SignNeed::for_wall) run.stop(StopReason::unknown_sign);
     return start;
   }
-  if (driver.facts().byte_rate && device.parameters().driver) {
-    start.nudge->mending_force_sign = -device.parameters().driver->force_sign;
+  if (driver.facts().byte_rate) {  // a drive on a serial line, whose signs are the file's, stated or not
+    start.nudge->mending_force_sign = -device.parameters().driver.value_or(MotorDrive{}).force_sign;
   }
   run.stop(StopReason::wrong_sign);
   return start;

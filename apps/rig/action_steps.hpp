@@ -33,11 +33,18 @@ struct SessionStart {
   std::optional<Nudge> nudge = {};
 };
 
+/// How a device is nudged.
+struct NudgeRequest {
+  double damping = 0.0;                   ///< of the damper that the drive closes, N s/m or N m s/rad
+  std::optional<double> most_force = {};  ///< of the action that follows, N or N m: a nudge is no harder
+  SignNeed need = SignNeed::for_wall;
+};
+
 /// Nudges the device with a growing force, up to default_force(), until the drive's sign is known; stops the rig where it is
-/// wrong, and where no wall may run without it. `damping`: of the damper that the drive closes, N s/m or N m s/rad. No nudge of a simulated device, whose sign is known, and where none is
+/// wrong, and where no wall may run without it. No nudge of a simulated device, whose sign is known, and where none is
 /// wanted.
-[[nodiscard]] SessionStart nudged(RigRun& run, const Device& device, double damping, const Driver& driver,
-                                  const RigOptions& options, SignNeed need = SignNeed::for_wall);
+[[nodiscard]] SessionStart nudged(RigRun& run, const Device& device, const Driver& driver, const RigOptions& options,
+                                  const NudgeRequest& request);
 
 /// Ends the session, and hands its record over.
 RigSession ended(RigRun& run, const SessionStart& start, const RigOptions& options,

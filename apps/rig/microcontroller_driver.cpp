@@ -16,6 +16,7 @@ constexpr unsigned known_version = 1;
 constexpr int tries_while_booting = 12;  // many boards start anew when their port is opened: 3 s
 constexpr std::int64_t booting_patience = 250'000'000;
 constexpr std::int64_t setup_patience = 500'000'000;
+constexpr int setup_tries = 4;            // a frame may be lost
 constexpr double longest_watchdog = 1.0;  // s
 constexpr double silence_over_watchdog = 2.5;
 constexpr int idle_frames = 3;  // one may be lost
@@ -108,17 +109,24 @@ void MicrocontrollerDriver::require_usable(const MicrocontrollerDescription& fou
                   found.watchdog, shortest, longest_watchdog));
 }
 
+template <typename Decode>
+auto MicrocontrollerDriver::ask_until_answered(MicrocontrollerCommand command, Decode decode) {
+  for (int i = 0; i < setup_tries; ++i) {
+    const std::int64_t begin = clock_now();
+    if (const auto found = answer(command, decode, setup_patience)) return *found;
+    sleep_until(begin + setup_patience);  // a port that is gone answers at once
+  }
+  throw DriverFailed("the microcontroller does not answer any more");
+}
+
 MicrocontrollerDescription MicrocontrollerDriver::description() {
-  const auto found = answer(MicrocontrollerCommand::description, microcontroller_description, setup_patience);
-  if (!found) throw DriverFailed("the microcontroller does not answer any more");
-  return *found;
+  return ask_until_answered(MicrocontrollerCommand::description, microcontroller_description);
 }
 
 void MicrocontrollerDriver::arm() {
-  const auto found = answer(MicrocontrollerCommand::hold, microcontroller_answer, setup_patience);
-  if (!found) throw DriverFailed("the microcontroller does not answer any more");
-  if (found->state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_text(found->state));
-  if (found->state != MicrocontrollerState::holding) throw DriverFailed("the microcontroller takes no force");
+  const auto found = ask_until_answered(MicrocontrollerCommand::hold, microcontroller_answer);
+  if (found.state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_text(found.state));
+  if (found.state != MicrocontrollerState::holding) throw DriverFailed("the microcontroller takes no force");
   is_armed_ = true;
 }
 

@@ -43,7 +43,9 @@ class MicrocontrollerDriver : public Driver {
   [[nodiscard]] auto answer(MicrocontrollerCommand command, Decode decode, std::int64_t patience) noexcept;
   [[nodiscard]] std::optional<std::string_view> next_frame() noexcept;
   [[nodiscard]] bool fill(std::int64_t until) noexcept { return input_.fill(port_, until); }
-  /// Throws DriverFailed.
+  /// The same, several times if need be. Throws DriverFailed where it never answers, as description() does.
+  template <typename Decode>
+  [[nodiscard]] auto ask_until_answered(MicrocontrollerCommand command, Decode decode);
   [[nodiscard]] MicrocontrollerDescription description();
   void require_usable(const MicrocontrollerDescription& found, double sampling_period) const;
 

@@ -120,6 +120,7 @@ SerialDriver::Heard MoteusDriver::hear(std::string_view frame) noexcept {
   if (!answer) return {Meaning::broken};
   if (*answer == "OK" || answer->empty()) return {Meaning::other};
   const auto reply = moteus_reply(*answer, id_);
+  if (reply && reply->fault) return {Meaning::mark};
   if (!reply || !reply->position) return {Meaning::broken};
   if (reply->mode != position_mode && !is_disarmed()) {
     const int mode = reply->mode.value_or(0);
@@ -137,6 +138,8 @@ std::string MoteusDriver::trouble_text(Trouble trouble, long code) const {
 }
 
 SerialFrame MoteusDriver::question() noexcept { return line(moteus_question(id_)); }
+
+SerialFrame MoteusDriver::mark() const noexcept { return line(moteus_mark(id_)); }
 
 SerialFrame MoteusDriver::torque_frame(double torque) const noexcept {
   if (!damper()) return line(moteus_torque(id_, torque, watchdog));

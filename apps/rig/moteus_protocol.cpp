@@ -173,6 +173,12 @@ SerialFrame moteus_question(int id) noexcept {
   return frame;
 }
 
+SerialFrame moteus_mark(int id) noexcept {
+  SerialFrame frame;
+  frame.print("can send 80{:02x} 11{:02x}", id, fault_register);
+  return frame;
+}
+
 SerialFrame moteus_torque(int id, double torque, double watchdog) noexcept {
   SerialFrame frame;
   frame.print("can send 00{:02x} 01000a0d22", id);

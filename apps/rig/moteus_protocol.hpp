@@ -22,6 +22,8 @@ struct MoteusReply {
 
 /// `can send` of a question for mode and position, as int8 and float.
 [[nodiscard]] SerialFrame moteus_question(int id) noexcept;
+/// The same of the fault alone, which no other question asks for.
+[[nodiscard]] SerialFrame moteus_mark(int id) noexcept;
 /// The same of position mode without gains: the torque alone, N m at the output, for as long as the watchdog, s.
 [[nodiscard]] SerialFrame moteus_torque(int id, double torque, double watchdog) noexcept;
 /// The same beside the drive's own damper: at no position and velocity 0, both gains whole, of which that of position is 0;

@@ -32,6 +32,7 @@ constexpr std::string_view closed_loop = "8";
 constexpr std::string_view torque_control = "1";
 constexpr std::string_view velocity_control = "2";
 constexpr std::string_view passthrough = "1";
+constexpr std::string_view supply_voltage = "r vbus_voltage";
 constexpr long watchdog_expired = 1L << 11;
 constexpr double largest_error = 0xffffffff;
 
@@ -162,7 +163,8 @@ SerialDriver::Heard OdriveDriver::hear(std::string_view frame) noexcept {
     return {Meaning::position, feedback->position};
   }
   const auto error = as_number(*answer);
-  if (!error) return {Meaning::broken};  // "invalid motor", "unknown command"
+  if (!error) return {Meaning::broken};                                     // "invalid motor", "unknown command"
+  if (answer->find('.') != std::string_view::npos) return {Meaning::mark};  // an error is a whole number
   if (*error != 0.0) error_ = *error >= 1.0 && *error <= largest_error ? std::lround(*error) : 1;
   return {Meaning::other};
 }
@@ -183,6 +185,8 @@ SerialFrame OdriveDriver::question() noexcept {
   }
   return lines;
 }
+
+SerialFrame OdriveDriver::mark() const noexcept { return odrive_line(supply_voltage); }
 
 SerialFrame OdriveDriver::torque_frame(double torque) const noexcept {
   return odrive_line((damper() ? odrive_damped_torque(axis_, torque) : odrive_torque(axis_, torque)).view());

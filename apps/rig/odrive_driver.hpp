@@ -24,6 +24,7 @@ class OdriveDriver : public SerialDriver {
  protected:
   [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
   [[nodiscard]] SerialFrame question() noexcept override;
+  [[nodiscard]] SerialFrame mark() const noexcept override;
   [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
   [[nodiscard]] std::string trouble_text(Trouble trouble, long code) const override;
   void send_idle() noexcept override;

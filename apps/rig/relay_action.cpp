@@ -91,7 +91,9 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   result.trust = trust_of(device);
   if (trials.damper_on_drive) driver.close_damper(device, options.limits.force);
   RigRun run(driver, options.limits, device.loop().sampling_period);
-  const SessionStart start = nudged(run, device, device.parameters().wall.damping, driver, options);
+  const SessionStart start =
+      nudged(run, device, driver, options,
+             {.damping = device.parameters().wall.damping, .most_force = trials.relay.amplitude});
   Segment segment;
   segment.controller.kind = ControllerOptions::Kind::relay;
   segment.controller.amplitude = trials.relay.amplitude;

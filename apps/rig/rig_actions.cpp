@@ -219,7 +219,7 @@ RigCheck check(const Device& device, Driver& driver, const RigOptions& options, 
     Segment segment;
     segment.cycles = cycles_of(duration, device);
     (void)run.play(segment);
-    const SessionStart start = nudged(run, device, 0.0, driver, options, SignNeed::to_be_told);
+    const SessionStart start = nudged(run, device, driver, options, {.need = SignNeed::to_be_told});
     result.session = ended(run, start, options);
   }
   result.trust = trust_of(device);
@@ -311,7 +311,9 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     doubt_estimator(driver, result.trust);
   }
   RigRun run(driver, options.limits, period, options.watcher);
-  const SessionStart start = nudged(run, device, wall.controller.damping, driver, options);
+  const auto knock = wall.impulse != 0.0 ? std::optional(std::abs(wall.impulse)) : std::nullopt;
+  const SessionStart start =
+      nudged(run, device, driver, options, {.damping = wall.controller.damping, .most_force = knock});
   Played played = run.play(segment);
   result.session = ended(run, start, options, played.stop);
   result.oscillates = played.stop == StopReason::oscillation;
@@ -343,7 +345,9 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
     doubt_estimator(driver, result.predicted.trust);
   }
   RigRun run(driver, options.limits, period, options.watcher);
-  const SessionStart begun = nudged(run, device, device.parameters().wall.damping, driver, options);
+  const SessionStart begun =
+      nudged(run, device, driver, options,
+             {.damping = device.parameters().wall.damping, .most_force = std::abs(limit.impulse)});
   const auto hosted = [&](double stiffness) { return on_host(wall_of(device, stiffness), limit.damper_on_drive); };
   Segment holding;
   holding.controller = hosted(limit.search.start);

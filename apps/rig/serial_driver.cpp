@@ -63,6 +63,7 @@ std::string_view SerialDriver::next_frame() noexcept { return input_.take(frame_
 void SerialDriver::forget_input() noexcept {
   input_.forget();
   is_owed_ = false;
+  marks_owed_ = 0;
   while (fill(0)) input_.forget();
 }
 
@@ -75,7 +76,8 @@ std::optional<SerialDriver::Heard> SerialDriver::answer(std::int64_t until) noex
   do {
     for (std::string_view frame = next_frame(); !frame.empty(); frame = next_frame()) {
       const Heard heard = hear(frame);
-      if (heard.meaning != Meaning::other) return heard;
+      if (heard.meaning == Meaning::mark) marks_owed_ = std::max(0, marks_owed_ - 1);
+      if (marks_owed_ == 0 && (heard.meaning == Meaning::position || heard.meaning == Meaning::broken)) return heard;
     }
   } while (fill(until));
   return std::nullopt;
@@ -84,7 +86,14 @@ std::optional<SerialDriver::Heard> SerialDriver::answer(std::int64_t until) noex
 std::optional<double> SerialDriver::measure() noexcept {
   while (answer(0)) is_owed_ = false;  // what came since the last cycle: echoes, and what was owed
   const std::int64_t until = clock_now() + patience_;
-  if (is_owed_ && clock_now() - asked_ < expiry_ && !answer(until)) return std::nullopt;
+  if (is_owed_ && clock_now() - asked_ < expiry_) {
+    if (!answer(until)) return std::nullopt;
+    is_owed_ = false;
+  }
+  if (is_owed_) {  // it may be lost, or come yet
+    if (!port_.write(mark().view())) return std::nullopt;
+    ++marks_owed_;
+  }
   is_owed_ = true;
   asked_ = clock_now();
   port_.write(question().view());

@@ -35,7 +35,9 @@ void require_fast_line(double bytes_per_cycle, double baud, double sampling_peri
 ///
 /// Answers carry no number of their question. One that did not come in time is still owed: nothing more is asked until it
 /// comes, and is dropped, so that no position is ever a period older than it seems. One that has not come when all cycles
-/// but one that may be missed are over is lost, and the drive is asked again: one lost answer does not end a session.
+/// but one that may be missed are over counts as lost, and the drive is asked again: one lost answer does not end a session.
+/// It may come all the same, so a mark is asked for first: a drive answers in order, and what comes before its answer to the
+/// mark is older. Where that answer is lost, too, no position is taken any more.
 class SerialDriver : public Driver {
  public:
   [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
@@ -45,7 +47,7 @@ class SerialDriver : public Driver {
 
  protected:
   /// What a frame from the drive says.
-  enum class Meaning { position, broken, other };  // broken: an answer that cannot be used
+  enum class Meaning { position, broken, mark, other };  // broken: an answer that cannot be used
   /// Why an answer cannot be used.
   enum class Trouble { none, fault, let_go, lost_count };
   struct Heard {
@@ -62,6 +64,8 @@ class SerialDriver : public Driver {
   [[nodiscard]] virtual std::size_t frame_size(std::string_view bytes) const noexcept;
   [[nodiscard]] virtual Heard hear(std::string_view frame) noexcept = 0;
   [[nodiscard]] virtual SerialFrame question() noexcept = 0;
+  /// Asks for something else than any question, so that its answer (Meaning::mark) is known among theirs.
+  [[nodiscard]] virtual SerialFrame mark() const noexcept = 0;
   [[nodiscard]] virtual SerialFrame torque_frame(double torque) const noexcept = 0;
   /// What the drive's users know it by, and where its cause is found.
   [[nodiscard]] virtual std::string trouble_text(Trouble trouble, long code) const;
@@ -115,6 +119,7 @@ class SerialDriver : public Driver {
   std::int64_t patience_;  // ns, for an answer
   SerialInput input_;
   bool is_owed_ = false;     // the answer to the last question
+  int marks_owed_ = 0;       // until they come, answers are to older questions
   std::int64_t asked_ = 0;   // ns, when that was
   std::int64_t expiry_ = 0;  // ns, after which it is lost
   Heard last_;               // answer of a cycle

@@ -15,6 +15,7 @@ constexpr std::string_view machine_readable = "@3\n";
 constexpr std::string_view six_decimals = "#6\n";
 constexpr std::string_view get_angle = "MG6";
 constexpr std::string_view angle_echo = "MG";
+constexpr std::string_view motion_control = "C";  // its echo, too
 
 // "MMG6", "MMG-12.345678", "M-1.23457e-05" and its echo "M-0.000012", with their ends.
 constexpr double bytes_per_cycle = 5 + 15 + 14 + 12;
@@ -117,6 +118,7 @@ void SimplefocDriver::arm() {
 }
 
 SerialDriver::Heard SimplefocDriver::hear(std::string_view frame) noexcept {
+  if (simplefoc_answer(frame, motor_, motion_control)) return {Meaning::mark};
   const auto angle = simplefoc_answer(frame, motor_, angle_echo);
   if (!angle) return {Meaning::other};  // the echo of a target
   const auto radians = as_number(*angle);
@@ -125,6 +127,8 @@ SerialDriver::Heard SimplefocDriver::hear(std::string_view frame) noexcept {
 }
 
 SerialFrame SimplefocDriver::question() noexcept { return simplefoc_line(motor_, get_angle); }
+
+SerialFrame SimplefocDriver::mark() const noexcept { return simplefoc_line(motor_, motion_control); }
 
 SerialFrame SimplefocDriver::torque_frame(double torque) const noexcept {
   return simplefoc_target(motor_, torque / (damper() ? damper()->damping : torque_per_target_));

@@ -25,6 +25,7 @@ class SimplefocDriver : public SerialDriver {
  protected:
   [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
   [[nodiscard]] SerialFrame question() noexcept override;
+  [[nodiscard]] SerialFrame mark() const noexcept override;
   [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
   void send_idle() noexcept override;
 

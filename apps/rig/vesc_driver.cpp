@@ -89,6 +89,7 @@ SerialDriver::Heard VescDriver::hear(std::string_view frame) noexcept {
   if (frame.size() == 1) return {Meaning::other};  // noise between packets
   const auto payload = vesc_payload(frame);
   if (!payload) return {Meaning::broken};
+  if (is_vesc_mark(*payload)) return {Meaning::mark};
   const auto found = vesc_values(*payload);
   if (!found) return {Meaning::other};
   if (found->fault != 0) return {Meaning::broken, 0.0, Trouble::fault, found->fault};

@@ -26,6 +26,7 @@ class VescDriver : public SerialDriver {
   }
   [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
   [[nodiscard]] SerialFrame question() noexcept override { return vesc_question(); }
+  [[nodiscard]] SerialFrame mark() const noexcept override { return vesc_mark(); }
   [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
   [[nodiscard]] std::string trouble_text(Trouble trouble, long code) const override;
   void send_idle() noexcept override;

@@ -20,6 +20,7 @@ constexpr unsigned fault_bit = 15;
 constexpr unsigned position_bit = 16;
 constexpr unsigned status_bit = 21;
 constexpr std::uint32_t mask = 1U << fault_bit | 1U << position_bit | 1U << status_bit;
+constexpr std::uint32_t mark_mask = 1U << status_bit;
 constexpr double steps_per_turn = 360e6;  // millionths of a degree
 
 unsigned byte_at(std::string_view bytes, std::size_t at) noexcept { return static_cast<unsigned char>(bytes[at]); }
@@ -36,6 +37,18 @@ unsigned crc_of(std::string_view payload) noexcept {
   boost::crc_optimal<16, 0x1021, 0, 0, false, false> crc;
   crc.process_bytes(payload.data(), payload.size());
   return crc.checksum();
+}
+
+SerialFrame selective(std::uint32_t fields) noexcept {
+  SerialFrame payload;
+  payload.add_byte(get_values_selective);
+  add_big_endian(payload, fields);
+  return vesc_packet(payload.view());
+}
+
+bool has_fields(std::string_view payload, std::size_t size, std::uint32_t fields) noexcept {
+  return payload.size() == size && byte_at(payload, 0) == get_values_selective &&
+         big_endian(payload.substr(1)) == fields;
 }
 
 }  // namespace
@@ -81,18 +94,14 @@ SerialFrame vesc_current(double amperes) noexcept {
   return vesc_packet(payload.view());
 }
 
-SerialFrame vesc_question() noexcept {
-  SerialFrame payload;
-  payload.add_byte(get_values_selective);
-  add_big_endian(payload, mask);
-  return vesc_packet(payload.view());
-}
+SerialFrame vesc_question() noexcept { return selective(mask); }
+
+SerialFrame vesc_mark() noexcept { return selective(mark_mask); }
+
+bool is_vesc_mark(std::string_view payload) noexcept { return has_fields(payload, 1 + 4 + 1, mark_mask); }
 
 std::optional<VescValues> vesc_values(std::string_view payload) noexcept {
-  constexpr std::size_t size = 1 + 4 + 1 + 4 + 1;
-  if (payload.size() != size || byte_at(payload, 0) != get_values_selective || big_endian(payload.substr(1)) != mask) {
-    return std::nullopt;
-  }
+  if (!has_fields(payload, 1 + 4 + 1 + 4 + 1, mask)) return std::nullopt;
   VescValues values;
   values.fault = static_cast<int>(byte_at(payload, 5));
   values.position = static_cast<double>(static_cast<std::int32_t>(big_endian(payload.substr(6)))) / steps_per_turn;

@@ -26,7 +26,11 @@ struct VescValues {
 [[nodiscard]] SerialFrame vesc_current(double amperes) noexcept;
 /// GET_VALUES_SELECTIVE of fault, position and status.
 [[nodiscard]] SerialFrame vesc_question() noexcept;
-/// Its answer; nothing for any other payload.
+/// The same of the status alone, whose answer is no other's.
+[[nodiscard]] SerialFrame vesc_mark() noexcept;
+/// The answer to a question; nothing for any other payload.
 [[nodiscard]] std::optional<VescValues> vesc_values(std::string_view payload) noexcept;
+/// Whether the payload answers vesc_mark().
+[[nodiscard]] bool is_vesc_mark(std::string_view payload) noexcept;
 
 }  // namespace zwidth::rig

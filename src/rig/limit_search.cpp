@@ -284,12 +284,13 @@ void LimitSearch::add_smaller(std::span<const double> position, double sampling_
 
 void LimitSearch::doubt_untold(const Units& units, LimitMeasurement& result) const {
   const LimitTrial* stable = surely_stable();
-  if (stable == nullptr) return;
+  // Where none surely decays, nothing is told of any wall below the limit.
+  const double below_which = stable != nullptr ? stable->stiffness : result.stiffness.value_or(0.0);
   double softest = 0.0;
   double stiffest = 0.0;
   for (const LimitTrial& trial : trials_) {
     const bool is_told = !trial.ring || trial.surely_grows() || trial.surely_decays();
-    if (is_told || trial.stiffness > stable->stiffness) continue;
+    if (is_told || trial.stiffness > below_which) continue;
     softest = softest == 0.0 ? trial.stiffness : std::min(softest, trial.stiffness);
     stiffest = std::max(stiffest, trial.stiffness);
   }

@@ -40,8 +40,8 @@ std::span<const Phrase> rig_phrases() {
              "{!mending_force_sign|turn the force or the position round in the drive}"},
       Phrase{moves_under_no_force, "moves_under_no_force", refusal,
              "the device did not move with the nudge of {force} so that the drive's sign is known", "",
-             "free it, or state its dry friction (body.coulomb), against which the nudge is made; where the sign is "
-             "known, leave the nudge out"},
+             "free it, or state its dry friction (body.coulomb), against which the nudge is made; where its amplitude "
+             "was given, give more; where the sign is known, leave the nudge out"},
       Phrase{cycles_unanswered, "cycles_unanswered", doubt,
              "{share:%.2f} % of the cycles brought no position, and their force came a period late{?error|: the limit "
              "may be {error:%.1f} % lower by that}",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "zwidth/error.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
@@ -218,6 +219,21 @@ TEST(DriveGains, TheFilesTrackingIsTheEstimators) {
   EXPECT_EQ(limit_of(DriveFirmware::odrive, 1000.0, {.estimator_bandwidth = 500.0}),
             limit_of(DriveFirmware::odrive, 0.0, {.estimator_bandwidth = 500.0}));
   EXPECT_LT(limit_of(DriveFirmware::vesc, 1000.0, {}), limit_of(DriveFirmware::vesc, 0.0, {}));
+  // Where it is too high for the drive's rate, the key is the file's, and so are its numbers.
+  for (const auto& [firmware, most] :
+       {std::pair(DriveFirmware::odrive, 4000.0), std::pair(DriveFirmware::moteus, 0.25 * 2.0 * pi * 3e4 / corner)}) {
+    DeviceParameters parameters = knob();
+    parameters.sensor.tracking_bandwidth = 1.01 * most;
+    const auto problem = find_problem(DriveLoopOptions{}, firmware, Device(parameters));
+    ASSERT_TRUE(problem);
+    EXPECT_EQ(problem->member, "sensor.tracking_bandwidth");
+    EXPECT_NEAR(problem->problem->evidence[0].value, 1.01 * most, 1e-9 * most);
+    EXPECT_NEAR(problem->problem->evidence[1].value, most, 1e-9 * most);
+    EXPECT_EQ(find_problem(DriveLoopOptions{.estimator_bandwidth = 1e6}, firmware, Device(parameters))->member,
+              "estimator_bandwidth");
+    parameters.sensor.tracking_bandwidth = 0.99 * most;
+    EXPECT_FALSE(find_problem(DriveLoopOptions{}, firmware, Device(parameters)));
+  }
 }
 
 TEST(DriveGains, TheLimitWithSimplefocsLowPassIsWhereItsEquationsBeginToGrow) {

@@ -71,6 +71,7 @@ TEST(MoteusProtocol, IsTheDocumentedOne) {
   const std::string longest = "conf set servo.pid_position.kd -1.23457e-05\n";
   EXPECT_TRUE(moteus_line(moteus_tunnel(127, longest).view(), true).view().ends_with("\n")) << "it fits";
   EXPECT_EQ(moteus_question(17).view(), "can send 8011 11001d01");
+  EXPECT_EQ(moteus_mark(17).view(), "can send 8011 110f") << "one int8 from register 15";
   const auto flagged = moteus_reply("rcv 0100 21000A2D010000C03F505050 E B F r t12345 f0", 1);  // of an fdcanusb
   ASSERT_TRUE(flagged);
   EXPECT_EQ(flagged->position, 1.5);
@@ -113,6 +114,11 @@ TEST(VescProtocol, IsThatOfItsSources) {
   EXPECT_DOUBLE_EQ(values->position, 0.25);
   EXPECT_FALSE(values->has_let_go);
   EXPECT_FALSE(vesc_values(payload.substr(0, 10))) << "of firmware before 6.00";
+  EXPECT_FALSE(is_vesc_mark(payload));
+  EXPECT_EQ(hexadecimal(vesc_mark().view()).substr(0, 14), "02053200200000") << "bit 21";
+  const std::string status("\x32\x00\x20\x00\x00\x00", 6);
+  EXPECT_TRUE(is_vesc_mark(status));
+  EXPECT_FALSE(vesc_values(status));
 }
 
 TEST(VescProtocol, RefusesEveryFlippedBitAndHalfPackets) {

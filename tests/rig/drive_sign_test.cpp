@@ -82,8 +82,43 @@ TEST_P(SignOfDrive, ACheckRefusesAWrongOne) {
   EXPECT_TRUE(found.trust.refused());
 }
 
+// It pushed with a third of the force limit, whatever force was asked for.
+TEST_P(SignOfDrive, IsToldByNoMoreThanTheActionsForce) {
+  emulator.motor().has_wrong_sign = true;
+  LimitOptions limit = default_limit(device);
+  limit.impulse = 0.02 * default_force(device);
+  EXPECT_TRUE(measure_limit(device, *driver, {}, limit, {}).session.nudge);
+  EXPECT_LE(emulator.motor().largest_force(), 1.001 * limit.impulse);
+  EXPECT_GT(emulator.motor().largest_force(), 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Drive, SignOfDrive, testing::ValuesIn(test::drive_kinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
+
+// The only drive that needs no [driver]; it named no key then.
+TEST(SignOfMicrocontroller, IsMendedByAKeyThoughTheFileHasNoDriver) {
+  const Device device = belt_device();
+  PtyEmulator emulator(std::make_unique<test::MicrocontrollerFirmware>(), device);
+  emulator.set_fault(Fault::no_watchdog);
+  emulator.motor().has_wrong_sign = true;
+  MicrocontrollerDriver driver({emulator.path(), MotorDrive{}, device.loop().sampling_period, true});
+  DeviceParameters parameters = device.parameters();
+  parameters.driver.reset();
+  const RigCheck found = check(Device(parameters), driver, {}, 0.1);
+  ASSERT_TRUE(found.session.nudge);
+  EXPECT_EQ(found.session.nudge->mending_force_sign, -1.0);
+}
+
+// No wall pushes with it; that it is wrong is seen.
+TEST(SignOfIdentification, OfAWrongOneNothingIsSound) {
+  const Device device = belt_device();
+  PtyEmulator emulator(std::make_unique<test::SimplefocFirmware>(), device);
+  emulator.motor().has_wrong_sign = true;
+  SimplefocDriver driver({emulator.path(), *device.parameters().driver, device.loop().sampling_period, true});
+  const RigIdentification found = identify_on_rig(device, driver, {}, default_measurement(device), {});
+  ASSERT_TRUE(found.identification);
+  EXPECT_FALSE(found.trust.sound());
+}
 
 // With other inertia, other damping and an encoder than the file says, the sign is that of the device.
 TEST(Nudge, TellsTheSignOfDevicesThatTheFileDoesNotKnow) {

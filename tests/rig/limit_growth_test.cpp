@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "rig/rig_actions.hpp"
 #include "rig/rig_devices.hpp"
@@ -74,6 +77,37 @@ TEST(LimitGrowth, NoneOfRandomDevicesIsSoundAndWrong) {
     EXPECT_NEAR(*measured.stiffness / truth, 1.0, 0.02);
   }
   EXPECT_GT(sound, 20);
+}
+
+/// Positions of an oscillation of 5 Hz at 1 kHz with this growth rate, as an encoder of 1e-3 of its swing tells them.
+std::vector<double> ringing(double growth) {
+  std::vector<double> positions;
+  for (int k = 0; k < 8000; ++k) {
+    const double time = 1e-3 * k;
+    const double position = std::exp(growth * time) * std::sin(2.0 * std::numbers::pi * 5.0 * time);
+    positions.push_back(1e-3 * std::round(1e3 * position));
+  }
+  return positions;
+}
+
+LimitSearch search_with(const std::vector<std::pair<double, double>>& growth_at) {
+  LimitSearch search({.start = 1.0, .ceiling = 10.0, .frequencies = {2.0 * std::numbers::pi * 5.0}, .floor = 1e-3});
+  for (const auto& [stiffness, growth] : growth_at) search.add(stiffness, ringing(growth), 1e-3, false);
+  return search;
+}
+
+// Without a wall that surely decays nothing below the limit is told, and nothing was said.
+TEST(LimitGrowth, IsUntoldWhereNoWallSurelyDecays) {
+  const Device device = test::bench_device(1);
+  const LimitMeasurement untold = search_with({{1.0, -1e-5}, {1.1, -1e-5}, {2.0, 0.2}}).measurement(device);
+  ASSERT_FALSE(untold.trials[0].surely_decays());
+  ASSERT_FALSE(untold.trials[0].surely_grows());
+  ASSERT_TRUE(untold.trials[2].surely_grows());
+  EXPECT_TRUE(has(untold.trust, FindingCode::growth_not_told));
+  ASSERT_TRUE(untold.interval);
+  EXPECT_EQ(untold.interval->lower, 0.0);
+  const LimitMeasurement told = search_with({{1.0, -0.2}, {1.99, -0.002}, {2.0, 0.2}}).measurement(device);
+  EXPECT_FALSE(has(told.trust, FindingCode::growth_not_told));
 }
 
 RigLimit measured_as(double stiffness, double promised) {

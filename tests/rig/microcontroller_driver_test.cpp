@@ -55,6 +55,15 @@ TEST_F(OnMicrocontroller, ALostAnswerCostsItsOwnCycleAlone) {
   EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return driver.measure().has_value(); }));
 }
 
+// One of them ended the session before it began.
+TEST_F(OnMicrocontroller, IsHeldThoughAnAnswerIsLost) {
+  PtyEmulator emulator(std::make_unique<MicrocontrollerFirmware>(), device);
+  emulator.set_fault(PtyEmulator::Fault::lost_answers);
+  MicrocontrollerDriver driver(link(emulator));
+  for (int i = 0; i < 7; ++i) driver.arm();
+  EXPECT_EQ(driver.proves_watchdog(), true);
+}
+
 TEST_F(OnMicrocontroller, TakesNoForceAfterItsWatchdogUntilItIsHeldAnew) {
   PtyEmulator emulator(std::make_unique<MicrocontrollerFirmware>(), device);
   MicrocontrollerDriver driver(link(emulator));

@@ -253,5 +253,19 @@ TEST(ZwidthSerial, AFaultOfTheSketchIsZeroForceUntilItIsOver) {
   EXPECT_EQ(board.force(), 1.0);
 }
 
+// A sketch may say in each turn of its loop that nothing is wrong.
+TEST(ZwidthSerial, NoFaultThatIsOverChangesNothing) {
+  Board board;
+  zwidth_serial_fail(&board.board, 0);
+  EXPECT_EQ(board.force(0, 3.0F), 3.0) << "alone";
+  (void)board.told(microcontroller_frame(Command::hold, 0));
+  (void)board.told(microcontroller_force(1.0, 1));
+  zwidth_serial_fail(&board.board, 0);
+  EXPECT_EQ(board.force(), 1.0) << "holding";
+  EXPECT_EQ(board.force(10'000), 0.0) << "let go";
+  zwidth_serial_fail(&board.board, 0);
+  EXPECT_EQ(board.board.state, ZWIDTH_SERIAL_LET_GO);
+}
+
 }  // namespace
 }  // namespace zwidth::rig

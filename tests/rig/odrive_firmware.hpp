@@ -57,6 +57,7 @@ class OdriveFirmware : public Firmware {
   static constexpr int idle = 1;
   static constexpr int closed_loop = 8;
   static constexpr long watchdog_expired = 0x800;
+  static constexpr double supply_voltage = 24.087744;
 
   void process(std::string line, EmulatedMotor& motor, std::vector<std::string>& answers) {
     if (const auto comment = line.find(';'); comment != std::string::npos) line.resize(comment);
@@ -112,6 +113,7 @@ class OdriveFirmware : public Firmware {
       case 'r': {
         if (line == "r axis0.error") return fmt::format("{}", error_);
         if (line == "r axis0.current_state") return fmt::format("{}", state_);
+        if (line == "r vbus_voltage") return fmt::format("{:.6f}", supply_voltage);
         if (const auto found = numbers_.find(line.substr(std::min(line.size(), std::size_t{8})));
             line.starts_with("r axis0.") && found != numbers_.end()) {
           return fmt::format("{:.6f}", static_cast<float>(found->second));

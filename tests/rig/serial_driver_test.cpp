@@ -120,6 +120,30 @@ TEST_P(OnDrive, APositionIsNeverAPeriodOld) {
   for (int k = 0; k < 6; ++k) EXPECT_FALSE(driver->measure()) << k;
 }
 
+// The drive was asked again, and the answer to the question before it, which comes after all, was taken for the new one's.
+TEST_P(OnDrive, APositionIsOfTheQuestionAfterALostAnswer) {
+  const Device slow = belt_device(0.04);
+  PtyEmulator emulator(GetParam().firmware(), slow);
+  emulator.set_fault(Fault::no_watchdog);
+  const auto driver = GetParam().driver(link(emulator, slow, false));
+  driver->allow_missed(2);  // an answer counts as lost after half a cycle
+  driver->arm();
+  ASSERT_TRUE(driver->measure());
+  const MotorDrive& drive = *slow.parameters().driver;
+  for (int k = 0; k < 3; ++k) {
+    emulator.set_answer_delay(50);  // into the next cycle's 32 ms
+    emulator.set_fault(Fault::late);
+    ASSERT_FALSE(driver->measure());
+    emulator.set_fault(Fault::no_watchdog);
+    driver->command(1.0);  // it moves after that question
+    std::optional<double> position;
+    for (int i = 0; i < 20 && !position; ++i) position = driver->measure();  // a busy machine hands it on late
+    ASSERT_TRUE(position);
+    EXPECT_NEAR(*position, emulator.motor().turns() * drive.position_per_turn(), 1e-6) << k;
+    ASSERT_TRUE(driver->measure());
+  }
+}
+
 TEST_P(OnDrive, TellsWhatIsInTheWay) {
   const std::string name(GetParam().name);
   PtyEmulator emulator(GetParam().firmware(), device);

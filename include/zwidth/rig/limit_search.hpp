@@ -82,7 +82,7 @@ struct LimitMeasurement {
 /// sigma_s its standard error, q the encoder's step, A the swing in the middle of what was read and n samples per cycle:
 /// rounding turns the position's first harmonic by q/(A sqrt(6 n)), and a wall moves an oscillation by K |dp/dK| <= w/2 at
 /// most (Rayleigh's quotient). Of walls whose growth is no larger nobody knows whether they are stable: they count by sign
-/// next to the limit alone, and where a stiffer one surely decays they make the limit doubtful. Ends with the bracket, at the ceiling, and after 60 trials. The one that decays least counts, of
+/// next to the limit alone, and where a stiffer one surely decays, or none does, they make the limit doubtful. Ends with the bracket, at the ceiling, and after 60 trials. The one that decays least counts, of
 /// the oscillations near the predicted frequencies and of the strongest one. A last trial with a smaller impulse tells
 /// whether the size of the swing matters, as with dry friction, of which the device's file may know nothing: all swings
 /// of a linear device grow alike.

@@ -329,9 +329,14 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
   const double bandwidth = bandwidth_of(firmware, options, device);
   const double most = firmware == DriveFirmware::moteus ? 0.25 * turn / period : 0.5 / period;
   if (bandwidth > 0.0 && bandwidth < most) return std::nullopt;
-  return option_problem("estimator_bandwidth", {.code = ProblemCode::estimator_bandwidth_out_of_range,
-                                                .evidence = {{"value", bandwidth}, {"most", most}},
-                                                .subjects = {{"unit", "rad/s"}}});
+  // Of a file's own, the tracking loop's: what the estimator's is made from.
+  const double tracking = device.parameters().sensor.tracking_bandwidth;
+  const bool is_of_file = !options.estimator_bandwidth && tracking > 0.0;
+  const double share = is_of_file ? tracking / bandwidth : 1.0;
+  return option_problem(is_of_file ? "sensor.tracking_bandwidth" : "estimator_bandwidth",
+                        {.code = ProblemCode::estimator_bandwidth_out_of_range,
+                         .evidence = {{"value", share * bandwidth}, {"most", share * most}},
+                         .subjects = {{"unit", "rad/s"}}});
 }
 
 DriveGains drive_gains(const Device& device, DriveFirmware firmware, const DriveLoopOptions& options) {
