@@ -462,6 +462,7 @@ GraspSearch::LeastOfPoint GraspSearch::least_of_point(Eigen::Index m, VirtualDam
   };
   for (std::size_t i = 0; i < points_.size(); i += points_a_node) at.push_back(points_[i]);
   at.back() = points_.back();
+  stiffnesses.reserve(at.size());
   for (const double x : at) stiffnesses.push_back(stiffness(x));
   const auto least = [&](double PointStiffness::*which) {
     const auto lowest = std::ranges::min_element(stiffnesses, {}, which);
