@@ -36,9 +36,12 @@ WallRegion found_region(const CLI::App& command, const Device& device, const std
   return region(device, {.progress = line.progress()});
 }
 
-/// The wall to mark in the figure; none where there is none, the search would take seconds, or the damper runs apart.
+/// The wall to mark in the figure; none where there is none, the search would take seconds, the damper runs apart, or the wall
+/// acts in every direction.
 std::optional<Wall> recommended_wall(const Device& device) {
-  if (device.degrees_of_freedom() > most_bodies_for_wall_summary || has_damper_loop(device.loop())) return std::nullopt;
+  if (is_point_wall(device) || device.degrees_of_freedom() > most_bodies_for_wall_summary ||
+      has_damper_loop(device.loop()))
+    return std::nullopt;
   const WallRecommendation found = recommend_wall(device, {.alternatives = false});
   return found.wall && !found.trust.refused() ? std::optional(found.wall->wall) : std::nullopt;
 }

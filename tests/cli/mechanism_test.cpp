@@ -76,20 +76,32 @@ TEST_F(MechanismOfProgram, APointWallOfEveryPose) {
   EXPECT_EQ(points, 6);
 }
 
-TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysis) {
+TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysisAndRegion) {
   const std::string file = "devices/mechanisms/planar_arm.toml --set mechanism.normal=all";
-  for (const char* command : {"region", "bode", "bode --json", "design", "design --json", "design --recommend",
+  for (const char* command : {"bode", "bode --json", "design", "design --json", "design --recommend",
                               "design --target 2x", "simulate", "diagnose --oscillates-hz 8", "relay --amplitude 1",
                               "export --format json", "export --format octave", "export --format c", "rig check"}) {
     SCOPED_TRACE(command);
     expect_refusal(fmt::format("zwidth {} {}", command, file), "mechanism.normal");
   }
   EXPECT_TRUE(
-      run("zwidth region " + file).errors.starts_with("zwidth: devices/mechanisms/planar_arm.toml: mechanism.normal"));
+      run("zwidth bode " + file).errors.starts_with("zwidth: devices/mechanisms/planar_arm.toml: mechanism.normal"));
   const Outcome text = run("zwidth analyze " + file);
   EXPECT_EQ(text.status, 0) << text.errors;
   EXPECT_NE(text.output.find("at least"), std::string::npos);
   expect_refusal(fmt::format("zwidth analyze {} --report page.html", file), "--report");
+}
+
+TEST_F(MechanismOfProgram, RegionOfAPointWall) {
+  const json region = asked("region devices/mechanisms/planar_arm.toml --set mechanism.normal=all");
+  const json analysis = asked("analyze devices/mechanisms/planar_arm.toml --set mechanism.normal=all");
+  EXPECT_EQ(region["status"], "bounded");
+  EXPECT_EQ(region["trust"]["verdict"], "sound");
+  EXPECT_NEAR(region["critical_stiffness"].get<double>() / analysis["critical_stiffness"].get<double>(), 1.0, 1e-8);
+  EXPECT_TRUE(region["any_user"].is_null());
+  EXPECT_TRUE(region["approximations"].empty());
+  EXPECT_TRUE(has_finding(region, "boundary_sampled"));
+  EXPECT_TRUE(has_finding(region, "any_grasp_not_known"));
 }
 
 TEST_F(MechanismOfProgram, EveryCommandAnswersAlongANormal) {

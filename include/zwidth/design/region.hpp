@@ -61,7 +61,7 @@ struct WallRegion {
   std::optional<NobodysRegion> nobody;  ///< with nobody holding; absent without an [operator]: `region` is that
   /// The walls to build on: those of both. Absent without an [operator], where `region` is that.
   std::optional<SharedWalls> shared;
-  /// Absent unless asked for; for a transfer function, with a damper slower than its spring, above most_bodies_for_absolute_stability, or where no wall is stable.
+  /// Absent unless asked for; for a transfer function, for a wall in every direction, with a damper slower than its spring, above most_bodies_for_absolute_stability, or where no wall is stable.
   std::optional<AbsoluteStabilityRegion> any_user;
   std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for
   std::optional<ForcePerCountRates> force_per_count;  ///< of any wall here; absent without an encoder resolution
@@ -79,7 +79,9 @@ struct WallRegion {
 /// are refused (trust_of()), the answer is `refused`; what is doubtful stays so. A device with an [operator] has two
 /// regions, each checked so: a person lets go, and a wall must be stable with nobody holding too. The device's
 /// wall.stiffness and wall.damping are left out.
-/// Throws Error (invalid_argument) where find_problem() finds one.
+/// Of a wall in every direction (is_point_wall()) the boundary is sampled, modes and formulas are empty, any user is left out.
+/// Throws Error (invalid_argument) where find_problem() finds one, and for such a wall behind filters or with a damper in a
+/// loop of its own.
 [[nodiscard]] WallRegion region(const Device& device, const RegionOptions& options = {});
 
 /// A region by walls: those of a grid, each stable or not.

@@ -34,7 +34,8 @@ class StableWalls {
 
   /// Of a device, with its own velocity filter and filters; of one rate or of two. Where the damper runs in a loop of its
   /// own the boundary is that of theory's plant of two rates, whose curve is followed through slices that miss no
-  /// crossing; what lies between two slices and touches neither is not seen (docs/region.md).
+  /// crossing; what lies between two slices and touches neither is not seen (docs/region.md). A point wall, in every
+  /// direction that the tip of a mechanism moves, has a curve for each eigenvalue of P in place of -1/P, sampled over w.
   /// Throws as the other one; Error (did_not_converge) too where a curve cannot be followed.
   explicit StableWalls(const Device& device, const Progress& progress = {});
 

@@ -29,7 +29,7 @@ constexpr double walls_share = 0.2;  // of the progress; the rest is of the user
 
 std::vector<ComparedApproximation> compared(const Device& device, const WallRegion& walls) {
   std::vector<ComparedApproximation> result;
-  if (has_damper_loop(device.loop())) return result;  // each is of one rate
+  if (has_damper_loop(device.loop()) || is_point_wall(device)) return result;  // each is of one rate and direction
   for (RegionApproximation& formula : region_approximations(device, walls.walls->velocity_filter_hz())) {
     if (formula.any_user && walls.any_user) {
       const ApproximationError error = approximation_error(formula, *walls.any_user);
@@ -62,6 +62,10 @@ FoundWalls find_walls(const Device& device, const OutlineOptions& outline, WallR
   stages.next(0.7);
   FoundWalls found;
   found.walls.emplace(device, stages.stage());
+  if (const std::optional<Finding>& refusal = found.walls->structure().refusal) {
+    refuse(result, *refusal);
+    return {};
+  }
   stages.next(1.0);
   found.region = stable_region(*found.walls, outline);
   const RegionCheck check = check_region(device, *found.walls, found.region, outline.deviation, stages.stage());
@@ -91,6 +95,9 @@ FoundWalls find_walls(const Device& device, const OutlineOptions& outline, WallR
   return found;
 }
 
+/// A wall in every direction drives no mode by itself: it has none.
+ModalForm form_of(const Device& device) { return is_point_wall(device) ? ModalForm{} : modal_form(device); }
+
 /// The region with nobody holding beside that with the file's user, and what both have in common.
 void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& result, const Progress& progress) {
   WallRegion said;
@@ -106,7 +113,7 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
     result.remarks.push_back(remark.severity == Remark::Severity::note ? note(std::move(alone_too))
                                                                        : warning(std::move(alone_too)));
   }
-  const ModalForm form = modal_form(alone);
+  const ModalForm form = form_of(alone);
   result.shared = shared_walls(*found.walls, found.region, *result.walls, result.region);
   result.nobody = NobodysRegion{found.region.bounded, std::move(found.walls), std::move(found.region), form.modes,
                                 form.suspended_rigid_body};
@@ -114,7 +121,7 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
 
 /// Of coordinates: along a normal of a mechanism whose damper runs with its spring, and not too many.
 bool asks_any_user(const Device& device, const RegionOptions& options) {
-  if (!options.any_user || !device.is_mechanical()) return false;
+  if (!options.any_user || !device.is_mechanical() || is_point_wall(device)) return false;
   if (device.has_bodies()) return true;
   return device.parameters().mechanism && !has_damper_loop(device.loop()) &&
          device.degrees_of_freedom() <= most_bodies_for_absolute_stability;
@@ -155,7 +162,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   if (result.trust.refused()) return result;
   using enum WallRegion::Status;
   result.status = !result.region.bounded ? unbounded : result.region.components.empty() ? none_stable : bounded;
-  const ModalForm form = modal_form(device);
+  const ModalForm form = form_of(device);
   result.modes = form.modes;
   result.suspended_rigid_body = form.suspended_rigid_body;
   if (const double resolution = device.parameters().sensor.resolution; resolution > 0.0) {

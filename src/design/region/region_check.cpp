@@ -10,6 +10,9 @@
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/second_route/pole_count.hpp"
 #include "stability/second_route/routh_count.hpp"
+#include "stability/tip/gain_march.hpp"
+#include "stability/tip/tip_response.hpp"
+#include "stability/tip/tip_states.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -36,9 +39,13 @@ constexpr double loop_gains[] = {1e-6, 1e-4, 1e-2, 1.0};
 
 class ClosedLoop {
  public:
-  explicit ClosedLoop(const Device& device)
-      : plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})),
-        wall_(device.parameters().wall) {
+  explicit ClosedLoop(const Device& device) : wall_(device.parameters().wall) {
+    if (is_point_wall(device)) {
+      tip_ = tip_of_point_wall(device);
+      states_ = wall_loop(*tip_, wall_at({1.0, 1.0})).state.rows();
+      return;
+    }
+    plant_ = sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
     if (has_damper_loop(device.loop())) {
       two_rates_.emplace(TwoRateDevice(device, 1.0).as_it_runs(device));
       states_ = static_cast<Eigen::Index>(two_rates_->states());
@@ -73,12 +80,8 @@ class ClosedLoop {
  private:
   // The largest |z| - 1.
   [[nodiscard]] double excess_of(const WallPoint& at) const {
-    if (!two_rates_) {
-      Wall wall = wall_;
-      wall.stiffness = at.stiffness;
-      wall.damping = at.damping;
-      return stability_excess(plant_, wall);
-    }
+    if (tip_) return stability_excess(wall_loop(*tip_, wall_at(at)), 1.0);
+    if (!two_rates_) return zwidth::stability_excess(plant_, wall_at(at));
     double greatest = -1.0;
     for (const std::complex<double>& pole : two_rates_->poles_minus_one(at.stiffness, at.damping)) {
       greatest = std::max(greatest, (2.0 * pole.real() + std::norm(pole)) / (std::abs(1.0 + pole) + 1.0));
@@ -86,7 +89,15 @@ class ClosedLoop {
     return greatest;
   }
 
+  [[nodiscard]] Wall wall_at(const WallPoint& at) const {
+    Wall wall = wall_;
+    wall.stiffness = at.stiffness;
+    wall.damping = at.damping;
+    return wall;
+  }
+
   DiscreteStateSpace plant_;
+  std::optional<SampledTip> tip_;  // of a point wall, in place of the plant
   Wall wall_;
   Eigen::Index states_ = 0;
   std::optional<RouthCount> routh_;
@@ -181,6 +192,11 @@ class Outlines {
   std::vector<std::vector<WallPoint>> rings_;
 };
 
+double response_size(const Device& device, double frequency) {
+  if (!is_point_wall(device)) return std::abs(response(sampled_plant(device), frequency));
+  return TipResponse(tip_of_point_wall(device)).at(frequency * device.loop().sampling_period).norm();
+}
+
 // Evenly over the extent, then by ratios towards the axes and B = 0.
 std::vector<WallPoint> raster(double stiffness, double damping, std::size_t count) {
   std::vector<WallPoint> walls;
@@ -256,7 +272,7 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
     asked.insert(asked.end(), others.begin(), others.end());
   } else {
     const double nyquist = 3.14159 / device.loop().sampling_period;
-    const double gain = std::abs(response(sampled_plant(device), 0.5 * nyquist));
+    const double gain = response_size(device, 0.5 * nyquist);
     if (!(gain > 0.0)) return check;
     for (const double loop_gain : loop_gains) {
       for (const double share : {0.0, 1e-4, 1e-2, 0.3}) {
@@ -289,7 +305,7 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
       return check;
     }
   }
-  if (check.confirmed == 0 && !has_damper_loop(device.loop()) &&
+  if (check.confirmed == 0 && !has_damper_loop(device.loop()) && !is_point_wall(device) &&
       loop.order() <= static_cast<Eigen::Index>(PoleCount::most_states_for_digits)) {
     check_in_digits(device, walls, asked, check, progress);
   }

@@ -6,6 +6,7 @@
 
 #include "design/region/boundary_branch.hpp"
 #include "zwidth/design/stable_region.hpp"
+#include "zwidth/finding.hpp"
 
 namespace zwidth::internal {
 
@@ -66,6 +67,8 @@ class RegionStructure {
   [[nodiscard]] virtual double period() const = 0;  // whose z = e^{j angle}
   [[nodiscard]] virtual double velocity_filter_hz() const = 0;
 
+  // Why the walls are not known, where they are not: then there are no slabs.
+  std::optional<Finding> refusal;
   bool proven = true;  // bounds, not estimates, say that no piece of boundary is missed
   std::vector<BoundaryBranch> branches;
   std::vector<RegionSlab> slabs;  // by rising B, one on the other from B = 0; nothing is stable above the last

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "design/region/one_rate_structure.hpp"
+#include "design/region/point_structure.hpp"
 #include "design/region/two_rate_structure.hpp"
 #include "require_argument.hpp"
 #include "zwidth/error.hpp"
@@ -26,7 +27,9 @@ StableWalls::StableWalls(FilteredPlant plant, double velocity_filter_hz, const P
                                                           velocity_filter_hz, progress)) {}
 
 StableWalls::StableWalls(const Device& device, const Progress& progress) {
-  if (has_damper_loop(device.loop())) {
+  if (is_point_wall(device)) {
+    structure_ = std::make_shared<const PointStructure>(device, progress);
+  } else if (has_damper_loop(device.loop())) {
     structure_ = std::make_shared<const TwoRateStructure>(device, progress);
   } else {
     structure_ = std::make_shared<const OneRateStructure>(filtered_plant(device),

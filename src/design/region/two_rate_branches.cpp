@@ -49,7 +49,7 @@ Node TwoRateStructure::turn_between(const Node& first, const Node& last) const {
   const double at_first = slope(0.0);
   const double at_last = slope(1.0);
   if (!(at_first * at_last < 0.0)) return on_curve(first, last, 0.5);
-  std::uintmax_t steps = most_root_steps_of_two_rates;
+  std::uintmax_t steps = most_root_steps_on_branch;
   const auto [low, high] = boost::math::tools::toms748_solve(slope, 0.0, 1.0, at_first, at_last,
                                                              boost::math::tools::eps_tolerance<double>(45), steps);
   return on_curve(first, last, 0.5 * (low + high));
@@ -62,7 +62,7 @@ std::optional<Node> TwoRateStructure::turn_beside(const Node& end, const Node& n
   if (!(rise(end, next, 0.0) * way < 0.0)) return std::nullopt;
   const Node turn = turn_between(end, next);
   const double beyond = way > 0.0 ? end.wall.damping - turn.wall.damping : turn.wall.damping - end.wall.damping;
-  return beyond > same_level_of_two_rates * most_.damping ? std::optional(turn) : std::nullopt;
+  return beyond > same_level_of_branches * most_.damping ? std::optional(turn) : std::nullopt;
 }
 
 // Divided at the extrema of B. A stretch along which B is the same to the drawing's digits is a branch at one level.
@@ -89,12 +89,6 @@ void TwoRateStructure::add_branches(TwoRateChain chain) {
     begin = i = last;
   }
   add_monotonic({nodes.begin() + static_cast<std::ptrdiff_t>(begin), nodes.end()}, chain.kind);
-}
-
-void TwoRateStructure::add_branch(std::vector<Node> nodes, BoundaryKind kind) {
-  if (nodes.size() < 2) return;
-  branches.emplace_back(std::move(nodes));
-  kinds_.push_back(kind);
 }
 
 void TwoRateStructure::add_monotonic(std::vector<Node> nodes, BoundaryKind kind) {

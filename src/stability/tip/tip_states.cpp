@@ -136,6 +136,14 @@ SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop) {
   return plant;
 }
 
+SampledTip tip_of_point_wall(const Device& device) {
+  DeviceParameters loop = device.parameters();
+  loop.wall.damping = 1.0;  // of any size: it varies
+  require_plain_wall(loop);
+  const TipMotion motion = tip_motion_of(device).value();
+  return sampled_tip(tip_coordinates(motion, tip_directions(motion), loop.user), loop);
+}
+
 namespace {
 
 // States: x, u[k-1] .. u[k-l-1], and of the damper y[k-1] and T v[k-1].

@@ -42,6 +42,9 @@ struct SampledTip {
   [[nodiscard]] bool has_fraction() const { return Gamma2.size() > 0; }
 };
 [[nodiscard]] SampledTip sampled_tip(const TipCoordinates& of, const DeviceParameters& loop);
+// In all directions in which the tip of such a device moves, with its user. Throws Error (invalid_argument) where
+// require_plain_wall() does of any damper.
+[[nodiscard]] SampledTip tip_of_point_wall(const Device& device);
 
 // The loop of a gain g behind a closed damper: x+ = (1 + state - g input output) x.
 struct GainLoop {
