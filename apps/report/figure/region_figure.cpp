@@ -125,7 +125,9 @@ class RegionFigure {
     const std::string spring =
         fmt::format("every {}, {} of delay", quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"));
     if (!has_damper_loop(loop)) {
-      return fmt::format("Sampled {}. In brackets: how far a formula lies above the exact limit.", spring);
+      return fmt::format(
+          "Sampled {}.{}", spring,
+          walls_.approximations.empty() ? "" : " In brackets: how far a formula lies above the exact limit.");
     }
     const DamperTiming damper = damper_timing(loop);
     return fmt::format("Spring {}; damper every {}, {} of delay.", spring, quantity(damper.sampling_period, "s"),
@@ -153,10 +155,12 @@ class RegionFigure {
       return fmt::format("{}: up to {} at {} {}", what, quantity(stiffest.stiffness, units_.stiffness),
                          number(stiffest.damping), units_.damping);
     };
-    const std::string_view alone = words_of(WallStability::alone_only);
+    // Which walls a passive user destabilises is not always known.
+    const bool users_unknown = !walls_.any_user || (has_damper_loop(device_.loop()) && walls_.any_user->is_bound);
+    const std::string stable = users_unknown ? holders() : std::string(words_of(WallStability::alone_only));
     if (walls_.shared) {
       if (walls_.shared->stiffest) {
-        entries.push_back({up_to(alone, walls_.shared->stiffest->point), {region_colour, 2.0, "1"}, region_colour});
+        entries.push_back({up_to(stable, walls_.shared->stiffest->point), {region_colour, 2.0, "1"}, region_colour});
       } else {
         entries.push_back({"no wall is stable with both", {}, {}});
       }
@@ -167,10 +171,7 @@ class RegionFigure {
         entries.push_back({up_to(words_of(Holder::user), *walls_.region.stiffest), held_style, {}});
       }
     } else if (walls_.region.stiffest) {
-      // Which of them a passive user destabilises is not always known at two rates.
-      const bool users_unknown = has_damper_loop(device_.loop()) && (!walls_.any_user || walls_.any_user->is_bound);
-      entries.push_back({up_to(users_unknown ? words_of(Holder::nobody) : alone, *walls_.region.stiffest),
-                         boundary_style, region_colour});
+      entries.push_back({up_to(stable, *walls_.region.stiffest), boundary_style, region_colour});
     } else {
       entries.push_back({walls_.trust.refused()  ? "refused: no region is given"
                          : walls_.region.bounded ? "no wall is stable"
