@@ -147,7 +147,11 @@ class RegionWriter {
       text = fmt::format("The right virtual damper makes the stiffest wall {} times as stiff as none. ",
                          number(stiffest.stiffness / undamped));
     }
-    text += "The boundary is exact: every wall inside is stable, every wall just outside is not.";
+    const bool is_sampled = std::ranges::any_of(walls_.remarks, [](const Remark& each) {
+      return each.finding && each.finding->code == FindingCode::boundary_sampled;
+    });
+    text += is_sampled ? "Each point of the boundary is exact."
+                       : "The boundary is exact: every wall inside is stable, every wall just outside is not.";
     if (region.components.size() > 1) {
       text += fmt::format(" The stable walls come in {} separate parts (see --json or a figure).",
                           region.components.size());
