@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "zwidth/finding_code.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::report {
