@@ -93,8 +93,10 @@ TEST_F(MechanismOfProgram, RefusesAPointWallButForItsAnalysisAndRegion) {
 }
 
 TEST_F(MechanismOfProgram, RegionOfAPointWall) {
-  const json region = asked("region devices/mechanisms/planar_arm.toml --set mechanism.normal=all");
-  const json analysis = asked("analyze devices/mechanisms/planar_arm.toml --set mechanism.normal=all");
+  const json region =
+      json::parse(run("zwidth region devices/mechanisms/planar_arm.toml --set mechanism.normal=all --json").output);
+  const json analysis =
+      json::parse(run("zwidth analyze devices/mechanisms/planar_arm.toml --set mechanism.normal=all --json").output);
   EXPECT_EQ(region["status"], "bounded");
   EXPECT_EQ(region["trust"]["verdict"], "sound");
   EXPECT_NEAR(region["critical_stiffness"].get<double>() / analysis["critical_stiffness"].get<double>(), 1.0, 1e-8);

@@ -19,7 +19,13 @@ Eigen::MatrixXcd solution(const Eigen::MatrixXcd& of, const Eigen::MatrixXcd& ri
   return of.partialPivLu().solve(right);
 }
 
-Eigen::MatrixXcd inverse_of(const Eigen::MatrixXcd& of) { return solution(of, Eigen::MatrixXcd::Identity(of.rows(), of.cols())); }
+Eigen::MatrixXcd inverse_of(const Eigen::MatrixXcd& of) {
+  return solution(of, Eigen::MatrixXcd::Identity(of.rows(), of.cols()));
+}
+
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& a) {
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(a, false).eigenvalues();
+}
 
 Axes axes_of(const Eigen::MatrixXd& a) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (a + a.transpose()));

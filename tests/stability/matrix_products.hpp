@@ -16,6 +16,8 @@ void add_square(Eigen::MatrixXd& to, double weight, const Eigen::VectorXd& along
 Eigen::MatrixXcd solution(const Eigen::MatrixXcd& of, const Eigen::MatrixXcd& right);
 Eigen::MatrixXcd inverse_of(const Eigen::MatrixXcd& of);
 
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXcd& a);
+
 struct Axes {
   Eigen::VectorXd values;   // rising
   Eigen::MatrixXd vectors;  // columns

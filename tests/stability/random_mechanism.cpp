@@ -6,6 +6,8 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
+#include "stability/matrix_products.hpp"
+
 namespace zwidth::test {
 
 void add_element(TipMotion& motion, const Eigen::VectorXd& along, double stiffness, double damping) {
@@ -173,9 +175,9 @@ double SecondRoute::radius_turned(double stiffness, double phase, double factor)
   double largest = 0.0;
   const std::complex<double> turned = std::polar(factor, -phase) - 1.0;
   const Eigen::MatrixXd wall = damped_ + stiffness * slope_;
-  const Eigen::MatrixXcd closed = (base_ - stiffness * slope_).cast<std::complex<double>>() - turned * wall;
-  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(closed, false);
-  for (const std::complex<double>& z : solver.eigenvalues()) {
+  const Eigen::MatrixXd open = base_ - stiffness * slope_;
+  const Eigen::MatrixXcd closed = complex_of(open) - turned * complex_of(wall);
+  for (const std::complex<double>& z : eigenvalues_of(closed)) {
     if (std::abs(z - 1.0) > at_one) largest = std::max(largest, std::abs(z));
   }
   return largest;
