@@ -3,7 +3,8 @@
 # compiler says so, and what follows is compiled alone.
 function(zwidth_unity target)
   # Long by themselves and with little in common: alone, they spread over the cores.
-  set(alone plant_sensitivity identifiability pole_count_in_digits grasp_discs loop_crossovers)
+  set(alone plant_sensitivity identifiability pole_count_in_digits grasp_discs loop_crossovers matrix_products random_mechanism
+    point_region_test)
   list(APPEND alone wall_recommendation mat5_matrix welch)  # some names of theirs are others in wall_search, mat_recording
   # What the program loads on demand. The kernel includes itself besides, once per instruction set.
   list(APPEND alone stiffness_kernel mat73_file least_squares quiet_solve exact_sampling transfer_function mujoco_file mechanism_text)
