@@ -38,6 +38,26 @@ struct Polyline {
 
 }  // namespace
 
+Node BranchStructure::at_damping(std::size_t branch, double damping) const {
+  const std::vector<Node>& nodes = branches[branch].nodes();
+  const bool rises = nodes.back().wall.damping > nodes.front().wall.damping;
+  const auto after = std::ranges::partition_point(
+      nodes, [&](const Node& node) { return rises ? node.wall.damping < damping : node.wall.damping > damping; });
+  if (after == nodes.begin()) return nodes.front();
+  if (after == nodes.end()) return nodes.back();
+  if (after->wall.damping == damping) return *after;
+  const Node& a = *(after - 1);
+  const Node& b = *after;
+  if (const auto found = found_between(a, b, damping)) return *found;
+  const auto excess = [&](double share) { return between(a, b, share).wall.damping - damping; };
+  std::uintmax_t steps = most_root_steps_on_branch;
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(excess, 0.0, 1.0, a.wall.damping - damping, b.wall.damping - damping,
+                                        boost::math::tools::eps_tolerance<double>(48), steps);
+  const Node found = between(a, b, 0.5 * (low + high));
+  return {found.angle, {found.wall.stiffness, damping}};
+}
+
 void BranchStructure::add_branch(std::vector<Node> nodes, BoundaryKind kind) {
   if (nodes.size() < 2) return;
   branches.emplace_back(std::move(nodes));

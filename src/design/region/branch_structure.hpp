@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "design/region/region_structure.hpp"
@@ -28,14 +29,17 @@ class BranchStructure : public RegionStructure {
   // Whether walls of this K are stable, at one B.
   using StableAt = std::function<bool(double stiffness)>;
   [[nodiscard]] virtual StableAt stable_at(double damping) const = 0;
-  // Where the branch has this B; its nearer end where it has not.
-  [[nodiscard]] virtual Node at_damping(std::size_t branch, double damping) const = 0;
+  // Where the curve has this B between two neighbouring nodes; nothing where it is left to bisection.
+  [[nodiscard]] virtual std::optional<Node> found_between(const Node& a, const Node& b, double damping) const = 0;
   // The node of an oscillation that seen_at() told of.
   [[nodiscard]] virtual Node node_of(const BoundaryPoint& point) const = 0;
 
   void add_branch(std::vector<Node> nodes, BoundaryKind kind);
   // From the branches. Throws Error (did_not_converge) where walls of `most` are stable.
   void find_slabs(const Progress& progress);
+
+  // Where the branch has this B; its nearer end where it has not.
+  [[nodiscard]] Node at_damping(std::size_t branch, double damping) const;
 
   WallPoint most_;                   // beyond it no wall is stable
   std::vector<BoundaryKind> kinds_;  // of the branches

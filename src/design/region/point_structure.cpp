@@ -281,23 +281,9 @@ std::vector<double> PointStructure::missed_angles(const Progress& progress) {
   return missed;
 }
 
-Node PointStructure::at_damping(std::size_t branch, double damping) const {
-  const std::vector<Node>& nodes = branches[branch].nodes();
-  const bool rises = nodes.back().wall.damping > nodes.front().wall.damping;
-  const auto after = std::ranges::partition_point(
-      nodes, [&](const Node& node) { return rises ? node.wall.damping < damping : node.wall.damping > damping; });
-  if (after == nodes.begin()) return nodes.front();
-  if (after == nodes.end()) return nodes.back();
-  if (after->wall.damping == damping) return *after;
-  const Node& a = *(after - 1);
-  const Node& b = *after;
-  if (is_straight_line(a, b)) return between(a, b, (damping - a.wall.damping) / (b.wall.damping - a.wall.damping));
-  std::uintmax_t steps = most_root_steps_on_branch;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      [&](double part) { return between(a, b, part).wall.damping - damping; }, 0.0, 1.0, a.wall.damping - damping,
-      b.wall.damping - damping, boost::math::tools::eps_tolerance<double>(50), steps);
-  const Node found = between(a, b, 0.5 * (low + high));
-  return {found.angle, {found.wall.stiffness, damping}};
+std::optional<Node> PointStructure::found_between(const Node& a, const Node& b, double damping) const {
+  if (!is_straight_line(a, b)) return std::nullopt;
+  return between(a, b, (damping - a.wall.damping) / (b.wall.damping - a.wall.damping));
 }
 
 // Beside a mode that hardly anything damps the curve runs far within few digits of the angle.

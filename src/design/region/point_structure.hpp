@@ -29,7 +29,7 @@ class PointStructure final : public BranchStructure {
 
  private:
   [[nodiscard]] StableAt stable_at(double damping) const override;
-  [[nodiscard]] Node at_damping(std::size_t branch, double damping) const override;
+  [[nodiscard]] std::optional<Node> found_between(const Node& a, const Node& b, double damping) const override;
   [[nodiscard]] Node node_of(const BoundaryPoint& point) const override;
 
   [[nodiscard]] Node at_angle(const Node& a, const Node& b, double angle) const;

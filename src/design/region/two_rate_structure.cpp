@@ -95,37 +95,19 @@ Node TwoRateStructure::on_curve(const Node& from, const Node& to, double part) c
   throw Error(ErrorCode::did_not_converge, {.code = ProblemCode::crossover_off_boundary});
 }
 
-Node TwoRateStructure::at_damping(std::size_t branch, double damping) const {
-  const std::vector<Node>& nodes = branches[branch].nodes();
-  const bool rises = nodes.back().wall.damping > nodes.front().wall.damping;
-  const auto after = std::ranges::partition_point(
-      nodes, [&](const Node& node) { return rises ? node.wall.damping < damping : node.wall.damping > damping; });
-  if (after == nodes.begin()) return nodes.front();
-  if (after == nodes.end()) return nodes.back();
-  if (after->wall.damping == damping) return *after;
-  const Node& a = *(after - 1);
-  const Node& b = *after;
+std::optional<Node> TwoRateStructure::found_between(const Node& a, const Node& b, double damping) const {
+  if (a.angle == std::numbers::pi && b.angle == std::numbers::pi) return std::nullopt;
   const double part = (damping - a.wall.damping) / (b.wall.damping - a.wall.damping);
-  if (a.angle != std::numbers::pi || b.angle != std::numbers::pi) {
-    if (TwoRateCurve::is_straight(a)) return between(a, b, part);
-    const Vector3d way = (TwoRateCurve::place(b) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
-    const Vector3d at = TwoRateCurve::place(a) + part * (TwoRateCurve::place(b) - TwoRateCurve::place(a));
-    if (const auto found = curve_.solve({at(0), {at(1), damping}}, Vector3d::UnitZ())) {
-      const Vector3d moved = (TwoRateCurve::place(*found) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
-      const double along = moved.dot(way) / way.squaredNorm();
-      const double off = (moved - along * way).norm();
-      if (along > -beside_chord && along < 1.0 + beside_chord && off < way.norm()) {
-        return {found->angle, {found->wall.stiffness, damping}};
-      }
-    }
-  }
-  const auto excess = [&](double share) { return between(a, b, share).wall.damping - damping; };
-  std::uintmax_t steps = most_root_steps_on_branch;
-  const auto [low, high] =
-      boost::math::tools::toms748_solve(excess, 0.0, 1.0, a.wall.damping - damping, b.wall.damping - damping,
-                                        boost::math::tools::eps_tolerance<double>(48), steps);
-  const Node found = between(a, b, 0.5 * (low + high));
-  return {found.angle, {found.wall.stiffness, damping}};
+  if (TwoRateCurve::is_straight(a)) return between(a, b, part);
+  const Vector3d way = (TwoRateCurve::place(b) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
+  const Vector3d at = TwoRateCurve::place(a) + part * (TwoRateCurve::place(b) - TwoRateCurve::place(a));
+  const auto found = curve_.solve({at(0), {at(1), damping}}, Vector3d::UnitZ());
+  if (!found) return std::nullopt;
+  const Vector3d moved = (TwoRateCurve::place(*found) - TwoRateCurve::place(a)).cwiseQuotient(curve_.scales);
+  const double along = moved.dot(way) / way.squaredNorm();
+  const double off = (moved - along * way).norm();
+  if (!(along > -beside_chord && along < 1.0 + beside_chord && off < way.norm())) return std::nullopt;
+  return Node{found->angle, {found->wall.stiffness, damping}};
 }
 
 // The damper inside: one slice tells all K; else one at each.

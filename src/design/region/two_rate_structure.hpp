@@ -34,7 +34,7 @@ class TwoRateStructure final : public BranchStructure {
   [[nodiscard]] double rise(const Node& first, const Node& last, double part) const;
   [[nodiscard]] Node turn_between(const Node& first, const Node& last) const;
   [[nodiscard]] std::optional<Node> turn_beside(const Node& end, const Node& next) const;
-  [[nodiscard]] Node at_damping(std::size_t branch, double damping) const override;
+  [[nodiscard]] std::optional<Node> found_between(const Node& a, const Node& b, double damping) const override;
   [[nodiscard]] StableAt stable_at(double damping) const override;
   [[nodiscard]] bool holds(const RegionSlice& slice) const;
   [[nodiscard]] Node node_of(const BoundaryPoint& point) const override;

@@ -148,13 +148,10 @@ std::optional<GainLimit> polished_crossing(const GainLoop& loop, double gain, do
   return std::nullopt;
 }
 
-GainLimit first_crossing(const GainLoop& loop) {
-  const FirstGain first = first_known_gain(loop);
-  if (first.kind != GainLimit::Kind::crossing) return {.kind = first.kind};
-  return crossing_above(loop, first.gain);
-}
+namespace {
 
-GainLimit crossing_below(const GainLoop& loop, double from) {
+// `way` is 1 upwards, -1 downwards.
+GainLimit next_crossing(const GainLoop& loop, double from, double way) {
   double gain = from;
   std::vector<LoopPole> poles = poles_at(loop, gain);
   std::optional<GainLimit> ahead;
@@ -162,43 +159,35 @@ GainLimit crossing_below(const GainLoop& loop, double from) {
   for (int step = 0; step < most_gain_steps; ++step) {
     const std::optional<double> certain = certain_step(poles);
     if (!certain) break;
-    if (gain < lowest_gain * from) return {.kind = GainLimit::Kind::unbounded};
-    for (LoopPole& each : poles) each.growth = -each.growth;
-    const LoopPole* next = first_to_leave(poles);
-    const double gap = next != nullptr ? -next->excess / next->growth : std::numeric_limits<double>::infinity();
-    if (gap < near * gain) {
-      near = nearer * gap / gain;
-      ahead = polished_crossing(loop, gain - gap, next->angle);
-    }
-    if (ahead && ahead->gain < gain && gain <= (1.0 + followed_until) * ahead->gain) return *ahead;
-    if (!(*certain < gain)) return {.kind = GainLimit::Kind::unbounded};  // certain down to 0
-    gain -= of_certain_step * *certain;
-    poles = poles_at(loop, gain);
-  }
-  return {};
-}
-
-GainLimit crossing_above(const GainLoop& loop, double gain) {
-  std::vector<LoopPole> poles = poles_at(loop, gain);
-  std::optional<GainLimit> ahead;
-  double near = close_to_crossing;
-  for (int step = 0; step < most_gain_steps; ++step) {
-    const std::optional<double> certain = certain_step(poles);
-    if (!certain) break;
-    if (gain > greatest_gain) return {.kind = GainLimit::Kind::unbounded};
+    if (gain > greatest_gain || gain < lowest_gain * from) return {.kind = GainLimit::Kind::unbounded};
+    for (LoopPole& each : poles) each.growth *= way;
     const LoopPole* next = first_to_leave(poles);
     const double gap = next != nullptr ? -next->excess / next->growth : std::numeric_limits<double>::infinity();
     if (gap < near * gain) {
       // Again as the march comes closer, for another pole may have been meant.
       near = nearer * gap / gain;
-      ahead = polished_crossing(loop, gain + gap, next->angle);
+      ahead = polished_crossing(loop, gain + way * gap, next->angle);
     }
-    if (ahead && ahead->gain > gain && gain >= (1.0 - followed_until) * ahead->gain) return *ahead;
-    gain += of_certain_step * *certain;
+    const bool is_ahead = ahead && way * (ahead->gain - gain) > 0.0;
+    if (is_ahead && way * (gain - (1.0 - way * followed_until) * ahead->gain) >= 0.0) return *ahead;
+    if (way < 0.0 && !(*certain < gain)) return {.kind = GainLimit::Kind::unbounded};  // certain down to 0
+    gain += way * of_certain_step * *certain;
     poles = poles_at(loop, gain);
   }
   return {};
 }
+
+}  // namespace
+
+GainLimit first_crossing(const GainLoop& loop) {
+  const FirstGain first = first_known_gain(loop);
+  if (first.kind != GainLimit::Kind::crossing) return {.kind = first.kind};
+  return crossing_above(loop, first.gain);
+}
+
+GainLimit crossing_above(const GainLoop& loop, double gain) { return next_crossing(loop, gain, 1.0); }
+
+GainLimit crossing_below(const GainLoop& loop, double gain) { return next_crossing(loop, gain, -1.0); }
 
 bool is_stable(const GainLoop& loop, double gain) {
   for (const std::complex<double>& delta : eigenvalues(loop.state - gain * loop.input * loop.output)) {
