@@ -238,18 +238,21 @@ class Posed {
     double from, to;
   };
 
-  // A loop closes in several ways: of them, the one that the file's leads to.
+  // A loop closes in several ways: of them, the one that the file's leads to. Where it opens on the way, none is led to: what
+  // closes beyond may be another one.
   void go(const std::vector<Way>& ways) {
     double farthest = 0.0;
     for (const Way& each : ways) farthest = std::max(farthest, std::abs(each.to - each.from));
     const bool at_once = model_->neq == 0 || !(farthest > short_way);
     const int steps = at_once ? 1 : static_cast<int>(std::min(std::ceil(farthest / short_way), most_of_a_way));
+    bool has_closed = false;
     double open = 0.0;
-    for (int step = 1; step <= steps; ++step) {
+    for (int step = 1; step <= steps && !(has_closed && open > closed); ++step) {
       for (const Way& each : ways) {
         data_->qpos[each.joint] = step == steps ? each.to : each.from + (each.to - each.from) * step / steps;
       }
       open = settle();
+      has_closed = has_closed || open <= closed;
     }
     for (int joint = 0; joint < model_->njnt; ++joint) {
       const double at = data_->qpos[joint];

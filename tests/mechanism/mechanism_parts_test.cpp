@@ -268,5 +268,17 @@ TEST(MechanismParts, a_linkage_that_its_motors_do_not_hold_is_refused) {
   EXPECT_EQ(refusal_along(file, Eigen::Vector3d::UnitY()), ProblemCode::loop_does_not_close);
 }
 
+// Closed at the end, 72 mm between the cranks' ends, and open by 0.4 mm on the way: the elbows there may be on either side.
+TEST(MechanismParts, a_pose_beyond_ones_at_which_its_loop_is_open_is_refused) {
+  MechanismFile file;
+  file.path = ZWIDTH_SOURCE_DIR "/devices/mechanisms/pantograph.xml";
+  file.tip = "tip";
+  const double degree = std::numbers::pi / 180.0;
+  file.pose = {{"theta1", 45.0 * degree}, {"theta5", -25.0 * degree}};
+  EXPECT_EQ(refusal_along(file, Eigen::Vector3d::UnitY()), std::nullopt);
+  file.pose = {{"theta1", -315.0 * degree}, {"theta5", 335.0 * degree}};
+  EXPECT_EQ(refusal_along(file, Eigen::Vector3d::UnitY()), ProblemCode::loop_does_not_close);
+}
+
 }  // namespace
 }  // namespace zwidth

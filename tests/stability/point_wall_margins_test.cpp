@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "campaign.hpp"
 #include "reference/planar_arm.hpp"
@@ -27,7 +29,11 @@ TEST(PointWallMargins, AreThoseOfClosedLoopEigenvalues) {
   unsigned phases = 0;
   unsigned delays = 0;
   const unsigned mechanisms = test::by_tier(8U, 500U);
-  for (unsigned seed = 0; seed < mechanisms; ++seed) {
+  std::vector<unsigned> seeds(mechanisms);
+  std::iota(seeds.begin(), seeds.end(), 0U);
+  seeds.insert(seeds.end(),
+               {57U, 161U});  // poles hidden by rounding at small gains; no closed loop at the margin itself
+  for (const unsigned seed : seeds) {
     SCOPED_TRACE(seed);
     auto [motion, loop] = test::random_mechanism(seed);
     const PointWallLimit limit = point_wall_limit(motion, loop);

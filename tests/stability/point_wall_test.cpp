@@ -74,6 +74,7 @@ TEST(PointWall, IsKnownWhereOneDirectionHardlyMoves) {
 // Property: every wall below is stable, and the limit is where the largest pole passes the circle, by a second route.
 TEST(PointWall, IsThatOfClosedLoopEigenvalues) {
   constexpr double tolerance = 1e-8;
+  constexpr double rounding = 2e-11;  // of |z| by the second route: seed 591 is off by 1.3e-11, in long double by 1e-13
   constexpr int walls_below = 100;
   unsigned finite = 0;
   const unsigned mechanisms = test::by_tier(40U, 1000U);
@@ -96,11 +97,12 @@ TEST(PointWall, IsThatOfClosedLoopEigenvalues) {
     double below = limit.stiffness * (1.0 - 1e-4);
     double above = limit.stiffness * (1.0 + 1e-4);
     ASSERT_GT(route.radius(above), 1.0);
+    const double growth = (route.radius(above) - route.radius(below)) * limit.stiffness / (above - below);
     while (above - below > 0.1 * tolerance * above) {
       const double middle = 0.5 * (below + above);
       (route.radius(middle) < 1.0 ? below : above) = middle;
     }
-    EXPECT_NEAR(limit.stiffness / above, 1.0, tolerance);
+    EXPECT_NEAR(limit.stiffness / above, 1.0, tolerance + rounding / growth);
   }
   EXPECT_GT(finite, mechanisms * 9 / 10);
 }

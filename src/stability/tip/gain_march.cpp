@@ -158,7 +158,12 @@ GainLimit next_crossing(const GainLoop& loop, double from, double way) {
   double near = close_to_crossing;
   for (int step = 0; step < most_gain_steps; ++step) {
     const std::optional<double> certain = certain_step(poles);
-    if (!certain) break;
+    if (!certain) {
+      // Down to 0 poles go to z = 1, at last nearer than rounding.
+      const bool is_hidden =
+          way < 0.0 && gain < last_first_gain * from && std::ranges::none_of(poles, is_surely_unstable);
+      return {.kind = is_hidden ? GainLimit::Kind::unbounded : GainLimit::Kind::not_determined};
+    }
     if (gain > greatest_gain || gain < lowest_gain * from) return {.kind = GainLimit::Kind::unbounded};
     for (LoopPole& each : poles) each.growth *= way;
     const LoopPole* next = first_to_leave(poles);

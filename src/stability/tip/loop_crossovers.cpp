@@ -66,9 +66,12 @@ class ClosedResponse {
     for (const Eigen::MatrixXcd& each : deep) deep_slope_ += factor++ * each.norm();
   }
 
+  [[nodiscard]] Eigen::MatrixXcd loop_at(double angle) const {
+    return (stiffness_ + damper_response(damper_, period_, angle / period_)) * response_.at(angle);
+  }
+
   [[nodiscard]] Eigen::MatrixXcd at(double angle) const {
-    const Eigen::MatrixXcd loop =
-        (stiffness_ + damper_response(damper_, period_, angle / period_)) * response_.at(angle);
+    const Eigen::MatrixXcd loop = loop_at(angle);
     Eigen::MatrixXcd closed = loop;
     closed.diagonal().array() += 1.0;
     return solve_complex_columns(closed, loop);
@@ -138,15 +141,22 @@ std::optional<std::vector<Interval>> intervals_left(const ClosedResponse& closed
   return left;
 }
 
-// Eigenvalues l of L on Riemann's sphere, by those of T = l / (1 + l): a height of 0 where |l| = 1. It turns slowly where l
-// is near -1 or large.
+// l = a / b on Riemann's sphere: a height of 0 where |l| = 1.
+Eigen::Vector3d on_sphere(Complex a, Complex b) {
+  const Complex along = a * std::conj(b);
+  const double size = std::norm(a) + std::norm(b);
+  return {2.0 * along.real() / size, 2.0 * along.imag() / size, (std::norm(a) - std::norm(b)) / size};
+}
+
+// Eigenvalues l of L by those of T = l / (1 + l): they turn slowly where l is near -1 or large. At -1 itself there is no T.
 std::vector<Eigen::Vector3d> loop_eigenvalues(const ClosedResponse& closed, double angle) {
   std::vector<Eigen::Vector3d> points;
-  for (const Complex& t : complex_eigenvalues(closed.at(angle))) {
-    const Complex along = t * std::conj(1.0 - t);
-    const double size = std::norm(t) + std::norm(1.0 - t);
-    points.emplace_back(2.0 * along.real() / size, 2.0 * along.imag() / size, (2.0 * t.real() - 1.0) / size);
+  const Eigen::MatrixXcd response = closed.at(angle);
+  if (!response.allFinite()) {
+    for (const Complex& l : complex_eigenvalues(closed.loop_at(angle))) points.push_back(on_sphere(l, 1.0));
+    return points;
   }
+  for (const Complex& t : complex_eigenvalues(response)) points.push_back(on_sphere(t, 1.0 - t));
   return points;
 }
 
