@@ -259,6 +259,25 @@ TEST_F(Serve, MoreThanMayWaitIsToldSo) {
   EXPECT_EQ(busy, 120);  // what ran or waited was ended by the second signal
 }
 
+TEST_F(Serve, QuickWorkDoesNotWaitForLongWork) {
+  start();
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < 20; ++i) {
+    clients.push_back(std::make_unique<Client>(port()));
+    clients.back()->send(whole("design", long_work()));
+  }
+  wait_until_it_works();
+  const json device{{"device_toml", contents("devices/lhifam.toml")}};
+  for (int i = 0; i < 5; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(post("analyze", device.dump()).status, 200);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);  // 20 s and more behind the others
+  }
+  ::kill(process(), SIGINT);
+  std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(stop(), 0);
+}
+
 TEST_F(Serve, MoreConnectionsThanItKeepsAreTurnedAway) {
   start();
   std::vector<std::unique_ptr<Client>> clients;

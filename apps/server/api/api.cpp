@@ -1,6 +1,7 @@
 #include "server/api/api.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <system_error>
@@ -22,6 +23,7 @@ using results::Json;
 const std::string base = "/api/v1/";
 constexpr std::size_t document_limit = std::size_t{1} << 20;
 constexpr std::size_t recording_limit = std::size_t{64} << 20;
+constexpr std::array<std::string_view, 4> quick_commands{"analyze", "bode", "region", "simulate"};
 
 std::string devices_document(const std::vector<OfferedDevice>& offered) {
   Json document = results::document("zwidth.devices/1");
@@ -88,7 +90,8 @@ Api::Api(const Commands& commands, const std::vector<OfferedDevice>& devices, co
              {base + "devices", "GET", "", 0},
              {base + "recordings", "POST", "application/octet-stream", recording_limit}};
   for (const std::string& name : commands.names()) {
-    routes_.push_back({base + name, "POST", "application/json", document_limit});
+    const bool is_quick = std::ranges::find(quick_commands, name) != quick_commands.end();
+    routes_.push_back({base + name, "POST", "application/json", document_limit, is_quick});
   }
 }
 

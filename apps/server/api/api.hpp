@@ -16,6 +16,7 @@ struct Route {
   std::string method;        ///< GET or POST
   std::string content_type;  ///< of the body; empty: none
   std::size_t body_limit = 0;
+  bool is_quick = false;  ///< mostly answered in milliseconds
 };
 
 struct ApiAnswer {

@@ -50,7 +50,7 @@ std::optional<Refusal> refusal_of_body(const RequestHead& head, const Route& rou
     return Refusal{400, {"Transfer-Encoding", "is not taken", "one Content-Length"}};
   }
   if (head.content_length > route.body_limit) {
-    return Refusal{413, {"body", "is too large", fmt::format("at most {} bytes", route.body_limit)}};
+    return Refusal{413, {"body", "is too large", fmt::format("at most {}", size_in_words(route.body_limit))}};
   }
   if (route.method != "POST") return std::nullopt;
   if (head.content_lengths.empty()) return Refusal{400, {"Content-Length", "is missing", "one Content-Length"}};
@@ -62,6 +62,11 @@ std::optional<Refusal> refusal_of_body(const RequestHead& head, const Route& rou
 }
 
 }  // namespace
+
+std::string size_in_words(std::size_t bytes) {
+  if (bytes >= std::size_t{1} << 20) return fmt::format("{} MiB", bytes >> 20);
+  return bytes >= std::size_t{1} << 10 ? fmt::format("{} KiB", bytes >> 10) : fmt::format("{} bytes", bytes);
+}
 
 std::string_view path_of(std::string_view target) { return target.substr(0, target.find('?')); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -37,6 +38,9 @@ struct Refusal {
   Problem problem;
   std::string allow = {};  ///< of status 405: the methods
 };
+
+/// Of whole KiB or MiB: "64 MiB".
+[[nodiscard]] std::string size_in_words(std::size_t bytes);
 
 /// The path without a query.
 [[nodiscard]] std::string_view path_of(std::string_view target);

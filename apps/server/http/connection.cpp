@@ -1,6 +1,7 @@
 #include "server/http/connection.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
@@ -26,8 +27,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds between_lines{100};     // of progress
 constexpr std::size_t largest_body = std::size_t{1} << 40;  // each route has its own limit
+constexpr std::size_t kept_by_allocator = std::size_t{1} << 20;
 constexpr std::size_t most_drained = std::size_t{16} << 20;
 constexpr const char* stream_type = "application/x-ndjson";
+constexpr std::string_view head_end = "\r\n\r\n";
 
 template <typename Message>
 void put_security_headers(Message& response) {
@@ -65,12 +68,23 @@ bool is_there(int socket) {
   return ::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &state, &size) == 0 && state.tcpi_state == TCP_ESTABLISHED;
 }
 
+std::string_view bytes_of(const beast::flat_buffer& buffer) {
+  return {static_cast<const char*>(buffer.data().data()), buffer.size()};
+}
+
+/// A header that goes on in the next line: RFC 9112 has a server refuse it.
+bool has_folded_line(const beast::flat_buffer& buffer) {
+  const std::string_view bytes = bytes_of(buffer);
+  const std::string_view head = bytes.substr(0, bytes.find(head_end));
+  return head.find("\r\n ") != head.npos || head.find("\r\n\t") != head.npos;
+}
+
 std::string chunk(const std::string& text) { return fmt::format("{:x}\r\n{}\r\n", text.size(), text); }
 
 }  // namespace
 
 Connection::Connection(tcp::socket socket, Shared& shared)
-    : stream_(std::move(socket)), shared_(shared), client_(client_of(stream_.socket())) {
+    : stream_(std::move(socket)), late_(stream_.get_executor()), shared_(shared), client_(client_of(stream_.socket())) {
   shared_.connections.insert(this);
 }
 
@@ -102,15 +116,45 @@ void Connection::close() { stream_.close(); }
 
 void Connection::release_body() { shared_.bodies -= std::exchange(body_, 0); }
 
+/// The stream's own time would close the socket, and nobody be told why.
+void Connection::end_reading_after(std::chrono::seconds time) {
+  stream_.expires_never();
+  is_late_ = false;
+  late_.expires_after(time);
+  late_.async_wait([self = shared_from_this()](Error error) {
+    if (error) return;
+    self->is_late_ = true;
+    self->stream_.cancel();
+  });
+}
+
+void Connection::refuse_late(const char* what, std::chrono::seconds time) {
+  keeps_ = false;
+  refuse({408, {what, "took too long", fmt::format("whole within {} s", time.count())}});
+}
+
+void Connection::refuse_large_head() {
+  refuse({413, {"head", "is too large", fmt::format("at most {}", size_in_words(shared_.limits.head))}});
+}
+
 void Connection::read_head() {
   if (shared_.stops) return stream_.close();
   release_body();
   parser_.emplace();
   parser_->header_limit(static_cast<std::uint32_t>(shared_.limits.head));
   parser_->body_limit(largest_body);
-  stream_.expires_after(shared_.limits.head_time);
-  http::async_read_header(stream_, buffer_, *parser_,
-                          [self = shared_from_this()](Error error, std::size_t) { self->on_head(error); });
+  end_reading_after(shared_.limits.head_time);
+  read_more_of_head();
+}
+
+void Connection::read_more_of_head() {
+  constexpr std::size_t piece = 4096;
+  if (bytes_of(buffer_).find(head_end) != std::string_view::npos) return on_head({});
+  if (buffer_.size() >= shared_.limits.head) return on_head(http::error::header_limit);
+  stream_.async_read_some(buffer_.prepare(piece), [self = shared_from_this()](Error error, std::size_t count) {
+    self->buffer_.commit(count);
+    error ? self->on_head(error) : self->read_more_of_head();
+  });
 }
 
 RequestHead Connection::head() const {
@@ -154,16 +198,21 @@ const Route* Connection::route() const {
 }
 
 void Connection::on_head(Error error) {
+  late_.cancel();
   keeps_ = false;  // until the request is known to be one
-  if (error == http::error::header_limit) {
-    return refuse({413, {"head", "is too large", fmt::format("at most {} bytes", shared_.limits.head)}});
-  }
-  if (error == http::error::body_limit) return refuse({413, {"body", "is too large", ""}});
-  if (error && error != http::error::end_of_stream &&
-      error.category() == http::make_error_code(http::error{}).category() && error != http::error::partial_message) {
-    return refuse({400, {"request", "is no HTTP: " + error.message(), "HTTP/1.1"}});
-  }
+  if (error == http::error::header_limit) return refuse_large_head();
+  if (is_late_ && buffer_.size() > 0) return refuse_late("head", shared_.limits.head_time);
   if (error) return stream_.close();
+  parse_head();
+}
+
+void Connection::parse_head() {
+  if (has_folded_line(buffer_)) return refuse({400, {"head", "has a folded line", "each header on a line of its own"}});
+  Error error;
+  buffer_.consume(parser_->put(buffer_.data(), error));
+  if (error == http::error::header_limit) return refuse_large_head();
+  if (error && !parser_->is_header_done())
+    return refuse({400, {"request", "is no HTTP: " + error.message(), "HTTP/1.1"}});
   const RequestHead request = head();
   const Route* const asked = route();
   const std::string_view path = path_of(request.target);
@@ -196,12 +245,14 @@ void Connection::read_body() {
     buffer_.consume(parser_->put(buffer_.data(), error));
     if (error || parser_->is_done()) return on_body(error);
   }
-  stream_.expires_after(shared_.limits.body_time);
+  end_reading_after(shared_.limits.body_time);
   http::async_read(stream_, buffer_, *parser_,
                    [self = shared_from_this()](Error error, std::size_t) { self->on_body(error); });
 }
 
 void Connection::on_body(Error error) {
+  late_.cancel();
+  if (is_late_) return refuse_late("body", shared_.limits.body_time);
   if (error) return stream_.close();
   keeps_ = parser_->get().keep_alive();
   dispatch();
@@ -254,7 +305,8 @@ void Connection::dispatch_work(const Route& route) {
     net::post(sockets, [self = std::move(self), answer = std::move(answer)] { self->on_answer(answer); });
   };
   const bool is_over_share = shared_.tells_clients() && shared_.work_of(client_) > shared_.limits.waiting / 2;
-  if (is_over_share || !shared_.work.add(std::move(work))) {
+  const WorkQueue::Kind kind = route.is_quick ? WorkQueue::Kind::quick : WorkQueue::Kind::any;
+  if (is_over_share || !shared_.work.add(kind, std::move(work))) {
     works_ = streams_ = false;
     Response busy(is_over_share ? http::status::too_many_requests : http::status::service_unavailable, 11);
     busy.set(http::field::retry_after, "1");
@@ -314,7 +366,8 @@ void Connection::send(Response response) {
   response_ = std::make_shared<Response>(std::move(response));
   stream_.expires_after(shared_.limits.write_time);
   http::async_write(stream_, *response_, [self = shared_from_this()](Error error, std::size_t) {
-    self->response_ = nullptr;
+    const std::size_t size = std::exchange(self->response_, nullptr)->body().size();
+    if (size > kept_by_allocator) ::malloc_trim(0);  // or the heap stays as large as the largest answer
     self->on_sent(!error && self->keeps_);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
@@ -72,7 +73,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
   void read_head();
+  void read_more_of_head();
   void on_head(Error error);
+  void parse_head();
+  /// What is being read is given up after that time.
+  void end_reading_after(std::chrono::seconds time);
+  void refuse_late(const char* what, std::chrono::seconds time);
+  void refuse_large_head();
   void invite_body();
   void read_body();
   void on_body(Error error);
@@ -98,6 +105,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   [[nodiscard]] const Route* route() const;
 
   boost::beast::tcp_stream stream_;
+  boost::asio::steady_timer late_;
+  bool is_late_ = false;
   Shared& shared_;
   const std::string client_;
   boost::beast::flat_buffer buffer_;
