@@ -48,6 +48,8 @@ enum class FindingCode : std::uint16_t {
   workspace_poses_refused,       ///< some poses of a workspace are singular or not reached
   workspace_directions_refused,  ///< along some directions of a workspace no wall is known
   workspace_points_not_reached,  ///< some points of a workspace are not reached
+  workspace_beyond_ranges,  ///< some poses of a workspace are beyond the ranges that the mechanism's file gives its joints
+  workspace_along_normals,       ///< a wall in every direction: a workspace answers for walls along one normal each
   workspace_without_user,        ///< the limits of a workspace leave the file's user out
   workspace_least_contradicts,   ///< two computations contradict each other on the least limit of a workspace
   too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies

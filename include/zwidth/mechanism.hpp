@@ -114,7 +114,8 @@ class MechanismModel {
 ///
 ///     x = J_e y,  tau = J_m' f,  J_e = J N,  [T; A_e] N = [0; 1]
 ///
-/// `parameters` gives all but bodies, links and which points the loop names. The user holds the tip along the normal alone.
+/// `parameters` gives all but bodies, links and which points the loop names. The user of `parameters` holds the tip along the
+/// normal alone; any passive user grasps it in every direction.
 /// Throws Error (invalid_argument) for a normal of length 0, one along which the tip cannot move, and where encoders or
 /// motors do not determine its motion, or one of them depends on others. Source: docs/theory.md, "Several axes".
 [[nodiscard]] Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& normal,

@@ -151,8 +151,10 @@ Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& nor
   moves.setThreshold(tip_stands_below);
   moves.compute(mechanism.tip.transpose());
   const Eigen::Vector3d part = moves.solve(along);
-  coordinates.tip = {moved_tip(mechanism), row_by_row(part * sensed.transpose() / part.squaredNorm()),
-                     row_by_row(part * actuated.transpose() / part.squaredNorm())};
+  coordinates.tip = {moved_tip(mechanism),
+                     row_by_row(part * sensed.transpose() / part.squaredNorm()),
+                     row_by_row(part * actuated.transpose() / part.squaredNorm()),
+                     {normal.x(), normal.y(), normal.z()}};
   parameters.bodies.clear();
   parameters.links.clear();
   parameters.coordinates = std::move(coordinates);

@@ -78,8 +78,9 @@ std::optional<DeviceProblem> find_coordinates_problem(const DeviceParameters& pa
   }
   if (of.tip) {
     const std::size_t poses = std::max<std::size_t>(of.tip->moved.size() / (3 * n), 1);
-    const bool is_right = are_weights(of.tip->moved, poses * 3 * n) && are_weights(of.tip->sensed, 3 * n) &&
-                          are_weights(of.tip->pushed, 3 * n);
+    const bool is_direction = std::ranges::all_of(of.tip->normal, [](double each) { return std::isfinite(each); });
+    const bool is_right = is_direction && are_weights(of.tip->moved, poses * 3 * n) &&
+                          are_weights(of.tip->sensed, 3 * n) && are_weights(of.tip->pushed, 3 * n);
     if (!is_right) return refused("coordinates.tip", ProblemCode::weights_not_one_a_coordinate);
   }
   if (!is_mass_matrix(of.mass, n)) return refused("coordinates.mass", ProblemCode::no_mass_matrix);

@@ -58,6 +58,10 @@ DamperTiming damper_timing(const Loop& loop) {
   return {loop.damper->sampling_period.value_or(loop.sampling_period), loop.damper->delay.value_or(loop.delay)};
 }
 
+bool runs_damper_apart(const DeviceParameters& parameters) {
+  return parameters.wall.damping > 0.0 && has_damper_loop(parameters.loop);
+}
+
 bool has_damper_loop(const Loop& loop) {
   const DamperTiming damper = damper_timing(loop);
   return damper.delay != loop.delay || internal::rate_ratio(loop.sampling_period, damper.sampling_period) != 1.0;

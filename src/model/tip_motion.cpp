@@ -27,6 +27,15 @@ std::optional<TipMotion> tip_motion_of(const Device& device) {
   return motion;
 }
 
+bool is_of_mechanism(const Device& device) {
+  return device.parameters().coordinates && device.parameters().coordinates->tip;
+}
+
+Eigen::Vector3d wall_normal(const Device& device) {
+  if (!is_of_mechanism(device)) return Eigen::Vector3d::Zero();
+  return Eigen::Vector3d(device.parameters().coordinates->tip->normal.data());
+}
+
 Eigen::MatrixXd tip_directions(const Eigen::MatrixXd& tip) {
   if (tip.size() == 0) return {tip.rows(), 0};
   Eigen::JacobiSVD<Eigen::MatrixXd> svd;

@@ -214,8 +214,7 @@ void add_singular_pose(const Device& device, Analysis& analysis) {
     return analysis.remarks.push_back(singular_pose_remark(*motion));
   }
   loop.loop.damper.reset();
-  const Eigen::Vector3d normal(loop.mechanism->normal.data());
-  const double at_pose = any_grasp_limit(*motion, loop, normal, GraspedPose::alone).stiffness;
+  const double at_pose = any_grasp_limit(*motion, loop, wall_normal(device), GraspedPose::alone).stiffness;
   analysis.remarks.push_back(singular_pose_remark(*motion, std::min(at_pose, analysis.limits.nobody.critical_stiffness),
                                                   analysis.any_user->stiffness));
 }
@@ -241,6 +240,9 @@ void answer_any_grasp(const Device& device, Analysis& analysis) {
 void answer_absolute_stability(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
                                Analysis& analysis) {
   if (device.degrees_of_freedom() > most_bodies_for_absolute_stability) {
+    if (is_grasped_in_many_directions(device)) {
+      return analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
+    }
     analysis.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user,
                                      .evidence = {{"bodies", static_cast<double>(device.degrees_of_freedom())},
                                                   {"most", static_cast<double>(most_bodies_for_absolute_stability)}}}));

@@ -31,7 +31,7 @@ HolderLimit holder_limit_of(const PointWallLimit& limit) {
 // A damper of the same period and delay as the spring, or none, is no loop of its own.
 DeviceParameters loop_of(const Device& device) {
   DeviceParameters loop = device.parameters();
-  if (!has_damper_loop(loop.loop) || loop.wall.damping == 0.0) loop.loop.damper.reset();
+  if (!runs_damper_apart(loop)) loop.loop.damper.reset();
   return loop;
 }
 

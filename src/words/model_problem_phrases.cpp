@@ -101,7 +101,7 @@ std::span<const ProblemPhrase> model_problem_phrases() {
       ProblemPhrase{normal_not_three_numbers, "normal_not_three_numbers", "has {count:n} numbers",
                     "must be three: x, y and z in the world's frame"},
       ProblemPhrase{point_wall_not_known, "point_wall_not_known", "is a wall in every direction",
-                    "must be one direction, such as [1, 0, 0]: analyze alone answers for all"},
+                    "must be one direction, such as [1, 0, 0]: analyze and region answer for all"},
       ProblemPhrase{unit_of_other_joint, "unit_of_other_joint",
                     "has {!number|a unit of {?slides|angle}{!slides|length}}{?number|the unit of a joint that "
                     "{?slides|turns}{!slides|slides}}, and joint \"{name}\" {?slides|slides}{!slides|turns}",

@@ -18,14 +18,9 @@
 namespace zwidth::internal {
 namespace {
 
-// A damper of the loop's own period and delay, or none, is no loop of its own.
-bool is_damper_apart(const DeviceParameters& parameters) {
-  return parameters.wall.damping > 0.0 && has_damper_loop(parameters.loop);
-}
-
 // Filters are of one direction alone.
 bool has_plain_wall(const DeviceParameters& parameters) {
-  return parameters.wall.filters.empty() && !is_damper_apart(parameters);
+  return parameters.wall.filters.empty() && !runs_damper_apart(parameters);
 }
 
 // The limits along any normal at a pose: by what is of the pose, once, where that is known, else one by one.
@@ -33,7 +28,7 @@ class AnyDirection {
  public:
   AnyDirection(const MechanismAtPose& at, const DeviceParameters& parameters, bool any_user)
       : at_(at), parameters_(parameters), any_user_(any_user) {
-    any_user_ = any_user_ && !is_damper_apart(parameters) &&
+    any_user_ = any_user_ && !runs_damper_apart(parameters) &&
                 static_cast<std::size_t>(at.mass.rows()) <= most_bodies_for_absolute_stability;
     // A tip that moves along one direction alone is one axis, of which more is known.
     const bool is_one_axis = moved_directions(at.tip).cols() == 1 && at.tips_beside.empty();

@@ -40,6 +40,8 @@ class WorkspaceSearch {
     result_.pose_joints = mechanism_.pose_joints();
     result_.trust = trust_of(device);
     result_.remarks = internal::implausible_numbers(device);
+    if (parameters_.mechanism->is_point)
+      result_.remarks.push_back(note({.code = FindingCode::workspace_along_normals}));
     if (device_has_user(device)) result_.remarks.push_back(note({.code = FindingCode::workspace_without_user}));
   }
 
@@ -79,7 +81,7 @@ class WorkspaceSearch {
       result_.poses.resize(internal::poses_of(grid));
       for (std::size_t i = 0; i < result_.poses.size(); ++i) result_.poses[i].pose = internal::pose_of(grid, i);
     }
-    beside_.resize(result_.poses.size());
+    state_.resize(result_.poses.size());
   }
 
   [[nodiscard]] bool is_listed(const std::string& joint) const {
@@ -94,15 +96,15 @@ class WorkspaceSearch {
         MechanismModel::Reached reached = mechanism_.reach(options_.points[*pose.point]);
         pose.pose = std::move(reached.pose);
         if (!reached.reached) {
-          beside_[number].short_of = reached.short_of;
+          state_[number].short_of = reached.short_of;
           return;
         }
       }
       const MechanismAtPose at = mechanism_.at(pose.pose);
-      beside_[number].is_outside = is_of_ranges() && is_beyond_range(at);
-      if (beside_[number].is_outside) return;
-      beside_[number].moved = internal::moved_directions(at.tip).cols();
-      beside_[number].is_singular = !at.tips_beside.empty();
+      state_[number].is_beyond_range = is_beyond_range(at);
+      if (state_[number].is_beyond_range && is_of_ranges()) return;
+      state_[number].moved = internal::moved_directions(at.tip).cols();
+      state_[number].is_singular = !at.tips_beside.empty();
       internal::add_limits(at, parameters_, options_, pose);
     } catch (const Error& error) {
       pose.problem = internal::problem_of(error);
@@ -125,13 +127,13 @@ class WorkspaceSearch {
 
   // At a singular pose the tip cannot move in a direction in which it moves elsewhere.
   void refuse_lost_directions() {
-    const auto most = std::ranges::max_element(beside_, {}, &Beside::moved);
-    if (most == beside_.end() || most->moved == 0) return;
+    const auto most = std::ranges::max_element(state_, {}, &PoseState::moved);
+    if (most == state_.end() || most->moved == 0) return;
     result_.tip_directions = static_cast<std::size_t>(most->moved);
     if (!options_.normals.empty()) return;
-    const Eigen::MatrixXd all = moved_at(static_cast<std::size_t>(most - beside_.begin()));
-    for (std::size_t i = 0; i < beside_.size(); ++i) {
-      if (beside_[i].moved == 0 || beside_[i].moved == most->moved) continue;
+    const Eigen::MatrixXd all = moved_at(static_cast<std::size_t>(most - state_.begin()));
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      if (state_[i].moved == 0 || state_[i].moved == most->moved) continue;
       const Eigen::MatrixXd left = moved_at(i);
       if ((left - all * (all.transpose() * left)).norm() > in_the_plane) continue;  // no plane of all poses
       for (const Eigen::Vector3d& normal : internal::directions_beside(all, left)) {
@@ -148,9 +150,9 @@ class WorkspaceSearch {
     std::vector<WorkspacePose> reached;
     for (std::size_t i = 0; i < result_.poses.size(); ++i) {
       WorkspacePose& pose = result_.poses[i];
-      if (beside_[i].short_of) {
-        result_.unreached.push_back({*pose.point, options_.points[*pose.point], *beside_[i].short_of});
-      } else if (!beside_[i].is_outside) {
+      if (state_[i].short_of) {
+        result_.unreached.push_back({*pose.point, options_.points[*pose.point], *state_[i].short_of});
+      } else if (!(state_[i].is_beyond_range && is_of_ranges())) {
         reached.push_back(std::move(pose));
       }
     }
@@ -266,11 +268,16 @@ class WorkspaceSearch {
         result_.remarks.push_back(warning(refused));
       }
     }
-    const auto singular = static_cast<std::size_t>(std::ranges::count_if(beside_, &Beside::is_singular));
+    const auto singular = static_cast<std::size_t>(std::ranges::count_if(state_, &PoseState::is_singular));
     if (singular > 0 && !nobody_.empty()) {
       result_.remarks.push_back(
           warning({.code = FindingCode::workspace_poses_singular,
                    .evidence = {counted("count", singular), counted("of", result_.poses.size())}}));
+    }
+    const auto beyond = static_cast<std::size_t>(std::ranges::count_if(state_, &PoseState::is_beyond_range));
+    if (beyond > 0 && !is_of_ranges()) {
+      result_.remarks.push_back(warning({.code = FindingCode::workspace_beyond_ranges,
+                                         .evidence = {counted("count", beyond), counted("of", state_.size())}}));
     }
     if (result_.refused_directions > 0) {
       result_.remarks.push_back(
@@ -301,18 +308,18 @@ class WorkspaceSearch {
   }
 
   // Of a pose, until all are known.
-  struct Beside {
+  struct PoseState {
     Eigen::Index moved = 0;               // in how many directions the tip can move
     bool is_singular = false;             // in fewer than beside
     std::optional<double> short_of = {};  // m, of a point that is not reached
-    bool is_outside = false;              // a joint that follows the others is beyond its range
+    bool is_beyond_range = false;         // of some joint
   };
 
   const DeviceParameters& parameters_;
   const WorkspaceOptions& options_;
   MechanismModel mechanism_;
   internal::ThreadArena arena_;
-  std::vector<Beside> beside_;
+  std::vector<PoseState> state_;
   std::vector<double> nobody_;  // limits of all directions, rising
   std::vector<double> any_user_;
   Workspace result_;

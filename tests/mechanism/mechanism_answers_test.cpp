@@ -194,5 +194,17 @@ TEST(MechanismAnswers, WhatKnowsBodiesAloneRefusesByCode) {
   }
 }
 
+// A device along a normal knows its normal, whether or not a file of a mechanism stands behind it.
+TEST(MechanismAnswers, any_user_grasps_the_tip_of_a_device_that_no_file_made) {
+  const Device of_file = arm(100.0);
+  DeviceParameters loop = of_file.parameters();
+  loop.mechanism.reset();
+  loop.coordinates.reset();
+  const Device made = device_along(at_pose(of_file.parameters().mechanism->mechanism), {2.0, 0.0, 0.0}, loop);
+  const double expected = analyze(of_file).limits.any_user->critical_stiffness;
+  EXPECT_NEAR(analyze(made).limits.any_user->critical_stiffness / expected, 1.0, 1e-9);
+  EXPECT_LT(expected, 0.99 * analyze(made).limits.nobody.critical_stiffness);
+}
+
 }  // namespace
 }  // namespace zwidth

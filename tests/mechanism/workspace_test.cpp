@@ -453,6 +453,30 @@ TEST(Workspace, TakesTheRangesOfTheFile) {
   EXPECT_NEAR(found.quantiles.front().nobody / found.quantiles.back().nobody, 1.0, 1e-12);
 }
 
+// The file's range is -0.1 to 0.1 m: a pose beyond it that is asked for is answered, and said.
+TEST(Workspace, CountsPosesBeyondTheRangesOfJoints) {
+  MechanismFile file;
+  file.tip = "tip";
+  file.text =
+      R"(<mujoco><compiler autolimits="true"/><worldbody><body><joint name="along" type="slide" axis="1 0 0"
+    range="-0.1 0.1" damping="1"/><inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/><site name="tip"/></body></worldbody>
+    <actuator><motor joint="along"/></actuator></mujoco>)";
+  const Workspace found = workspace(workspace_device(file), {.poses = {{{"along", 0.05}}, {{"along", 0.2}}}});
+  ASSERT_EQ(found.poses.size(), 2U);
+  EXPECT_TRUE(has_finding(found, FindingCode::workspace_beyond_ranges));
+  const Workspace within = workspace(workspace_device(file), {.poses = {{{"along", 0.05}}, {{"along", 0.1}}}});
+  EXPECT_FALSE(has_finding(within, FindingCode::workspace_beyond_ranges));
+}
+
+TEST(Workspace, SaysThatAPointWallIsAskedAlongNormals) {
+  DeviceParameters parameters = workspace_device(workspace_arm(0.3, 1.2)).parameters();
+  parameters.coordinates.reset();
+  parameters.mechanism->is_point = true;
+  const Workspace found = workspace(device_of_mechanism(std::move(parameters)), {.poses = {{}}});
+  EXPECT_TRUE(has_finding(found, FindingCode::workspace_along_normals));
+  EXPECT_TRUE(found.least);
+}
+
 // At the stretched arm users are those beside it, and the pose is counted.
 TEST(Workspace, SaysWhichPosesAreSingular) {
   const Device device = workspace_device(workspace_arm(0.3, 1.2));

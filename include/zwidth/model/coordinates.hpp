@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct Coordinates {
     std::vector<double> moved;
     std::vector<double> sensed;  ///< as the controller knows it, in the directions in which the wall acts; else 0
     std::vector<double> pushed;  ///< as the controller pushes it, likewise
+    std::array<double, 3> normal = {};  ///< of the wall, of any length; 0 of one in every direction
   };
   std::vector<double> mass;              ///< n x n, row by row; symmetric and positive definite
   std::vector<Element> elements;         ///< all that is stiff or damped

@@ -16,6 +16,9 @@ struct DamperTiming {
 /// Whether the damper runs at another time than the spring. One with the loop's own period and delay does not.
 [[nodiscard]] bool has_damper_loop(const Loop& loop);
 
+/// Whether the wall has a damper, and it runs at another time than the spring.
+[[nodiscard]] bool runs_damper_apart(const DeviceParameters& parameters);
+
 /// Throws Error (invalid_argument) where has_damper_loop(): for computations of one rate, which would answer for another
 /// device.
 void require_one_rate(const Device& device);

@@ -28,6 +28,12 @@ struct TipMotion {
 /// That of a device of a mechanism, in the directions in which its wall acts; nothing of any other device.
 [[nodiscard]] std::optional<TipMotion> tip_motion_of(const Device& device);
 
+/// Whether it is that of a mechanism at a pose, whose user grasps the tip in every direction.
+[[nodiscard]] bool is_of_mechanism(const Device& device);
+
+/// The normal of its wall, of any length; 0 of a wall in every direction, and of any other device.
+[[nodiscard]] Eigen::Vector3d wall_normal(const Device& device);
+
 /// What the tip moves less of, relative to the direction in which it moves most, is a direction in which it cannot.
 inline constexpr double tip_stands_below = 1e-6;
 

@@ -23,6 +23,7 @@
 #include "zwidth/model/device_key.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
+#include "zwidth/model/tip_motion.hpp"
 #include "zwidth/require_valid.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
 
@@ -123,7 +124,7 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
   if (has_two_loops(loop.device)) {
     const bool has_steps = loop.device.parameters().sensor.resolution > 0.0;
     if (has_steps && loop.stiffness) diagnosis.remarks.push_back(left_out_beside_damper_loop("steps"));
-    if (can_be_held(loop.device) && !knows_users_of(loop.device) && !loop.device.parameters().mechanism) {
+    if (can_be_held(loop.device) && !knows_users_of(loop.device) && !is_of_mechanism(loop.device)) {
       diagnosis.remarks.push_back(left_out_beside_damper_loop("any_user"));
     }
   }

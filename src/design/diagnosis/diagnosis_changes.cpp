@@ -19,6 +19,7 @@
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -319,7 +320,7 @@ class Changes {
   /// The same with the damper in a loop of its own; of a damper alone that damper.
   void damp_on_drive() {
     // The cycle of an encoder is known of one rate alone, and so is what a grasp of a mechanism's tip does.
-    if (is_quantisation() || loop_.device.parameters().mechanism) return;
+    if (is_quantisation() || is_of_mechanism(loop_.device)) return;
     const std::optional<Device> on_drive = with_damper_on_drive(loop_.device);
     if (!on_drive) return;
     const auto [period, delay] = damper_timing(on_drive->loop());

@@ -17,6 +17,7 @@
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
+#include "zwidth/model/tip_motion.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -123,7 +124,7 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
 bool asks_any_user(const Device& device, const RegionOptions& options) {
   if (!options.any_user || !device.is_mechanical() || is_point_wall(device)) return false;
   if (device.has_bodies()) return true;
-  return device.parameters().mechanism && !has_damper_loop(device.loop()) &&
+  return is_of_mechanism(device) && !has_damper_loop(device.loop()) &&
          device.degrees_of_freedom() <= most_bodies_for_absolute_stability;
 }
 

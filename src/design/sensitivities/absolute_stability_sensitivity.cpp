@@ -17,6 +17,7 @@
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -244,7 +245,7 @@ std::vector<Sensitivity> absolute_stability_sensitivities(const Device& device, 
     return absolute_stability_sensitivities(with_one_rate(device), limit);
   }
   if (has_two_loops && !knows_all_users(device)) require_one_rate(device);
-  if (device.parameters().mechanism) return any_grasp_sensitivities(device, limit);
+  if (is_of_mechanism(device)) return any_grasp_sensitivities(device, limit);
   const Device free = device_without_user(device);
   if (limit.needs_no_user) {
     std::vector<Sensitivity> own = stiffness_sensitivities(free);

@@ -100,8 +100,8 @@ std::vector<Sensitivity> any_grasp_sensitivities(const Device& device, const Abs
   }
   const DeviceParameters parameters = certain_parameters(free);
   const auto limit_of = [&](const Device& moved) {
-    const Eigen::Vector3d normal(moved.parameters().mechanism->normal.data());
-    return std::complex<double>(any_grasp_limit(tip_motion_of(moved).value(), moved.parameters(), normal).stiffness);
+    return std::complex<double>(
+        any_grasp_limit(tip_motion_of(moved).value(), moved.parameters(), wall_normal(moved)).stiffness);
   };
   std::vector<Sensitivity> result;
   for (const DesignParameter& number : design_parameters(free)) {

@@ -24,6 +24,7 @@
 #include "stability/users/any_grasp.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/tip_motion.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -368,7 +369,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     result.targets.push_back(std::move(target));
   }
   std::ranges::stable_sort(result.targets, {}, cost);
-  if (options.limit_of == WallNumber::stiffness && !device.parameters().mechanism) {
+  if (options.limit_of == WallNumber::stiffness && !is_of_mechanism(device)) {
     const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
     result.drive_damper = drive_damper(device, any_user, while_judging);
   }

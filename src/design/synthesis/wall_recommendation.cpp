@@ -20,6 +20,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/tip_motion.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -335,7 +336,7 @@ WallRecommendation recommended(const Device& device, const RecommendationOptions
   if (is_damper) return recommend_damper(unwalled, options);
   WallRecommendation result = Recommendation(device, options).answer();
   const bool is_like = options.goal == WallGoal::stiffness || options.goal == WallGoal::width;
-  if (options.drive_damper && is_like && result.wall && !device.parameters().mechanism) {
+  if (options.drive_damper && is_like && result.wall && !is_of_mechanism(device)) {
     result.drive_damper = recommend_drive_damper(unwalled, options, *result.wall);
   }
   return result;

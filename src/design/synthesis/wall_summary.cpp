@@ -19,6 +19,7 @@
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/tip_motion.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth {
@@ -133,7 +134,7 @@ void add_margins(const Device& device, const Progress& progress, WallSummary& su
 WallSummary wall_summary(const Device& device, const Analysis& analysis, const WallSummaryOptions& options) {
   require_known_structure(device);
   WallSummary summary;
-  if (device.parameters().mechanism && has_damper_loop(device.loop())) {
+  if (is_of_mechanism(device) && has_damper_loop(device.loop())) {
     summary.why_no_damper = summary.why_no_margins = Finding{.code = FindingCode::any_grasp_not_known};
     return summary;
   }

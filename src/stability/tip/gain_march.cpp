@@ -28,6 +28,9 @@ constexpr double nearer = 0.1;
 constexpr double of_rounding = 1e-14;  // |z|
 constexpr double free_pole_below = 1e-11;
 
+// At z = 1, of a position that no wall holds.
+bool is_free(std::complex<double> delta) { return std::abs(delta) < free_pole_below; }
+
 struct LoopPole {
   double excess = 0.0;  // |z| - 1
   double growth = 0.0;  // of it with the gain
@@ -56,8 +59,7 @@ std::vector<LoopPole> poles_at(const GainLoop& loop, double gain) {
     pole.residue = motions.col(i).norm() * drives.row(i).norm();
     pole.rounding = rounded * of.right.col(i).norm() * of.left.row(i).norm();
     pole.motion = motions.col(i);
-    const bool is_free = std::abs(delta) < free_pole_below && pole.residue * std::max(gain, 1.0) < free_pole_below;
-    if (!is_free) poles.push_back(std::move(pole));
+    if (!(is_free(delta) && pole.residue * std::max(gain, 1.0) < free_pole_below)) poles.push_back(std::move(pole));
   }
   return poles;
 }
@@ -196,7 +198,7 @@ GainLimit crossing_below(const GainLoop& loop, double gain) { return next_crossi
 
 bool is_stable(const GainLoop& loop, double gain) {
   for (const std::complex<double>& delta : eigenvalues(loop.state - gain * loop.input * loop.output)) {
-    if (2.0 * delta.real() + std::norm(delta) > 0.0 && std::abs(delta) > free_pole_below) return false;
+    if (2.0 * delta.real() + std::norm(delta) > 0.0 && !is_free(delta)) return false;
   }
   return true;
 }
@@ -205,7 +207,7 @@ double stability_excess_at(const GainLoop& loop, std::complex<double> gain) {
   double largest = -1.0;
   const Eigen::MatrixXcd closed = loop.state.cast<std::complex<double>>() - gain * (loop.input * loop.output);
   for (const std::complex<double>& delta : complex_eigenvalues(closed)) {
-    if (std::abs(delta) > free_pole_below) largest = std::max(largest, std::abs(1.0 + delta) - 1.0);
+    if (!is_free(delta)) largest = std::max(largest, std::abs(1.0 + delta) - 1.0);
   }
   return largest;
 }

@@ -82,8 +82,6 @@ class GraspSearch {
   [[nodiscard]] const GraspDiscs& discs() const { return discs_; }
 
   // How many frequencies the panels took, of the own and of the other aliases.
-  [[nodiscard]] std::size_t own_nodes() const { return panel_nodes * panels_.size(); }
-  [[nodiscard]] std::size_t others_nodes() const { return panel_nodes * others_.size(); }
 
  private:
   // Over angle; by rows the nodes.

@@ -9,6 +9,7 @@
 #include "sampling/matrix_exponential.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::internal {
@@ -217,11 +218,7 @@ GainLoop wall_loop(const SampledTip& plant, const Wall& wall) {
 }
 
 void require_plain_wall(const DeviceParameters& loop) {
-  const std::optional<LoopDamper>& damper = loop.loop.damper;
-  const bool is_apart = loop.wall.damping > 0.0 && damper &&
-                        (damper->sampling_period.value_or(loop.loop.sampling_period) != loop.loop.sampling_period ||
-                         damper->delay.value_or(loop.loop.delay) != loop.loop.delay);
-  if (!loop.wall.filters.empty() || is_apart) {
+  if (!loop.wall.filters.empty() || runs_damper_apart(loop)) {
     throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::one_direction_alone});
   }
 }

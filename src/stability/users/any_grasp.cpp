@@ -15,7 +15,7 @@ namespace zwidth::internal {
 
 bool is_grasped_in_many_directions(const Device& device) {
   const std::optional<TipMotion> motion = tip_motion_of(device);
-  if (!motion || !device.parameters().mechanism) return false;
+  if (!motion) return false;
   return tip_directions(*motion).cols() > 1 || !motion->tips_beside.empty();
 }
 
@@ -50,8 +50,7 @@ Remark singular_pose_remark(const TipMotion& motion, std::optional<double> at_po
 }
 
 AnyGrasp::AnyGrasp(const Device& device)
-    : plant_(tip_motion_of(device).value(), device_without_user(device).parameters(),
-             Eigen::Vector3d(device.parameters().mechanism->normal.data())),
+    : plant_(tip_motion_of(device).value(), device_without_user(device).parameters(), wall_normal(device)),
       filters_(filtered_plant(with_one_rate(device_without_user(device)))),
       period_(device.loop().sampling_period) {}
 
@@ -79,7 +78,7 @@ AbsoluteStabilityLimit AnyGrasp::limit(FreeGain gain, VirtualDamper damper, cons
 std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device, VirtualDamper damper,
                                                                    const CriticalStiffness& nobody) {
   const bool is_apart = has_damper_loop(device.loop()) && damper.damping > 0.0;
-  if (is_apart || !device.parameters().mechanism || !tip_motion_of(device)) return std::nullopt;
+  if (is_apart || !is_of_mechanism(device)) return std::nullopt;
   return AnyGrasp(device).limit(AnyGrasp::FreeGain::stiffness, damper, nobody);
 }
 

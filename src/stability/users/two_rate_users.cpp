@@ -17,6 +17,7 @@
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
+#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -306,7 +307,7 @@ std::vector<double> frequency_grid(const TwoRateDiscs& discs, const Device& devi
 
 // A mechanism's tip is grasped in every direction; what that does is known of one rate alone.
 bool is_held_along_the_wall(const Device& device) {
-  return !has_damper_loop(device.loop()) || !device.parameters().mechanism;
+  return !has_damper_loop(device.loop()) || !is_of_mechanism(device);
 }
 
 }  // namespace

@@ -18,8 +18,7 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress) : period_(d
   }
   tell(progress, 0.0);
   plant_ = filtered_plant(device);
-  grasped_.emplace(tip_motion_of(device).value(), device.parameters(),
-                   Eigen::Vector3d(device.parameters().mechanism->normal.data()));
+  grasped_.emplace(tip_motion_of(device).value(), device.parameters(), wall_normal(device));
 }
 
 TerminationDiscs::Disc UserDiscs::at(double frequency) const {
