@@ -14,7 +14,7 @@
 #include "batch/kernel/kernel_columns.hpp"
 #include "counted.hpp"
 #include "model/known_structure.hpp"
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
 #include "zwidth/error.hpp"

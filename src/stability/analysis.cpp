@@ -11,6 +11,7 @@
 #include "stability/point_wall_analysis.hpp"
 #include "stability/users/absolute_stability_search.hpp"
 #include "stability/users/any_grasp.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "staged_progress.hpp"
 #include "study/philox.hpp"
 #include "study/study_parts.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "stability/tip/limits_at_pose.hpp"
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "workspace/direction_spread.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/stability/analysis.hpp"

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "lhifam.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "zwidth/design/design_target.hpp"
 #include "zwidth/design/diagnosis.hpp"

@@ -16,7 +16,7 @@
 #include "campaign.hpp"
 #include "property/random_two_rates.hpp"
 #include "property/two_rate_worst_user.hpp"
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "zwidth/model/device_user.hpp"
 
 namespace zwidth {

@@ -13,6 +13,7 @@
 
 #include "design/sensitivities/number_limit.hpp"
 #include "design/synthesis/wall_limits.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/design/drive_damper.hpp"

@@ -10,7 +10,7 @@
 #include "design/region/region_check.hpp"
 #include "design/region/region_structure.hpp"
 #include "stability/users/any_grasp.hpp"
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"

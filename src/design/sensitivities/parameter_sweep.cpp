@@ -12,7 +12,7 @@
 #include "counted.hpp"
 #include "model/key_members.hpp"
 #include "model/known_structure.hpp"
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/error.hpp"

@@ -11,6 +11,7 @@
 #include "design/region/two_rate_curve.hpp"
 #include "design/sensitivities/agreeing_difference.hpp"
 #include "design/sensitivities/design_parameter.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"

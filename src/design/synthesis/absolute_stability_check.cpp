@@ -1,7 +1,7 @@
 #include "design/synthesis/absolute_stability_check.hpp"
 
 #include "design/synthesis/wall_limits.hpp"
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/critical_damping.hpp"
 

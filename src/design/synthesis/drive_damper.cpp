@@ -11,6 +11,7 @@
 #include "design/synthesis/wall_limits.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"

@@ -5,6 +5,7 @@
 
 #include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 

@@ -21,6 +21,7 @@
 #include "design/synthesis/wall_limits.hpp"
 #include "design/synthesis/wall_search.hpp"
 #include "design/synthesis/worst_case_screening.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "stability/wall_judgement.hpp"
 #include "staged_progress.hpp"

@@ -5,6 +5,7 @@
 #include "design/sensitivities/loops_of_wall.hpp"
 #include "design/sensitivities/number_limit.hpp"
 #include "design/synthesis/wall_limits.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/disc_stiffness.hpp"
 
 namespace zwidth::internal {

@@ -15,7 +15,7 @@
 #include "design/synthesis/wall_search.hpp"
 #include "model/known_structure.hpp"
 #include "stability/users/any_grasp.hpp"
-#include "stability/users/two_rate_users.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "stability/users/absolute_stability_search.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/two_rate_users.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"

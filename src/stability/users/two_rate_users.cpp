@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "model/rate_ratio.hpp"
+#include "stability/users/any_user_limit.hpp"
 #include "stability/users/disc_pieces.hpp"
 #include "stability/users/disc_stiffness.hpp"
 #include "stability/users/termination_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
-#include "zwidth/model/tip_motion.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -36,18 +36,6 @@ constexpr double deepest_fall = 1.0;   // of that difference: what falls more sl
 constexpr double nearest_to_crossover = 1e-5;  // relative
 constexpr double far_above = 4.0;              // times the least of the grid: no frequencies beside that crossover
 constexpr double same_as_at_zero = 1e-9;       // relative: the frequency is then 0
-constexpr double whole_within = 1e-6;          // periods of the damper, of the difference of the delays
-
-// The damper's periods by which the spring's force comes later, whole where they are nearly; nothing where the damper is slower.
-std::optional<double> periods_later(const Loop& loop) {
-  const auto [period, delay] = damper_timing(loop);
-  if (rate_ratio(loop.sampling_period, period) < 1.0) return std::nullopt;
-  const double later = (loop.delay - delay) / period;
-  const double whole = std::round(later);
-  return std::abs(later - whole) <= whole_within ? whole : later;
-}
-
-bool is_whole(double periods) { return periods == std::round(periods); }
 
 // The device with the damper's period and the spring's delay.
 Device with_delay_of_spring(const Device& device) {
@@ -67,10 +55,10 @@ class TwoRateDiscs {
         fast_period_(damper_timing(free.loop()).sampling_period),
         steps_(static_cast<int>(periods_within(period_, fast_period_))),
         fast_delay_(damper_timing(free.loop()).delay),
-        periods_later_(periods_later(free.loop()).value()) {
+        periods_later_(damper_periods_later(free.loop()).value()) {
     if (discs_.is_undamped()) return;
     if (is_quick) pieces_ = DiscPieces(discs_, with_loop_of_damper(free));
-    if (is_whole(periods_later_)) return;
+    if (periods_later_ == std::round(periods_later_)) return;
     const Device later = with_delay_of_spring(free);
     discs_of_spring_.emplace(later);
     if (is_quick) pieces_of_spring_ = DiscPieces(*discs_of_spring_, later);
@@ -305,61 +293,13 @@ std::vector<double> frequency_grid(const TwoRateDiscs& discs, const Device& devi
   return frequencies;
 }
 
-// A mechanism's tip is grasped in every direction; what that does is known of one rate alone.
-bool is_held_along_the_wall(const Device& device) {
-  return !has_damper_loop(device.loop()) || !is_of_mechanism(device);
-}
-
 }  // namespace
-
-bool bounds_all_users(const Loop& loop) { return periods_later(loop).has_value(); }
-
-bool knows_all_users(const Loop& loop) {
-  const std::optional<double> later = periods_later(loop);
-  return later && is_whole(*later);
-}
-
-bool bounds_all_users(const Device& device) {
-  return is_held_along_the_wall(device) && bounds_all_users(device.loop());
-}
-
-bool knows_all_users(const Device& device) { return is_held_along_the_wall(device) && knows_all_users(device.loop()); }
-
-std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress) {
-  if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, virtual_damper(device), progress);
-  if (device.parameters().wall.damping == 0.0) return any_user_limit(with_one_rate(device), progress);
-  if (!knows_all_users(device)) return std::nullopt;
-  tell(progress, 0.0);
-  const CriticalStiffness nobody = critical_stiffness(device_without_user(device));
-  if (nobody.trust.refused()) {
-    AbsoluteStabilityLimit refused;
-    refused.stiffness = std::numeric_limits<double>::quiet_NaN();
-    refused.trust = nobody.trust;
-    return refused;
-  }
-  return two_rate_absolute_stability(device, nobody);
-}
-
-AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress) {
-  std::optional<AbsoluteStabilityLimit> limit = any_user_limit(device, progress);
-  if (!limit) require_one_rate(device);
-  return *std::move(limit);
-}
 
 std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                   const CriticalStiffness& nobody) {
   if (!bounds_all_users(device)) return std::nullopt;
   const Wall& wall = device.parameters().wall;
   return TwoRateUsers(device).limit({wall.damping, wall.velocity_filter_hz}, nobody);
-}
-
-Remark any_user_limit_scanned(const Loop& loop) {
-  Finding finding{.code = FindingCode::any_user_limit_scanned};
-  if (!knows_all_users(loop)) {
-    finding.subjects = {{"what", "bound"}};
-    finding.key = "loop.damper.delay";
-  }
-  return note(std::move(finding));
 }
 
 double two_rate_limit_at(const Device& device, double angle) {

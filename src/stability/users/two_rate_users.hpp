@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
-#include "zwidth/progress.hpp"
-#include "zwidth/remark.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
@@ -21,30 +19,10 @@ namespace zwidth::internal {
 // Where the delays differ by no whole periods of the damper, the spring's plant is apart from z^-m p by what the aliases beyond
 // the damper's rate turn by; a disc of its own holds that, and the limit is a bound: every K below is safe, some above may be.
 //
-// Nothing unless bounds_all_users(). The least over all frequencies is that of a grid, refined at its minima; what lies between
+// Nothing unless bounds_all_users() (any_user_limit.hpp). The least over all frequencies is that of a grid, refined at its minima; what lies between
 // is not shown to be higher. Throws as absolute_stability_limit().
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> two_rate_absolute_stability(const Device& device,
                                                                                 const CriticalStiffness& nobody);
-
-// Whether the limit over all passive users is known: the damper is as fast as the spring or faster, and their delays differ by
-// whole periods of the damper. Otherwise the two forces see the aliases with different phases.
-[[nodiscard]] bool knows_all_users(const Loop& loop);
-// The same, and not a mechanism, of whose grasps one rate alone is known.
-[[nodiscard]] bool knows_all_users(const Device& device);
-
-// Whether a lower bound of that limit is known: the damper is as fast as the spring or faster.
-[[nodiscard]] bool bounds_all_users(const Loop& loop);
-[[nodiscard]] bool bounds_all_users(const Device& device);
-
-// absolute_stability_limit() of the device with the damper of its wall, at one rate or two. Nothing where it is not known;
-// refused where the limit of nobody is.
-[[nodiscard]] std::optional<AbsoluteStabilityLimit> any_user_limit(const Device& device, const Progress& progress = {});
-
-// The same; throws Error (invalid_argument) as require_one_rate() where it is not known.
-[[nodiscard]] AbsoluteStabilityLimit known_any_user_limit(const Device& device, const Progress& progress = {});
-
-// How that limit of two rates was found: over a grid of frequencies, and whether it is a bound.
-[[nodiscard]] Remark any_user_limit_scanned(const Loop& loop);
 
 // The least K that some user does not allow at one frequency, `angle` in rad per period of the spring, 0 < angle <= pi; infinite
 // where there is none. `device`: of a loop that knows_all_users().
