@@ -21,6 +21,9 @@
 namespace zwidth {
 namespace {
 
+constexpr double share_of_next = 0.618;                      // of the way of one joint, of the next one's
+constexpr double steps_around[] = {0.01, -0.01, 0.1, -0.1};  // rad or m, from the file's pose
+
 JointPositions with(JointPositions pose, const JointPositions& given) {
   for (const auto& [joint, position] : given) pose[joint] = position;
   return pose;
@@ -52,13 +55,13 @@ class MechanismModel::Read {
     std::vector<std::size_t> in_order;
     for (const int kind : {0, 1, 2, 3}) {
       for (std::size_t i = 0; i < joints_.size(); ++i) {
-        if (rank(i) == kind) in_order.push_back(i);
+        if (order_of(i) == kind) in_order.push_back(i);
       }
     }
     pose_joints_ = independent(at_file_pose_, in_order);
     std::ranges::sort(pose_joints_);
     for (const std::size_t each : pose_joints_) joints_[each].is_of_pose = true;
-    find_usual_directions();
+    find_directions_around();
     at_file_pose_ = with_tips_beside(std::move(at_file_pose_), of_.pose);
   }
 
@@ -105,23 +108,24 @@ class MechanismModel::Read {
     }
   }
 
-  // No joint moves as another one does.
+  // Ways that no relation of the joints' is likely to keep: each its own share.
   [[nodiscard]] Eigen::VectorXd all_joints() const {
     const auto count = static_cast<Eigen::Index>(pose_joints_.size());
-    return Eigen::VectorXd::NullaryExpr(count, [](Eigen::Index i) { return std::pow(0.618, static_cast<double>(i)); });
+    return Eigen::VectorXd::NullaryExpr(count,
+                                        [](Eigen::Index i) { return std::pow(share_of_next, static_cast<double>(i)); });
   }
 
-  void find_usual_directions() {
-    usual_directions_ = tip_directions(at_file_pose_.tip).cols();
-    for (const double step : {0.01, -0.01, 0.1, -0.1}) {
+  void find_directions_around() {
+    directions_around_ = tip_directions(at_file_pose_.tip).cols();
+    for (const double step : steps_around) {
       const std::optional<MechanismAtPose> beside = moved_by(at_file_pose_, of_.pose, all_joints(), step);
-      if (beside) usual_directions_ = std::max(usual_directions_, tip_directions(beside->tip).cols());
+      if (beside) directions_around_ = std::max(directions_around_, tip_directions(beside->tip).cols());
     }
   }
 
   [[nodiscard]] MechanismAtPose with_tips_beside(MechanismAtPose at, const JointPositions& pose) const {
     const Eigen::MatrixXd directions = tip_directions(at.tip);
-    if (directions.cols() == usual_directions_ || directions.cols() == 0) return at;
+    if (directions.cols() == directions_around_ || directions.cols() == 0) return at;
     const auto count = static_cast<Eigen::Index>(pose_joints_.size());
     for (Eigen::Index i = 0; i <= count; ++i) {
       const Eigen::VectorXd shares = i < count ? Eigen::VectorXd(Eigen::VectorXd::Unit(count, i)) : all_joints();
@@ -134,7 +138,7 @@ class MechanismModel::Read {
   }
 
   // Which joints are asked first whether they give the pose.
-  [[nodiscard]] int rank(std::size_t joint) const {
+  [[nodiscard]] int order_of(std::size_t joint) const {
     if (of_.pose.contains(joints_[joint].name)) return 0;
     if (!joints_[joint].is_driven) return 2;
     const Eigen::MatrixXd along = at_file_pose_.cables * at_file_pose_.joint_motions.transpose();
@@ -146,7 +150,7 @@ class MechanismModel::Read {
   std::vector<MechanismJoint> joints_;
   MechanismAtPose at_file_pose_;
   std::vector<std::size_t> pose_joints_;
-  Eigen::Index usual_directions_ = 0;  // along which the tip moves around the file's pose
+  Eigen::Index directions_around_ = 0;  // along which the tip moves around the file's pose
 };
 
 MechanismModel::MechanismModel(const MechanismFile& file) : read_(std::make_shared<const Read>(file)) {}

@@ -94,7 +94,7 @@ class Reach {
   // Nothing where loops do not close.
   [[nodiscard]] std::optional<There> at(const Eigen::VectorXd& position) const try {
     const MechanismAtPose mechanism = model_.at(pose_of(position));
-    There there{position, mechanism.tip_position - point_, {}, true};
+    There there{position, mechanism.tip_position - point_, {}};
     // Motions of one joint each, cables not stretched: [T; E] N = [0; 1].
     const Eigen::Index cables = mechanism.cables.rows();
     Eigen::MatrixXd rows(cables + size(), mechanism.mass.cols());
@@ -105,11 +105,7 @@ class Reach {
     Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(rows.rows(), size());
     ones.bottomRows(size()).setIdentity();
     there.slope = mechanism.tip * rows.completeOrthogonalDecomposition().solve(ones);
-    for (std::size_t i = 0; i < model_.joints().size(); ++i) {
-      const std::optional<JointRange>& range = model_.joints()[i].range;
-      const double value = mechanism.joints(static_cast<Eigen::Index>(i));
-      if (range && (value < range->least - past_range || value > range->greatest + past_range)) there.in_range = false;
-    }
+    there.in_range = is_within_ranges(model_.joints(), mechanism.joints);
     return there;
   } catch (const Error&) {
     return std::nullopt;
@@ -137,6 +133,15 @@ class Reach {
 };
 
 }  // namespace
+
+bool is_within_ranges(const std::vector<MechanismJoint>& joints, const Eigen::VectorXd& positions) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const std::optional<JointRange>& range = joints[i].range;
+    const double position = positions(static_cast<Eigen::Index>(i));
+    if (range && (position < range->least - past_range || position > range->greatest + past_range)) return false;
+  }
+  return true;
+}
 
 MechanismModel::Reached reached_by(const MechanismModel& model, const std::vector<std::size_t>& joints,
                                    const Eigen::Vector3d& point) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "counted.hpp"
+#include "mechanism/tip_reach.hpp"
 #include "model/implausible_numbers.hpp"
 #include "staged_progress.hpp"
 #include "thread_arena.hpp"
@@ -25,7 +26,6 @@ namespace {
 using internal::counted;
 
 constexpr double confirmed_within = 1e-3;  // relative, of the least limit by the other route
-constexpr double past_range = 1e-9;        // m or rad, that rounding leaves
 constexpr double in_the_plane = 1e-6;      // what of a direction may stand out of it
 constexpr std::array quantile_probabilities{0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};
 
@@ -101,7 +101,7 @@ class WorkspaceSearch {
         }
       }
       const MechanismAtPose at = mechanism_.at(pose.pose);
-      state_[number].is_beyond_range = is_beyond_range(at);
+      state_[number].is_beyond_range = !internal::is_within_ranges(result_.joints, at.joints);
       if (state_[number].is_beyond_range && is_of_ranges()) return;
       state_[number].moved = internal::moved_directions(at.tip).cols();
       state_[number].is_singular = !at.tips_beside.empty();
@@ -113,16 +113,6 @@ class WorkspaceSearch {
 
   [[nodiscard]] bool is_of_ranges() const {
     return options_.grid.empty() && options_.poses.empty() && options_.points.empty();
-  }
-
-  // Joints of the grid keep theirs; one that follows them may not.
-  [[nodiscard]] bool is_beyond_range(const MechanismAtPose& at) const {
-    for (std::size_t i = 0; i < result_.joints.size(); ++i) {
-      const std::optional<JointRange>& range = result_.joints[i].range;
-      const double position = at.joints(static_cast<Eigen::Index>(i));
-      if (range && (position < range->least - past_range || position > range->greatest + past_range)) return true;
-    }
-    return false;
   }
 
   // At a singular pose the tip cannot move in a direction in which it moves elsewhere.
@@ -312,7 +302,7 @@ class WorkspaceSearch {
     Eigen::Index moved = 0;               // in how many directions the tip can move
     bool is_singular = false;             // in fewer than beside
     std::optional<double> short_of = {};  // m, of a point that is not reached
-    bool is_beyond_range = false;         // of some joint
+    bool is_beyond_range = false;         // of some joint: of a grid of ranges, of one that follows
   };
 
   const DeviceParameters& parameters_;
