@@ -26,14 +26,15 @@ constexpr double bytes_per_cycle = 8 + 27 + 21 + 17 + 6;
 constexpr double force_bytes = 21;
 constexpr double bytes_of_velocity = 2;  // of "v 0 0 ..."
 
-// Of odrive-interface.yaml:
+// Of odrive-interface.yaml; 0.6 has errors of its own, and other names of its limits.
+constexpr std::string_view error_of_0_6 = "active_errors";
 constexpr std::string_view idle = "1";
 constexpr std::string_view closed_loop = "8";
 constexpr std::string_view torque_control = "1";
 constexpr std::string_view velocity_control = "2";
 constexpr std::string_view passthrough = "1";
 constexpr std::string_view supply_voltage = "r vbus_voltage";
-constexpr long watchdog_expired = 1L << 11;
+constexpr long watchdog_expired_of_0_6 = 1L << 24;
 constexpr double largest_error = 0xffffffff;
 
 double watchdog_of(const SerialLink& link) {
@@ -58,10 +59,42 @@ OdriveDriver::OdriveDriver(const SerialLink& link)
                    link, default_baud),
       axis_(link.drive.id.value_or(0)),
       watchdog_(watchdog_of(link)) {
-  if (const long found = error(); (found & ~watchdog_expired) != 0) {
+  read_firmware();
+  if (const long found = error(); (found & ~watchdog_expired_) != 0) {
     throw DriverFailed(trouble_text(Trouble::fault, found));
   }
   read_limits();
+}
+
+OdriveDriver::~OdriveDriver() {
+  if (settings_.empty()) return;
+  disarm();
+  for (const auto& [name, value] : settings_) {
+    port().write(odrive_line(fmt::format("w axis{}.{} {}", axis_, name, value)).view());
+  }
+  port().write(odrive_line("sc").view());  // its watchdog bit while nothing came
+}
+
+std::size_t OdriveDriver::frame_size(std::string_view bytes) const noexcept {
+  return ends_lines_ ? SerialDriver::frame_size(bytes) : odrive_unended_answer_size(bytes);
+}
+
+void OdriveDriver::read_firmware() {
+  const SerialFrame line = odrive_line(fmt::format("r axis{}.{}", axis_, error_name_));
+  const auto heard = [](std::string_view frame) -> std::optional<std::string> {
+    const auto answer = odrive_answer(frame);
+    return answer ? std::optional(std::string(*answer)) : std::nullopt;
+  };
+  std::optional<std::string> text;
+  for (int i = 0; i < 4 && !text; ++i) {
+    ends_lines_ = i % 2 == 0;
+    text = ask(line.view(), heard);
+  }
+  if (!text) ends_lines_ = true;
+  if (!text || as_number(*text)) return;
+  error_name_ = error_of_0_6;
+  torque_limit_name_ = "config.torque_soft_max";
+  watchdog_expired_ = watchdog_expired_of_0_6;
 }
 
 std::string OdriveDriver::said_of(std::string_view name) {
@@ -73,10 +106,25 @@ std::string OdriveDriver::said_of(std::string_view name) {
   });
 }
 
+std::optional<double> OdriveDriver::first_number_of(std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    if (const auto number = as_number(said_of(name))) return number;
+  }
+  return std::nullopt;
+}
+
+void OdriveDriver::keep_settings() {
+  if (!settings_.empty()) return;
+  for (const std::string_view name : {"config.enable_watchdog", "config.watchdog_timeout",
+                                      "controller.config.control_mode", "controller.config.input_mode"}) {
+    settings_.emplace_back(name, property(name));
+  }
+}
+
 void OdriveDriver::read_limits() {
-  const auto torque = as_number(said_of("motor.config.torque_lim"));
-  const auto current = as_number(said_of("motor.config.current_lim"));
-  const auto constant = as_number(said_of("motor.config.torque_constant"));
+  const auto torque = first_number_of({torque_limit_name_});
+  const auto current = first_number_of({"motor.config.current_lim", "config.motor.current_soft_max"});
+  const auto constant = first_number_of({"motor.config.torque_constant", "config.motor.torque_constant"});
   double least = torque.value_or(std::numeric_limits<double>::infinity());
   if (current && constant) least = std::min(least, *current * *constant);
   if (std::isfinite(least)) set_torque_limit(least);
@@ -85,7 +133,8 @@ void OdriveDriver::read_limits() {
 std::string OdriveDriver::property(std::string_view name) {
   const std::string text = said_of(name);
   if (!as_number(text)) {
-    throw DriverFailed(fmt::format("the drive answers \"{}\" to axis{}.{}; is its firmware 0.5?", text, axis_, name));
+    throw DriverFailed(
+        fmt::format("the drive answers \"{}\" to axis{}.{}; is its firmware 0.5 or 0.6?", text, axis_, name));
   }
   return text;
 }
@@ -94,7 +143,7 @@ void OdriveDriver::set_property(std::string_view name, std::string_view value) {
   tell(odrive_line(fmt::format("w axis{}.{} {}", axis_, name, value)).view());
 }
 
-long OdriveDriver::error() { return std::strtol(property("error").c_str(), nullptr, 10); }
+long OdriveDriver::error() { return std::strtol(property(error_name_).c_str(), nullptr, 10); }
 
 void OdriveDriver::close_damper(const Device& device, std::optional<double> force_limit) {
   set_damper(device, DriveFirmware::odrive, force_limit);
@@ -106,14 +155,16 @@ void OdriveDriver::tell_damper() {
     set_property(name, fmt::format("{:.9g}", value));
     require_taken(name, value, property(name));
   };
-  if (damper()->torque_limit) set("motor.config.torque_lim", *damper()->torque_limit);
+  if (damper()->torque_limit) set(torque_limit_name_, *damper()->torque_limit);
   for (const DriveNumber& each : damper()->numbers) {
     set(std::string_view(each.name).substr(each.name.find('.') + 1), each.value);
   }
 }
 
 void OdriveDriver::request_closed_loop() {
-  tell(odrive_line("sc").view());  // the watchdog's own error, from the silence before
+  // The watchdog's own error, from the silence before; 0.5.1 has no `sc`, and 0.6 does not let its errors be written.
+  tell(odrive_line("sc").view());
+  if (error_name_ != error_of_0_6) set_property(error_name_, "0");
   set_property("controller.config.control_mode", damper() ? velocity_control : torque_control);
   set_property("controller.config.input_mode", passthrough);
   set_property("config.watchdog_timeout", fmt::format("{}", watchdog_));
@@ -123,6 +174,7 @@ void OdriveDriver::request_closed_loop() {
 }
 
 void OdriveDriver::arm() {
+  keep_settings();
   if (damper()) tell_damper();
   const std::int64_t until = clock_now() + arming_patience;
   request_closed_loop();
@@ -134,7 +186,7 @@ void OdriveDriver::arm() {
                       "encoder first (odrivetool, dump_errors)",
                       axis_, found));
     }
-    if ((found & watchdog_expired) != 0) request_closed_loop();  // it bit while an answer was under way
+    if ((found & watchdog_expired_) != 0) request_closed_loop();  // it bit while an answer was under way
     tell(torque_frame(0.0).view());
     sleep_until(clock_now() + between_looks);
   }
@@ -147,7 +199,7 @@ std::optional<bool> OdriveDriver::proves_watchdog() {
   for (int i = 0; i < proofs; ++i) {
     arm();
     sleep_until(clock_now() + std::llround(1e9 * watchdog_) + grace);
-    const bool has_let_go = property("current_state") == idle && (error() & watchdog_expired) != 0;
+    const bool has_let_go = property("current_state") == idle && (error() & watchdog_expired_) != 0;
     send_idle();
     if (has_let_go) return true;
   }
@@ -171,7 +223,7 @@ SerialDriver::Heard OdriveDriver::hear(std::string_view frame) noexcept {
 
 std::string OdriveDriver::trouble_text(Trouble /*trouble*/, long code) const {
   return fmt::format("axis {} stands on error {:#x}{}; find its cause with odrivetool (dump_errors), then clear it",
-                     axis_, code, (code & watchdog_expired) != 0 ? ", its watchdog's among them" : "");
+                     axis_, code, (code & watchdog_expired_) != 0 ? ", its watchdog's among them" : "");
 }
 
 SerialFrame OdriveDriver::question() noexcept {
@@ -180,7 +232,7 @@ SerialFrame OdriveDriver::question() noexcept {
   SerialFrame lines = odrive_line(feedback.view());
   if (++asked_ % cycles_between_errors == 0) {
     SerialFrame error;
-    error.print("r axis{}.error", axis_);
+    error.print("r axis{}.{}", axis_, error_name_);
     lines.add(odrive_line(error.view()).view());
   }
   return lines;

@@ -1,5 +1,6 @@
 #include "rig/odrive_protocol.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 
@@ -32,8 +33,27 @@ SerialFrame odrive_damped_torque(int axis, double torque) noexcept {
   return command;
 }
 
+std::size_t odrive_unended_answer_size(std::string_view bytes) noexcept {
+  constexpr std::size_t most_digits = 3;
+  const std::size_t begin = std::min(bytes.find_first_not_of("\r\n"), bytes.size());
+  const std::size_t end = bytes.find('\n', begin);
+  const std::size_t star = bytes.find('*', begin);
+  if (star == bytes.npos || end < star) return end == bytes.npos ? 0 : end + 1;
+  const unsigned sum = checksum_of(bytes.substr(begin, star - begin));
+  unsigned stated = 0;
+  for (std::size_t i = star + 1; i <= star + most_digits; ++i) {
+    if (i == bytes.size()) return 0;
+    if (bytes[i] < '0' || bytes[i] > '9') return i;  // of no checksum of its own: broken
+    stated = 10 * stated + static_cast<unsigned>(bytes[i] - '0');
+    if (stated == sum) return i + 1;
+  }
+  return star + 1 + most_digits;
+}
+
 std::optional<std::string_view> odrive_answer(std::string_view line) noexcept {
-  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+  const auto is_end = [](char c) { return c == '\n' || c == '\r'; };
+  while (!line.empty() && is_end(line.back())) line.remove_suffix(1);
+  while (!line.empty() && is_end(line.front())) line.remove_prefix(1);
   const std::size_t star = line.rfind('*');
   if (star == std::string_view::npos) return std::nullopt;
   unsigned stated = 0;

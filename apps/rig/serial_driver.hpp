@@ -99,6 +99,7 @@ class SerialDriver : public Driver {
   void add_force_bytes(double bytes);
 
   [[nodiscard]] SerialPort& port() noexcept { return port_; }
+  [[nodiscard]] double sampling_period() const noexcept { return sampling_period_; }
   [[nodiscard]] const MotorDrive& drive() const noexcept { return drive_; }
   /// Of the motor, N m: what the drive's own limits leave.
   void set_torque_limit(double torque) noexcept;

@@ -1,7 +1,9 @@
 #include "rig/simplefoc_driver.hpp"
 
+#include <cmath>
 #include <numbers>
 
+#include "rig/real_time.hpp"
 #include "rig/simplefoc_protocol.hpp"
 #include "zwidth/error.hpp"
 
@@ -10,7 +12,8 @@ namespace {
 
 constexpr int default_baud = 115200;
 constexpr int idle_frames = 2;
-constexpr int tries_while_booting = 8;  // many boards start anew when their port is opened: 2 s
+constexpr double silences[] = {0.1, 0.2, 0.5};  // s, in which a sketch's own timeout may disable the motor
+constexpr int tries_while_booting = 8;          // many boards start anew when their port is opened: 2 s
 constexpr std::string_view machine_readable = "@3\n";
 constexpr std::string_view six_decimals = "#6\n";
 constexpr std::string_view get_angle = "MG6";
@@ -115,6 +118,20 @@ void SimplefocDriver::arm() {
     throw DriverFailed(fmt::format("motor {} does not enable; does initFOC() of the sketch succeed?", motor_));
   }
   forget_input();
+}
+
+std::optional<bool> SimplefocDriver::proves_watchdog() {
+  for (const double silence : silences) {
+    if (silence < cycles_within_watchdog * sampling_period()) continue;
+    arm();
+    sleep_until(clock_now() + std::llround(1e9 * silence));
+    const bool has_let_go = setting("E", "E") == "0";
+    send_idle();
+    if (!has_let_go) continue;
+    set_watchdog(silence);
+    return true;
+  }
+  return false;
 }
 
 SerialDriver::Heard SimplefocDriver::hear(std::string_view frame) noexcept {

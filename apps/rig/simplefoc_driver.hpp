@@ -10,8 +10,8 @@ namespace zwidth::rig {
 /// A motor of SimpleFOC (2.3 and 2.4) behind its Commander: `MMG6` for the angle, `M` for a target of torque.
 ///
 /// The unit of a target is the sketch's: amperes, or volts of the motor. A damper is the velocity loop's P alone: a target
-/// is the velocity then, P times which is the torque. There is no watchdog, and no checksum: if this
-/// program dies, the torque stays.
+/// is the velocity then, P times which is the torque. There is no checksum, and no watchdog but one of the sketch, which disables
+/// the motor when no command comes: where there is none and this program dies, the torque stays.
 class SimplefocDriver : public SerialDriver {
  public:
   /// Throws DriverFailed where the drive does not answer, or controls its torque in a way that is not known; Error
@@ -20,7 +20,8 @@ class SimplefocDriver : public SerialDriver {
 
   void close_damper(const Device& device, std::optional<double> force_limit) override;
   void arm() override;
-  [[nodiscard]] std::optional<bool> proves_watchdog() override { return false; }
+  /// By silences of 0.1, 0.2 and 0.5 s: the first after which the motor is disabled counts as its time.
+  [[nodiscard]] std::optional<bool> proves_watchdog() override;
 
  protected:
   [[nodiscard]] Heard hear(std::string_view frame) noexcept override;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -15,10 +16,31 @@
 
 namespace zwidth::test {
 
-/// ODrive 0.5's ASCII protocol on axis 0, as Firmware/communication/ascii_protocol.cpp of fw-v0.5.6 has it: lines end with
-/// \r, \n or !; a wrong checksum makes a line be ignored, a right one asks for one; `c` feeds the watchdog, `f` does not.
+/// ODrive's ASCII protocol on axis 0, as Firmware/communication/ascii_protocol.cpp of fw-v0.5.1 to fw-v0.5.6 has it: lines end with
+/// \r, \n or !; a wrong checksum makes a line be ignored, a right one asks for one; `c` feeds the watchdog, `f` does not. Enabled, the
+/// watchdog runs in every state. 0.6 by its documentation, for its sources are not public.
 class OdriveFirmware : public Firmware {
  public:
+  enum class Version {
+    v0_5_1,  // no `sc`: errors are cleared by writing them
+    v0_5_2,  // an answer with a checksum has no end of its line
+    v0_5_6,
+    v0_6  // errors have other names and bits, and cannot be written
+  };
+
+  explicit OdriveFirmware(Version version = Version::v0_5_6) : version_(version) {
+    if (version_ != Version::v0_6) return;
+    const std::map<std::string, double> of_0_6{{"controller.config.vel_gain", 1.0 / 6.0},
+                                               {"controller.config.vel_integrator_gain", 1.0 / 3.0},
+                                               {"config.torque_soft_max", 1e9},
+                                               {"config.motor.current_soft_max", 10.0},
+                                               {"config.motor.torque_constant", 0.04}};
+    numbers_ = of_0_6;
+  }
+
+  /// For any thread.
+  [[nodiscard]] bool has_watchdog() const { return watchdog_is_enabled_; }
+  [[nodiscard]] bool has_error() const { return error_ != 0; }
   [[nodiscard]] int baud() const override { return 115200; }
 
   [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
@@ -39,8 +61,9 @@ class OdriveFirmware : public Firmware {
   }
 
   void tick(Clock::time_point now, bool is_enabled, EmulatedMotor& motor) override {
-    if (!is_enabled || !watchdog_is_enabled_ || state_ != closed_loop || now - fed_ <= timeout_) return;
-    error_ |= watchdog_expired;
+    if (!is_enabled || !watchdog_is_enabled_ || now - fed_ <= timeout_) return;
+    error_ |= watchdog_expired();
+    if (state_ != closed_loop) return;
     state_ = idle;
     motor.let_go();
   }
@@ -56,8 +79,10 @@ class OdriveFirmware : public Firmware {
   static constexpr std::size_t longest_line = 256;
   static constexpr int idle = 1;
   static constexpr int closed_loop = 8;
-  static constexpr long watchdog_expired = 0x800;
   static constexpr double supply_voltage = 24.087744;
+
+  [[nodiscard]] long watchdog_expired() const { return version_ == Version::v0_6 ? 0x1000000 : 0x800; }
+  [[nodiscard]] std::string error_name() const { return version_ == Version::v0_6 ? "active_errors" : "error"; }
 
   void process(std::string line, EmulatedMotor& motor, std::vector<std::string>& answers) {
     if (const auto comment = line.find(';'); comment != std::string::npos) line.resize(comment);
@@ -77,7 +102,7 @@ class OdriveFirmware : public Firmware {
       for (const char c : text) sum ^= static_cast<unsigned char>(c);
       text += fmt::format("*{}", sum);
     }
-    answers.push_back(text + "\r\n");
+    answers.push_back(text + (has_checksum && version_ == Version::v0_5_2 ? "" : "\r\n"));
   }
 
   std::string answer(const std::string& line, EmulatedMotor& motor) {
@@ -111,7 +136,13 @@ class OdriveFirmware : public Firmware {
         if (axis > 1) return fmt::format("invalid motor {}", axis);
         return fmt::format("{:.6f} {:.6f}", static_cast<float>(motor.turns()), 0.0F);
       case 'r': {
-        if (line == "r axis0.error") return fmt::format("{}", error_);
+        if (line == "r axis0." + error_name()) return fmt::format("{}", error_.load());
+        if (line == "r axis0.config.enable_watchdog") return watchdog_is_enabled_ ? "1" : "0";
+        if (line == "r axis0.config.watchdog_timeout") {
+          return fmt::format("{:.6f}", std::chrono::duration<double>(timeout_).count());
+        }
+        if (line == "r axis0.controller.config.control_mode") return fmt::format("{}", control_mode_);
+        if (line == "r axis0.controller.config.input_mode") return fmt::format("{}", input_mode_);
         if (line == "r axis0.current_state") return fmt::format("{}", state_);
         if (line == "r vbus_voltage") return fmt::format("{:.6f}", supply_voltage);
         if (const auto found = numbers_.find(line.substr(std::min(line.size(), std::size_t{8})));
@@ -123,7 +154,7 @@ class OdriveFirmware : public Firmware {
       case 'w':
         return write(line, motor);
       case 's':
-        if (line == "sc") error_ = 0;
+        if (line == "sc" && version_ != Version::v0_5_1) error_ = 0;
         return "";
       default:
         return "unknown command";
@@ -145,7 +176,13 @@ class OdriveFirmware : public Firmware {
     } else if (const auto found = numbers_.find(name.substr(std::min(name.size(), std::size_t{8})));
                name.starts_with("w axis0.") && found != numbers_.end()) {
       found->second = value;
-    } else if (name != "w axis0.controller.config.control_mode" && name != "w axis0.controller.config.input_mode") {
+    } else if (name == "w axis0.controller.config.control_mode") {
+      control_mode_ = static_cast<int>(value);
+    } else if (name == "w axis0.controller.config.input_mode") {
+      input_mode_ = static_cast<int>(value);
+    } else if (name == "w axis0.error" && version_ != Version::v0_6) {
+      error_ = static_cast<long>(value);
+    } else {
       return "invalid property";
     }
     return "";
@@ -156,11 +193,14 @@ class OdriveFirmware : public Firmware {
                                          {"motor.config.torque_lim", 1e9},
                                          {"motor.config.current_lim", 10.0},
                                          {"motor.config.torque_constant", 0.04}};
+  Version version_;
+  int control_mode_ = 3;  // of positions, its default
+  int input_mode_ = 1;
   std::string line_;
   bool is_whole_ = true;
-  long error_ = 0;
+  std::atomic<long> error_ = 0;
   int state_ = idle;
-  bool watchdog_is_enabled_ = false;
+  std::atomic<bool> watchdog_is_enabled_ = false;
   Clock::duration timeout_{};
   Clock::time_point fed_;
 };

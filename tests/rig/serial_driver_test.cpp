@@ -248,6 +248,21 @@ TEST(SimplefocDriver, TakesTheUnitOfTheSketch) {
   EXPECT_THROW(force_for_3("thought", 0.0), DriverFailed);
 }
 
+// A sketch may disable the motor when nothing comes: then it needs no --no-watchdog.
+TEST(SimplefocDriver, ProvesTheTimeoutOfASketch) {
+  const Device device = belt_device();
+  for (const auto& [timeout, proved] : {std::pair{80, 0.1}, {150, 0.2}, {2000, 0.0}, {0, 0.0}}) {
+    PtyEmulator emulator(std::make_unique<test::SimplefocFirmware>("foc curr", 0.0, std::chrono::milliseconds(timeout)),
+                         device);
+    SimplefocDriver driver({emulator.path(), *device.parameters().driver, device.loop().sampling_period, true});
+    EXPECT_EQ(driver.proves_watchdog(), proved > 0.0) << timeout;
+    EXPECT_EQ(driver.facts().watchdog.value_or(0.0), proved) << timeout;
+    EXPECT_EQ(emulator.motor().nonzero_forces(), 0);
+    driver.arm();
+    EXPECT_TRUE(driver.measure());
+  }
+}
+
 // It takes a checksum for a flag that it does not know, and adds flags of its own.
 TEST(MoteusDriver, BehindAnAdapterThatKnowsNoChecksums) {
   const Device device = belt_device();

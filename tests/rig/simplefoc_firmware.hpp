@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <numbers>
@@ -15,16 +16,19 @@
 namespace zwidth::test {
 
 /// A sketch with motor "M" in SimpleFOC's Commander, as src/communication/Commander.cpp of v2.3.4 has it: a buffer of 20
-/// characters, which starts afresh where a line is longer; what it answers by its verbosity and decimals. No watchdog.
+/// characters, which starts afresh where a line is longer; what it answers by its verbosity and decimals. No watchdog, unless
+/// the sketch has a timeout.
 class SimplefocFirmware : public Firmware {
  public:
-  explicit SimplefocFirmware(std::string torque = "foc curr", double phase_resistance = 0.0)
-      : torque_(std::move(torque)), phase_resistance_(phase_resistance) {}
+  explicit SimplefocFirmware(std::string torque = "foc curr", double phase_resistance = 0.0,
+                             std::chrono::milliseconds timeout = {})
+      : torque_(std::move(torque)), phase_resistance_(phase_resistance), timeout_(timeout) {}
 
   [[nodiscard]] int baud() const override { return 115200; }
 
   [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
     std::vector<std::string> answers;
+    heard_ = Clock::now();
     for (const char c : bytes) {
       received_.at(count_++) = c;
       if (c == '\n' || c == '\r') {
@@ -40,7 +44,9 @@ class SimplefocFirmware : public Firmware {
     return answers;
   }
 
-  void tick(Clock::time_point /*now*/, bool /*is_enabled*/, EmulatedMotor& /*motor*/) override {}
+  void tick(Clock::time_point now, bool is_enabled, EmulatedMotor& motor) override {
+    if (is_enabled && is_enabled_ && timeout_.count() > 0 && now - heard_ > timeout_) fail(motor);
+  }
   void fail(EmulatedMotor& motor) override {
     is_enabled_ = false;
     motor.let_go();
@@ -122,6 +128,8 @@ class SimplefocFirmware : public Firmware {
 
   std::string torque_;
   double phase_resistance_;
+  std::chrono::milliseconds timeout_;  // 0: none
+  Clock::time_point heard_ = Clock::now();
   std::array<char, 20> received_{};
   std::size_t count_ = 0;
   bool is_for_machines_ = false;
