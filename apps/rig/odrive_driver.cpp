@@ -127,6 +127,14 @@ void OdriveDriver::read_limits() {
   const auto constant = first_number_of({"motor.config.torque_constant", "config.motor.torque_constant"});
   double least = torque.value_or(std::numeric_limits<double>::infinity());
   if (current && constant) least = std::min(least, *current * *constant);
+  // In torque control the velocity limit leaves (vel_limit - velocity) vel_gain (limitVel() of controller.cpp).
+  const auto limits_velocity = first_number_of(
+      {"controller.config.enable_torque_mode_vel_limit", "controller.config.enable_current_mode_vel_limit"});
+  if (limits_velocity.value_or(0.0) != 0.0) {
+    const auto velocity = first_number_of({"controller.config.vel_limit"});
+    const auto gain = first_number_of({"controller.config.vel_gain"});
+    if (velocity && gain) least = std::min(least, *velocity * *gain);
+  }
   if (std::isfinite(least)) set_torque_limit(least);
 }
 

@@ -38,6 +38,8 @@ class OdriveFirmware : public Firmware {
     numbers_ = of_0_6;
   }
 
+  /// Before it runs. The velocity limit of torque control, on by default in the firmware, is off here, and does nothing.
+  void set(const std::string& name, double value) { numbers_[name] = value; }
   /// For any thread.
   [[nodiscard]] bool has_watchdog() const { return watchdog_is_enabled_; }
   [[nodiscard]] bool has_error() const { return error_ != 0; }
@@ -189,6 +191,8 @@ class OdriveFirmware : public Firmware {
   }
 
   std::map<std::string, double> numbers_{{"controller.config.vel_gain", 1.0 / 6.0},  // its defaults
+                                         {"controller.config.vel_limit", 2.0},
+                                         {"controller.config.enable_torque_mode_vel_limit", 0.0},
                                          {"controller.config.vel_integrator_gain", 1.0 / 3.0},
                                          {"motor.config.torque_lim", 1e9},
                                          {"motor.config.current_lim", 10.0},

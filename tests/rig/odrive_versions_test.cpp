@@ -69,6 +69,17 @@ TEST_P(OdriveVersions, SayThatTheyFailed) {
   EXPECT_FALSE(driver.trouble().empty());
 }
 
+// (vel_limit - 0) vel_gain = 0.333 N m, less than 10 A allow.
+TEST(OdriveLimits, TheVelocityLimitOfTorqueControlBoundsTheTorque) {
+  const Device device = test::belt_device();
+  auto firmware = std::make_unique<OdriveFirmware>();
+  firmware->set("controller.config.enable_torque_mode_vel_limit", 1.0);
+  PtyEmulator emulator(std::move(firmware), device);
+  const MotorDrive& motor = *device.parameters().driver;
+  const OdriveDriver driver({emulator.path(), motor, device.loop().sampling_period, true});
+  EXPECT_NEAR(driver.facts().force_limit.value(), 2.0 / 6.0 / std::abs(motor.torque_per_force()), 1e-5);
+}
+
 INSTANTIATE_TEST_SUITE_P(From, OdriveVersions,
                          testing::Values(Version::v0_5_1, Version::v0_5_2, Version::v0_5_6, Version::v0_6),
                          [](const auto& version) { return name_of(version.param); });
