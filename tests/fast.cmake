@@ -95,6 +95,8 @@ set(slow
   "^LimitGrowth\\.(WhatTheEncoder|NoneOf)"
   "^DelayOfDrive\\."
   "^(Drive/OnDrive|Drive/AnswersOfDrive|Drive/SignOfDrive|Drive/FrictionOnDrive|Drive/LimitsOnDrive|Serial/DriveFault)\\..*/(moteus|vesc|simplefoc|serial)$"
+  "^Can/(OnDrive|AnswersOfDrive|SignOfDrive|FrictionOnDrive|LimitsOnDrive|DamperOfDrive|DriveFault)\\."
+  "^(OdriveCanDriver|CanAdapters|DelayOfBus)\\."
   "^(AvrPaddle|FirmwareBuild)\\."
   "^Bench/OnDevice\\..*/([3-9]|1[0-9])$"
   "^Bench/IdentifiedDevice\\.")

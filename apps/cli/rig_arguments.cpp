@@ -105,9 +105,12 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
       ->check(CLI::IsMember({"check", "measure", "identify", "relay", "wall", "limit"}));
   add_device_arguments(command, arguments.devices, FileCount::one);
   command
-      .add_option("--driver", arguments.driver,
-                  "simulated, udp:HOST:PORT, or a serial line: odrive:PORT,\nsimplefoc:PORT, moteus:PORT, vesc:PORT, "
-                  "or serial:PORT with a\nsketch around firmware/zwidth_serial.h")
+      .add_option(
+          "--driver", arguments.driver,
+          "simulated, udp:HOST:PORT, or a serial line: odrive:PORT,\nsimplefoc:PORT, moteus:PORT, vesc:PORT, "
+          "or serial:PORT with a\nsketch around firmware/zwidth_serial.h; or a CAN bus behind a serial\nport with "
+          "an SLCAN adapter or fdcanusb, or a SocketCAN interface:\nodrive-can:ADAPTER, moteus-can:ADAPTER, "
+          "vesc-can:ADAPTER")
       ->type_name("DRIVER")
       ->capture_default_str();
   command.add_flag("--real-time", arguments.real_time, "Keep the clock with a simulated device too");

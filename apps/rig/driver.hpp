@@ -25,6 +25,8 @@ struct DriverFacts {
   double bytes_per_cycle = 0.0;            ///< on a serial line: question, answer and force
   double force_bytes = 0.0;                ///< of them the force's, which leave after command() has returned
   std::optional<double> byte_rate = {};    ///< bytes/s that the line carries; absent: no serial line
+  double bus_time_per_cycle = 0.0;         ///< s, that the same takes on a CAN bus behind the line
+  double force_bus_time = 0.0;             ///< s, of it the force's
   std::optional<double> force_limit = {};  ///< N or N m, of the drive itself; absent: it tells none
   bool estimates_velocity = false;         ///< its damper's velocity is that of an estimator which no analysis knows
 };

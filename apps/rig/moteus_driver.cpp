@@ -1,7 +1,10 @@
 #include "rig/moteus_driver.hpp"
 
+#include <memory>
 #include <string>
 
+#include "rig/can_link.hpp"
+#include "rig/can_text.hpp"
 #include "rig/real_time.hpp"
 
 namespace zwidth::rig {
@@ -15,40 +18,69 @@ constexpr std::int64_t arming_patience = 2'000'000'000;  // a busy machine hands
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 2;
 
+constexpr double can_bitrate = 1e6;
+constexpr double can_data_bitrate = 5e6;
+constexpr CanFrameShape can_answer{12, false, false, true};  // mode and position, with their padding
+
 // "can send 8001 11001d01 *XX", "OK *XX", "rcv 00000100 21000a2d01xxxxxxxx *XX", a torque and its "OK *XX", with ends.
 constexpr double bytes_per_cycle = 27 + 8 + 37 + 57 + 8;
-
 constexpr double force_bytes = 57;
 constexpr double bytes_of_damper = 32;  // of a torque beside it: no position, velocity 0, and a limit
 
+constexpr int largest_id = 127;
 constexpr int fault_mode = 1;
 constexpr int position_mode = 10;
 constexpr int timeout_mode = 11;
 
 /// What the port alone would not tell, before it is opened.
 const std::string& checked_port(const SerialLink& link) {
-  if (link.drive.id && *link.drive.id < 1) throw DriverFailed("driver.id is 0; a moteus has 1 to 127");
+  const int id = link.drive.id.value_or(1);
+  if (id < 1 || id > largest_id) throw DriverFailed(fmt::format("driver.id is {}; a moteus has 1 to 127", id));
   return link.port;
+}
+
+CanBitRates rates_of(const SerialLink& link) { return can_rates(link, can_bitrate, can_data_bitrate); }
+
+/// Of what a line has an fdcanusb send.
+CanFrameShape shape_of(const SerialFrame& line) { return fdcanusb_order(line.view()).value_or(CanFrame{}).shape(); }
+
+DriverFacts facts_of(const SerialLink& link) {
+  const int id = link.drive.id.value_or(1);
+  if (link.is_can) {
+    return on_can_bus(
+        {.name = "moteus-can:" + checked_port(link), .watchdog = watchdog, .estimates_velocity = true}, link,
+        {{shape_of(moteus_question(id)), can_answer}, {shape_of(moteus_torque(id, 0.0, watchdog))}, rates_of(link)});
+  }
+  return on_serial_line({.name = "moteus:" + checked_port(link),
+                         .watchdog = watchdog,
+                         .bytes_per_cycle = bytes_per_cycle,
+                         .force_bytes = force_bytes,
+                         .estimates_velocity = true},
+                        link, default_baud);
+}
+
+OpenPort port_of(const SerialLink& link) {
+  if (!link.is_can) return serial_port_of(link, default_baud);
+  return [&link] { return std::make_unique<CanLinePort>(bus_of(link, rates_of(link))); };
 }
 
 }  // namespace
 
 MoteusDriver::MoteusDriver(const SerialLink& link)
-    : SerialDriver({.name = "moteus:" + checked_port(link),
-                    .watchdog = watchdog,
-                    .bytes_per_cycle = bytes_per_cycle,
-                    .force_bytes = force_bytes,
-                    .estimates_velocity = true},
-                   link, default_baud),
-      id_(link.drive.id.value_or(1)) {
-  // An fdcanusb takes the checksum for a flag that it does not know, and says so.
-  const auto refused = ask(
-      line(moteus_question(id_)).view(),
-      [](std::string_view frame) -> std::optional<std::string> {
-        return frame.starts_with("ERR") ? std::optional<std::string>(frame) : std::nullopt;
-      },
-      refusal_patience);
-  if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
+    : SerialDriver(facts_of(link), link, port_of(link)),
+      id_(link.drive.id.value_or(1)),
+      can_rates_(link.is_can ? std::optional(rates_of(link)) : std::nullopt),
+      has_checksums_(!link.is_can) {
+  if (has_checksums_) {
+    // An fdcanusb takes the checksum for a flag that it does not know, and says so.
+    const auto refused = ask(
+        line(moteus_question(id_)).view(),
+        [](std::string_view frame) -> std::optional<std::string> {
+          return frame.starts_with("ERR") ? std::optional<std::string>(frame) : std::nullopt;
+        },
+        refusal_patience);
+    if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
+  }
   if (const int found = mode(); found == fault_mode) throw DriverFailed(trouble_text(Trouble::fault, found));
 }
 
@@ -64,7 +96,11 @@ int MoteusDriver::mode() {
 
 void MoteusDriver::close_damper(const Device& device, std::optional<double> force_limit) {
   set_damper(device, DriveFirmware::moteus, force_limit);
-  add_force_bytes(bytes_of_damper);
+  if (!can_rates_) return add_force_bytes(bytes_of_damper);
+  const CanFrameShape bare = shape_of(moteus_torque(id_, 0.0, watchdog));
+  const CanFrameShape damped = shape_of(moteus_damped_torque(id_, 0.0, damper()->torque_limit, watchdog));
+  add_force_bytes(2.0 * (damped.bytes - bare.bytes),
+                  can_frame_time(damped, *can_rates_) - can_frame_time(bare, *can_rates_));
 }
 
 std::string MoteusDriver::said_to(const std::string& text) {

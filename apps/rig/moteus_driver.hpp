@@ -1,12 +1,16 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "rig/moteus_protocol.hpp"
 #include "rig/serial_driver.hpp"
+#include "zwidth/rig/can_frame_time.hpp"
 
 namespace zwidth::rig {
 
 /// A moteus controller over the lines of fdcanusb: on its own UART, with checksums, or behind an fdcanusb, which has none
-/// of its own (USB and CAN-FD do).
+/// of its own (USB and CAN-FD do); or on a CAN-FD bus behind any adapter, as if an fdcanusb were there.
 ///
 /// Torque in position mode without gains, or with that of velocity alone, which is its damper. The watchdog of each command, 100 ms, ends in a mode of which only a stop leads
 /// out: mode and position are read together, and a position in any other mode than that of torque is none, until it is disarmed.
@@ -36,7 +40,8 @@ class MoteusDriver : public SerialDriver {
   void tell_damper();
 
   int id_;
-  bool has_checksums_ = true;
+  std::optional<CanBitRates> can_rates_;  // absent: a serial line
+  bool has_checksums_;
 };
 
 }  // namespace zwidth::rig

@@ -8,8 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "rig/can_bus.hpp"
 #include "rig/microcontroller_driver.hpp"
 #include "rig/moteus_driver.hpp"
+#include "rig/odrive_can_driver.hpp"
 #include "rig/odrive_driver.hpp"
 #include "rig/simplefoc_driver.hpp"
 #include "rig/simulated_driver.hpp"
@@ -20,7 +22,7 @@
 namespace zwidth::rig {
 namespace {
 
-template <typename SerialKind>
+template <typename SerialKind, bool is_can = false>
 std::unique_ptr<Driver> open_serial(const std::string& port, const Device& device) {
   if (!device.parameters().driver) {
     throw Error(
@@ -28,8 +30,10 @@ std::unique_ptr<Driver> open_serial(const std::string& port, const Device& devic
         "driver: is missing: what the motor's turns and torque are of the device; add [driver], empty where the "
         "motor turns with the device");
   }
-  return std::make_unique<SerialKind>(
-      SerialLink{.port = port, .drive = *device.parameters().driver, .sampling_period = device.loop().sampling_period});
+  return std::make_unique<SerialKind>(SerialLink{.port = port,
+                                                 .drive = *device.parameters().driver,
+                                                 .sampling_period = device.loop().sampling_period,
+                                                 .is_can = is_can});
 }
 
 std::unique_ptr<Driver> open_microcontroller(const std::string& port, const Device& device) {
@@ -45,6 +49,11 @@ std::unique_ptr<Driver> open_udp(const std::string& address, const Device& devic
 std::optional<std::string> find_port_problem(std::string_view port) {
   if (!port.empty()) return std::nullopt;
   return "names no port; a serial port, such as /dev/ttyUSB0";
+}
+
+std::optional<std::string> find_adapter_problem(std::string_view name) {
+  if (can_adapter(name)) return std::nullopt;
+  return fmt::format("names no port or interface; {}", can_adapter_names);
 }
 
 std::optional<std::string> find_udp_problem(std::string_view address) {
@@ -63,6 +72,9 @@ constexpr std::array kinds{Kind{"odrive:", find_port_problem, open_serial<Odrive
                            Kind{"simplefoc:", find_port_problem, open_serial<SimplefocDriver>, true},
                            Kind{"moteus:", find_port_problem, open_serial<MoteusDriver>, true},
                            Kind{"vesc:", find_port_problem, open_serial<VescDriver>},
+                           Kind{"odrive-can:", find_adapter_problem, open_serial<OdriveCanDriver, true>},
+                           Kind{"moteus-can:", find_adapter_problem, open_serial<MoteusDriver, true>, true},
+                           Kind{"vesc-can:", find_adapter_problem, open_serial<VescDriver, true>},
                            Kind{"serial:", find_port_problem, open_microcontroller},
                            Kind{"udp:", find_udp_problem, open_udp}};
 

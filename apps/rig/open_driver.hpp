@@ -19,7 +19,8 @@ struct SimulatedDriverOptions {
 
 /// What may stand for a driver.
 inline constexpr std::string_view driver_names =
-    "simulated, odrive:PORT, simplefoc:PORT, moteus:PORT, vesc:PORT, serial:PORT, udp:HOST:PORT";
+    "simulated, odrive:PORT, simplefoc:PORT, moteus:PORT, vesc:PORT, serial:PORT, udp:HOST:PORT, odrive-can:ADAPTER, "
+    "moteus-can:ADAPTER, vesc-can:ADAPTER";
 
 /// What is wrong with a name for a driver, and what is allowed, as far as the name alone tells.
 [[nodiscard]] std::optional<std::string> find_driver_name_problem(std::string_view name);

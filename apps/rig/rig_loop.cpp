@@ -12,9 +12,10 @@ namespace {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
-/// ns, of a force's bytes: the system takes them at once, the line one after the other.
+/// ns, of a force's bytes and frames: the system takes them at once, the line and the bus one after the other.
 std::int64_t time_on_wire(const DriverFacts& facts) {
-  return facts.byte_rate ? std::llround(1e9 * facts.force_bytes / *facts.byte_rate) : 0;
+  const double line = facts.byte_rate ? facts.force_bytes / *facts.byte_rate : 0.0;
+  return std::llround(1e9 * (line + facts.force_bus_time));
 }
 
 }  // namespace

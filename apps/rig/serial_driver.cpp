@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rig/real_time.hpp"
+#include "rig/serial_port.hpp"
 #include "zwidth/rig/force_guard.hpp"
 #include "zwidth/rig/serial_rate.hpp"
 
@@ -21,12 +22,9 @@ constexpr double bits_of_byte = 10.0;  // with start and stop
 int baud_of(const SerialLink& link, int otherwise) { return link.drive.baud.value_or(otherwise); }
 
 /// Refuses what cannot work before a single byte goes out.
-DriverFacts checked(DriverFacts facts, const SerialLink& link, int baud) {
+DriverFacts checked(DriverFacts facts, const SerialLink& link) {
   facts.lock_step = link.lock_step;
-  facts.byte_rate = serial_rate(1.0, baud);
-  if (link.lock_step) return facts;
-  require_fast_line(facts.bytes_per_cycle, static_cast<double>(baud), link.sampling_period);
-  if (facts.watchdog && *facts.watchdog < cycles_within_watchdog * link.sampling_period) {
+  if (!link.lock_step && facts.watchdog && *facts.watchdog < cycles_within_watchdog * link.sampling_period) {
     throw DriverFailed(
         fmt::format("the firmware lets go after {} s without a force, the loop sends one every {} s; "
                     "set loop.sampling_period to {} s or less",
@@ -43,11 +41,23 @@ void require_fast_line(double bytes_per_cycle, double baud, double sampling_peri
   }
 }
 
-SerialDriver::SerialDriver(DriverFacts facts, const SerialLink& link, int default_baud)
-    : facts_(checked(std::move(facts), link, baud_of(link, default_baud))),
+DriverFacts on_serial_line(DriverFacts facts, const SerialLink& link, int otherwise) {
+  const int baud = baud_of(link, otherwise);
+  facts.byte_rate = serial_rate(1.0, baud);
+  if (!link.lock_step) require_fast_line(facts.bytes_per_cycle, static_cast<double>(baud), link.sampling_period);
+  return facts;
+}
+
+OpenPort serial_port_of(const SerialLink& link, int otherwise) {
+  return [path = link.port, baud = baud_of(link, otherwise)] { return std::make_unique<SerialPort>(path, baud); };
+}
+
+SerialDriver::SerialDriver(DriverFacts facts, const SerialLink& link, const OpenPort& open)
+    : facts_(checked(std::move(facts), link)),
       sampling_period_(link.sampling_period),
       drive_(link.drive),
-      port_(link.port, baud_of(link, default_baud)),
+      port_(open()),
+      is_can_(link.is_can),
       patience_(link.lock_step ? lock_step_patience
                                : std::llround(1e9 * serial_share_of_cycle * link.sampling_period)) {
   allow_missed(allowed_missed_cycles(link.sampling_period));
@@ -91,12 +101,12 @@ std::optional<double> SerialDriver::measure() noexcept {
     is_owed_ = false;
   }
   if (is_owed_) {  // it may be lost, or come yet
-    if (!port_.write(mark().view())) return std::nullopt;
+    if (!port_->write(mark().view())) return std::nullopt;
     ++marks_owed_;
   }
   is_owed_ = true;
   asked_ = clock_now();
-  port_.write(question().view());
+  port_->write(question().view());
   const auto heard = answer(until);
   if (!heard) return std::nullopt;
   is_owed_ = false;
@@ -147,7 +157,11 @@ std::string SerialDriver::ask_until_answered(std::string_view frame, const Under
     }
     sleep_until(begin + setup_patience);  // a port that is gone answers at once
   }
-  throw DriverFailed("the drive does not answer; check port, power, wiring, and that driver.baud is the drive's");
+  throw DriverFailed(
+      is_can_
+          ? "the drive does not answer; check adapter, power, wiring and termination, that driver.id is the drive's on "
+            "the bus, and that driver.baud is the bus's bit rate"
+          : "the drive does not answer; check port, power, wiring, and that driver.baud is the drive's");
 }
 
 void SerialDriver::set_damper(const Device& device, DriveFirmware firmware, std::optional<double> force_limit) {
@@ -165,11 +179,20 @@ void SerialDriver::require_taken(std::string_view name, double told, std::string
       fmt::format("the drive has {} at {} instead of {:.6g}: it closes another damper", name, said, told));
 }
 
-void SerialDriver::add_force_bytes(double bytes) {
-  const double all = facts_.bytes_per_cycle + bytes;
-  if (!facts_.lock_step) require_fast_line(all, bits_of_byte * facts_.byte_rate.value_or(0.0), sampling_period_);
-  facts_.bytes_per_cycle = all;
+void SerialDriver::add_force_bytes(double bytes, double bus_time) {
+  facts_.bytes_per_cycle += bytes;
   facts_.force_bytes += bytes;
+  facts_.bus_time_per_cycle += bus_time;
+  facts_.force_bus_time += bus_time;
+  if (facts_.lock_step) return;
+  if (!is_can_) {
+    return require_fast_line(facts_.bytes_per_cycle, bits_of_byte * facts_.byte_rate.value_or(0.0), sampling_period_);
+  }
+  const double line = facts_.byte_rate ? facts_.bytes_per_cycle / *facts_.byte_rate : 0.0;
+  const double needed = (line + facts_.bus_time_per_cycle) / serial_share_of_cycle;
+  if (needed <= sampling_period_) return;
+  throw DriverFailed(fmt::format("the line is too slow for the damper's frames; loop.sampling_period to {:g} s or more",
+                                 std::ceil(1e4 * needed) * 1e-4));
 }
 
 void SerialDriver::set_torque_limit(double torque) noexcept {
@@ -177,7 +200,8 @@ void SerialDriver::set_torque_limit(double torque) noexcept {
 }
 
 void SerialDriver::tell(std::string_view frame) {
-  if (!port_.write(frame)) throw DriverFailed("the port takes no more bytes: the drive does not read, or is unplugged");
+  if (!port_->write(frame))
+    throw DriverFailed("the port takes no more bytes: the drive does not read, or is unplugged");
 }
 
 }  // namespace zwidth::rig

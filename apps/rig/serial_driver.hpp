@@ -3,15 +3,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "rig/byte_port.hpp"
 #include "rig/driver.hpp"
 #include "rig/serial_frame.hpp"
 #include "rig/serial_input.hpp"
-#include "rig/serial_port.hpp"
 #include "zwidth/design/drive_gains.hpp"
 #include "zwidth/model/motor_drive.hpp"
 
@@ -19,10 +21,11 @@ namespace zwidth::rig {
 
 /// Where a drive hangs, and how the loop asks it.
 struct SerialLink {
-  std::string port;              ///< "/dev/ttyUSB0"
+  std::string port;              ///< "/dev/ttyUSB0", or the adapter of a CAN bus
   MotorDrive drive;              ///< of the device file
   double sampling_period = 0.0;  ///< s
   bool lock_step = false;        ///< the drive is a simulation whose time moves with the forces it gets
+  bool is_can = false;           ///< the port is an adapter of a CAN bus, on which the drive hangs
 };
 
 inline constexpr std::int64_t lock_step_patience = 500'000'000;  ///< ns, for an answer where no clock is kept
@@ -31,7 +34,14 @@ inline constexpr double cycles_within_watchdog = 2.0;            ///< of the loo
 /// Throws DriverFailed where the line does not carry so many bytes a cycle.
 void require_fast_line(double bytes_per_cycle, double baud, double sampling_period);
 
-/// What the drives on serial lines share: a question and its answer, then a force; units; what came too late.
+/// With what a serial line carries, at driver.baud or otherwise. Throws DriverFailed where that is too little for the loop.
+[[nodiscard]] DriverFacts on_serial_line(DriverFacts facts, const SerialLink& link, int otherwise);
+
+using OpenPort = std::function<std::unique_ptr<BytePort>()>;
+/// That serial port, at driver.baud or otherwise.
+[[nodiscard]] OpenPort serial_port_of(const SerialLink& link, int otherwise);
+
+/// What the drives on serial lines and CAN buses share: a question and its answer, then a force; units; what came too late.
 ///
 /// Answers carry no number of their question. One that did not come in time is still owed: nothing more is asked until it
 /// comes, and is dropped, so that no position is ever a period older than it seems. One that has not come when all cycles
@@ -58,7 +68,10 @@ class SerialDriver : public Driver {
   };
 
   /// Throws DriverFailed where the port is not to be had, or its line or the firmware's watchdog does not carry the loop.
-  SerialDriver(DriverFacts facts, const SerialLink& link, int default_baud);
+  SerialDriver(DriverFacts facts, const SerialLink& link, int default_baud)
+      : SerialDriver(on_serial_line(std::move(facts), link, default_baud), link, serial_port_of(link, default_baud)) {}
+  /// The same through any port, which is opened last.
+  SerialDriver(DriverFacts facts, const SerialLink& link, const OpenPort& open);
 
   /// How many bytes the first frame has, its end included; 0: it is not whole yet. A line unless overridden.
   [[nodiscard]] virtual std::size_t frame_size(std::string_view bytes) const noexcept;
@@ -70,7 +83,7 @@ class SerialDriver : public Driver {
   /// What the drive's users know it by, and where its cause is found.
   [[nodiscard]] virtual std::string trouble_text(Trouble trouble, long code) const;
 
-  void send(double force) noexcept override { port_.write(torque_frame(force * drive_.torque_per_force()).view()); }
+  void send(double force) noexcept override { port_->write(torque_frame(force * drive_.torque_per_force()).view()); }
 
   // While nothing runs on the clock:
   using Understood = std::function<std::optional<std::string>(std::string_view frame)>;
@@ -95,10 +108,11 @@ class SerialDriver : public Driver {
   void set_damper(const Device& device, DriveFirmware firmware, std::optional<double> force_limit);
   /// Throws DriverFailed where what the drive says is not the number that it was told, to the digits that it prints.
   static void require_taken(std::string_view name, double told, std::string_view said);
-  /// So many more bytes in each force than at first. Throws DriverFailed where the line does not carry them.
-  void add_force_bytes(double bytes);
+  /// So many more bytes in each force than at first, and so much more of a bus's time, s. Throws DriverFailed where the line
+  /// does not carry them.
+  void add_force_bytes(double bytes, double bus_time = 0.0);
 
-  [[nodiscard]] SerialPort& port() noexcept { return port_; }
+  [[nodiscard]] BytePort& port() noexcept { return *port_; }
   [[nodiscard]] double sampling_period() const noexcept { return sampling_period_; }
   [[nodiscard]] const MotorDrive& drive() const noexcept { return drive_; }
   /// Of the motor, N m: what the drive's own limits leave.
@@ -108,7 +122,7 @@ class SerialDriver : public Driver {
  private:
   /// The first whole frame of what has come; empty: there is none. Valid until the next call.
   [[nodiscard]] std::string_view next_frame() noexcept;
-  [[nodiscard]] bool fill(std::int64_t until) noexcept { return input_.fill(port_, until); }
+  [[nodiscard]] bool fill(std::int64_t until) noexcept { return input_.fill(*port_, until); }
   /// Reads until an answer comes: what it says; nothing where none does until then.
   [[nodiscard]] std::optional<Heard> answer(std::int64_t until) noexcept;
 
@@ -116,7 +130,8 @@ class SerialDriver : public Driver {
   std::optional<Damper> damper_;
   double sampling_period_;
   MotorDrive drive_;
-  SerialPort port_;
+  std::unique_ptr<BytePort> port_;
+  bool is_can_;
   std::int64_t patience_;  // ns, for an answer
   SerialInput input_;
   bool is_owed_ = false;     // the answer to the last question

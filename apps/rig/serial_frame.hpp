@@ -33,7 +33,7 @@ class SerialFrame {
   [[nodiscard]] std::string_view view() const noexcept { return {bytes_.data(), size_}; }
 
  private:
-  std::array<char, 128> bytes_{};
+  std::array<char, 160> bytes_{};
   std::size_t size_ = 0;
 };
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "rig/serial_port.hpp"
+#include "rig/byte_port.hpp"
 
 namespace zwidth::rig {
 
@@ -14,12 +14,13 @@ std::string_view SerialInput::take(std::size_t size) noexcept {
   return taken;
 }
 
-bool SerialInput::fill(SerialPort& port, std::int64_t until) noexcept {
+bool SerialInput::fill(BytePort& port, std::int64_t until) noexcept {
   std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_), bytes_.begin() + static_cast<std::ptrdiff_t>(end_),
             bytes_.begin());
   end_ -= std::exchange(begin_, 0);
   if (end_ == bytes_.size()) end_ = 0;
   const std::ptrdiff_t count = port.read(std::span(bytes_).subspan(end_), until);
+  has_failed_ = count < 0;
   if (count > 0) end_ += static_cast<std::size_t>(count);
   return count > 0;
 }

@@ -66,7 +66,7 @@ void configure(int file, speed_t speed) {
 
 }  // namespace
 
-SerialPort::SerialPort(const std::string& path, int baud) {
+SerialPort::SerialPort(const std::string& path, int baud, char line_end) : line_end_(line_end) {
   const speed_t speed = speed_of(baud);
   if (path.empty()) throw DriverFailed("names no port, such as /dev/ttyUSB0");
   file_ = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -98,7 +98,7 @@ SerialPort::~SerialPort() {
 
 bool SerialPort::write(std::string_view bytes) noexcept {
   if (is_torn_.load(std::memory_order_relaxed)) {
-    if (::write(file_, "\n", 1) != 1) return false;
+    if (::write(file_, &line_end_, 1) != 1) return false;
     is_torn_.store(false, std::memory_order_relaxed);
   }
   const ssize_t written = ::write(file_, bytes.data(), bytes.size());

@@ -1,9 +1,12 @@
 #include "rig/vesc_driver.hpp"
 
 #include <cmath>
+#include <memory>
 #include <string>
 
+#include "rig/can_link.hpp"
 #include "rig/real_time.hpp"
+#include "rig/vesc_can_port.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::rig {
@@ -20,6 +23,44 @@ constexpr double most_turns_per_cycle = 0.25;
 // Question, answer, current.
 constexpr double bytes_per_cycle = 10 + 16 + 10;
 constexpr double force_bytes = 10;
+
+constexpr double can_bitrate = 500e3;
+constexpr int largest_id = vesc_can_host - 1;
+
+CanBitRates rates_of(const SerialLink& link) { return can_rates(link, can_bitrate); }
+
+int can_id_of(const SerialLink& link) {
+  if (!link.drive.id) {
+    throw Error(
+        ErrorCode::invalid_argument,
+        "driver.id: is missing: a VESC is told from others on a bus by it (App Settings, General, VESC ID); must be "
+        "given, such as 23");
+  }
+  if (*link.drive.id > largest_id) {
+    throw DriverFailed(
+        fmt::format("driver.id is {}; 0 to {}, the next one is this program's", *link.drive.id, largest_id));
+  }
+  return *link.drive.id;
+}
+
+DriverFacts facts_of(const SerialLink& link) {
+  if (link.is_can) {
+    (void)can_id_of(link);
+    // On the bus: a question, its answer in three frames, a current.
+    return on_can_bus({.name = "vesc-can:" + link.port, .watchdog = default_watchdog}, link,
+                      {{{7, true}, {8, true}, {5, true}, {6, true}}, {{4, true}}, rates_of(link)});
+  }
+  return on_serial_line({.name = "vesc:" + link.port,
+                         .watchdog = default_watchdog,
+                         .bytes_per_cycle = bytes_per_cycle,
+                         .force_bytes = force_bytes},
+                        link, default_baud);
+}
+
+OpenPort port_of(const SerialLink& link) {
+  if (!link.is_can) return serial_port_of(link, default_baud);
+  return [&link] { return std::make_unique<VescCanPort>(bus_of(link, rates_of(link)), can_id_of(link)); };
+}
 
 double torque_constant_of(const SerialLink& link) {
   if (!link.drive.torque_constant) {
@@ -39,12 +80,7 @@ std::optional<std::string> payload_of_values(std::string_view frame) {
 VescDriver::VescDriver(const SerialLink& link) : VescDriver(link, torque_constant_of(link)) {}
 
 VescDriver::VescDriver(const SerialLink& link, double torque_constant)
-    : SerialDriver({.name = "vesc:" + link.port,
-                    .watchdog = default_watchdog,
-                    .bytes_per_cycle = bytes_per_cycle,
-                    .force_bytes = force_bytes},
-                   link, default_baud),
-      torque_constant_(torque_constant) {
+    : SerialDriver(facts_of(link), link, port_of(link)), torque_constant_(torque_constant) {
   if (const int fault = values().fault; fault != 0) {
     throw DriverFailed(trouble_text(Trouble::fault, fault));
   }

@@ -7,7 +7,7 @@
 
 namespace zwidth::rig {
 
-/// A VESC of firmware 6.00 or newer on its UART: a motor current for the torque, the position modulo a turn, which is
+/// A VESC of firmware 6.00 or newer on its UART, or on a CAN bus: a motor current for the torque, the position modulo a turn, which is
 /// unwrapped here: where the motor turns by more than a quarter from one cycle to the next, it has no position any more.
 ///
 /// Its watchdog is that of its app settings (timeout); what it takes is found out by proves_watchdog().

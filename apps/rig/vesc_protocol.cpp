@@ -53,12 +53,13 @@ bool has_fields(std::string_view payload, std::size_t size, std::uint32_t fields
 
 }  // namespace
 
-SerialFrame vesc_packet(std::string_view payload) noexcept {
+SerialFrame vesc_packet(std::string_view payload) noexcept { return vesc_packet(payload, crc_of(payload)); }
+
+SerialFrame vesc_packet(std::string_view payload, unsigned crc) noexcept {
   SerialFrame frame;
   frame.add_byte(start);
   frame.add_byte(static_cast<unsigned>(payload.size()));
   frame.add(payload);
-  const unsigned crc = crc_of(payload);
   frame.add_byte(crc >> 8U);
   frame.add_byte(crc);
   frame.add_byte(end);

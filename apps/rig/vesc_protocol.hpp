@@ -17,6 +17,8 @@ struct VescValues {
 
 /// 02, length, payload, CRC-16 (polynomial 0x1021, start 0) high and low, 03. Requires 1 to 100 bytes of payload.
 [[nodiscard]] SerialFrame vesc_packet(std::string_view payload) noexcept;
+/// The same with a CRC that came with the payload, right or wrong.
+[[nodiscard]] SerialFrame vesc_packet(std::string_view payload, unsigned crc) noexcept;
 /// How many bytes the first packet has; 1 where none begins there; 0 where more bytes must tell.
 [[nodiscard]] std::size_t vesc_packet_size(std::string_view bytes) noexcept;
 /// The payload of a whole packet of at most 255 bytes; nothing where its CRC or its end is wrong.

@@ -77,6 +77,7 @@
 #include "zwidth/ranked_findings.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/require_valid.hpp"
+#include "zwidth/rig/can_frame_time.hpp"
 #include "zwidth/rig/force_guard.hpp"
 #include "zwidth/rig/limit_search.hpp"
 #include "zwidth/rig/nudge.hpp"

@@ -251,13 +251,13 @@ constexpr auto made_rows() {
       {{driver, "torque_per_volt", number, torque_per_voltage, above_0, "none", "",
         "Of the motor at rest, k_t/R: for SimpleFOC by voltage."},
        &MotorDrive::torque_per_volt},
-      {{driver, "id", whole_number, none, NumberRange{0, 127}, "the firmware's", "",
-        "ODrive: the axis, 0 or 1. moteus: 1 to 127."},
+      {{driver, "id", whole_number, none, NumberRange{0, 253}, "the firmware's", "",
+        "ODrive: the axis, 0 or 1; on CAN its node id, 0 to 62. moteus: 1 to 127. VESC on CAN: its VESC ID, needed."},
        &MotorDrive::id},
       {{driver, "command", text, none, none, "M", "a letter", "The motor's letter in SimpleFOC's Commander."},
        &MotorDrive::command},
       {{driver, "baud", whole_number, none, NumberRange{1200, 4'000'000}, "the firmware's", "of those that a port has",
-        "Of the serial line."},
+        "Of the serial line; of a CAN bus its bit rate."},
        &MotorDrive::baud},
   });
 }

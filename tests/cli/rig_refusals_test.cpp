@@ -47,6 +47,13 @@ TEST_F(Rig, TellsWhatItCannotDo) {
                    "--driver: " + kind + ":: names no port; a serial port, such as /dev/ttyUSB0");
     expect_refused("check " + lhifam + "--driver " + kind + " " + limits, 2, "--driver: " + kind + ": is none; ");
   }
+  for (const std::string kind : {"odrive-can", "moteus-can", "vesc-can"}) {
+    for (const std::string adapter : {"", "@115200", "can0@115200", "/dev/ttyUSB0@fast"}) {
+      expect_refused("check " + lhifam + "--driver " + kind + ":" + adapter + " " + limits, 2,
+                     "names no port or interface; a serial port with an SLCAN adapter or an fdcanusb");
+    }
+    expect_refused("check " + lhifam + "--driver " + kind + " " + limits, 2, "--driver: " + kind + ": is none; ");
+  }
   expect_refused("check " + lhifam + "--driver serial:/dev/null " + limits, 1, "is no serial port");
   expect_refused("check " + lhifam + "--driver serial:/dev/null --set loop.sampling_period=1e-4 " + limits, 1,
                  "the line is too slow: 38 bytes per cycle");
@@ -57,6 +64,21 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("check " + lhifam + "--driver odrive:/dev/null " + belt + limits, 1, "is no serial port");
   expect_refused("check " + lhifam + "--driver odrive:/dev/null " + belt + "--set loop.sampling_period=0.001 " + limits,
                  1, "the line is too slow");
+  const std::string on_bus = belt + "--set driver.id=1 --set driver.torque_constant=0.05 " + limits;
+  for (const std::string kind : {"odrive-can", "moteus-can", "vesc-can"}) {
+    expect_refused("check " + lhifam + "--driver " + kind + ":/dev/null " + on_bus, 1, "is no serial port");
+    expect_refused("check " + lhifam + "--driver " + kind + ":no_such_interface " + on_bus, 1, "cannot be opened");
+    expect_refused("check " + lhifam + "--driver " + kind + ":/dev/null " + limits, 2, "driver: is missing");
+  }
+  expect_refused("check " + lhifam + "--driver vesc-can:/dev/null --set driver.torque_constant=0.05 " + belt + limits,
+                 2, "driver.id: is missing");
+  expect_refused("check " + lhifam + "--driver odrive-can:/dev/null --set driver.id=63 " + belt + limits, 1,
+                 "driver.id is 63; 0 to 62");
+  expect_refused("check " + lhifam + "--driver moteus-can:/dev/null --set driver.id=200 " + belt + limits, 1,
+                 "driver.id is 200; a moteus has 1 to 127");
+  expect_refused("check " + lhifam + "--driver vesc-can:/dev/null --set driver.id=254 " + belt +
+                     "--set driver.torque_constant=0.05 " + limits,
+                 1, "driver.id is 254; 0 to 253");
   expect_refused("check " + lhifam + "--driver udp:h:9 --start 1", 2, "--start: is for a simulated device");
 }
 
@@ -72,7 +94,8 @@ TEST_F(Rig, RunsADamperOnTheDriveWhereTheFileStatesItsLoop) {
   expect_refused("identify " + apart, 2, "which may have been closed around the record");
   const std::string slow = lhifam + "--set wall.damping=50 --set loop.damper.sampling_period=2e-3 --damper-on-drive ";
   expect_refused("wall " + slow + "--stiffness 4000", 2, "a damper on the drive runs faster than the spring");
-  for (const std::string driver : {"vesc:/dev/null", "serial:/dev/null", "udp:127.0.0.1:9"}) {
+  for (const std::string driver :
+       {"vesc:/dev/null", "serial:/dev/null", "udp:127.0.0.1:9", "odrive-can:can0", "vesc-can:can0"}) {
     expect_refused("wall " + apart + limits + "--stiffness 4000 --driver " + driver, 2,
                    "closes no damper beside the force that it is sent; simulated, odrive, moteus and simplefoc do");
   }

@@ -37,9 +37,10 @@ void serve_until_interrupted(const std::string& port, const auto& motor) {
 int main(int count, char** arguments) {
   std::string names = "udp";
   for (const test::DriveKind& kind : test::drive_kinds) names += fmt::format("|{}", kind.name);
-  const auto* const kind = std::ranges::find(test::drive_kinds, count > 1 ? arguments[1] : "", &test::DriveKind::name);
+  for (const test::DriveKind& kind : test::can_drive_kinds) names += fmt::format("|{}", kind.name);
+  const auto* const kind = test::drive_kind(count > 1 ? arguments[1] : "");
   const bool is_udp = count > 1 && arguments[1] == std::string("udp");
-  if (count != 3 || (kind == test::drive_kinds.end() && !is_udp)) {
+  if (count != 3 || (kind == nullptr && !is_udp)) {
     fmt::print(stderr, "usage: drive_emulator {} DEVICE.toml\n", names);
     return 2;
   }
@@ -58,7 +59,8 @@ int main(int count, char** arguments) {
     serve_until_interrupted(emulator.address(), emulator);
   } else {
     const int baud = device->parameters().driver->baud.value_or(0);
-    const test::PtyEmulator emulator(kind->firmware(), *device, {.baud = baud, .is_paced = true});
+    const test::PtyEmulator emulator(kind->firmware(), *device,
+                                     {.baud = kind->name.ends_with("-can") ? 0 : baud, .is_paced = true});
     serve_until_interrupted(emulator.path(), emulator.motor());
   }
   return 0;

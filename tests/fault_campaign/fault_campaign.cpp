@@ -55,7 +55,7 @@ class Drive {
       udp_->set_place(place);
       return;
     }
-    const auto* const kind = std::ranges::find(drive_kinds, driver, &DriveKind::name);
+    const auto* const kind = drive_kind(driver);
     has_watchdog_ = kind->has_watchdog;
     serial_.emplace(kind->firmware(), device, LineOptions{.is_paced = true});
     serial_->set_place(place);
@@ -148,8 +148,8 @@ constexpr FaultCase fault_cases[] = {{"killed_host", {}, {}},
 
 /// Lines without a checksum, positions that are whole numbers.
 bool is_possible(std::string_view driver, std::string_view fault) {
-  const auto* const kind = std::ranges::find(drive_kinds, driver, &DriveKind::name);
-  if (kind == drive_kinds.end()) return true;
+  const auto* const kind = drive_kind(driver);
+  if (kind == nullptr) return true;
   return (fault != "wrong_checksums" || kind->has_checksums) && (fault != "nan" || kind->has_nan);
 }
 
@@ -162,7 +162,8 @@ Outcome run_once(const Run& run, const FaultCase& fault) {
   const milliseconds phase(drawn(0, 40));
 
   Outcome outcome;
-  const Device device = belt_device(period);
+  const auto* const kind = drive_kind(run.driver);
+  const Device device = kind == nullptr ? belt_device(period) : belt_device_of(*kind, period);
   std::ofstream(run.folder / "device.toml") << write_device(device.parameters());
   Drive drive(run.driver, device, place);
   const auto begun = [&](const std::string& name, const std::string& record) {
@@ -324,7 +325,8 @@ int campaign(int runs, std::uint64_t seed, int together, std::string_view one_dr
   fmt::print("{:10} {:16} {:>6} {:>6} {:>6} {:>9} {:>9}  {}\n", "driver", "fault", "zero", "whole", "of", "forces",
              "restarts", "what stopped it");
   std::vector<Cell> cells;
-  for (const std::string_view driver : {"udp", "odrive", "moteus", "vesc", "simplefoc", "serial"}) {
+  for (const std::string_view driver :
+       {"udp", "odrive", "moteus", "vesc", "simplefoc", "serial", "odrive-can", "moteus-can", "vesc-can"}) {
     for (const FaultCase& fault : fault_cases) {
       const bool is_asked =
           (one_driver.empty() || one_driver == driver) && (one_fault.empty() || one_fault == fault.name);

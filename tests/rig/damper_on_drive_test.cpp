@@ -247,6 +247,7 @@ TEST_P(DamperOfDrive, TakesTheVelocityFilterOfSimplefocAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Drive, DamperOfDrive, testing::ValuesIn(test::drive_kinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Can, DamperOfDrive, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
 
 }  // namespace
 }  // namespace zwidth::rig

@@ -28,6 +28,8 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
+std::string document_of_buses() { return text_of(ZWIDTH_SOURCE_DIR "/docs/rig_can.md"); }
+
 std::string document() { return text_of(ZWIDTH_SOURCE_DIR "/docs/rig.md"); }
 
 /// The lines of all fenced blocks of a language.
@@ -117,6 +119,26 @@ TEST_P(DocumentedDrive, CarriesWhatItsRowSays) {
 
 INSTANTIATE_TEST_SUITE_P(Drive, DocumentedDrive, testing::ValuesIn(test::drive_kinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
+
+class DocumentedBus : public testing::TestWithParam<DriveKind> {};
+
+TEST_P(DocumentedBus, CarriesWhatItsRowSays) {
+  const std::string row =
+      fmt::format("\\| `{}` \\| [^\\n]* \\| (\\d+)[^|]* \\| (\\d+) us \\| (\\d+) \\|\\n", GetParam().name);
+  std::smatch cells;
+  const std::string text = document_of_buses();
+  ASSERT_TRUE(std::regex_search(text, cells, std::regex(row)));
+  const Device device = test::belt_device_of(GetParam());
+  test::PtyEmulator emulator(GetParam().firmware(), device);
+  const auto driver =
+      GetParam().driver({emulator.path(), *device.parameters().driver, device.loop().sampling_period, true});
+  const DriverFacts& facts = driver->facts();
+  EXPECT_EQ(std::stod(cells[2]), std::round(1e6 * facts.bus_time_per_cycle));
+  const double cycle = facts.bus_time_per_cycle + facts.bytes_per_cycle / facts.byte_rate.value();
+  EXPECT_EQ(std::stod(cells[3]), std::floor(0.8 / cycle));
+}
+
+INSTANTIATE_TEST_SUITE_P(Can, DocumentedBus, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
 
 }  // namespace
 }  // namespace zwidth::rig

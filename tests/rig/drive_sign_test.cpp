@@ -94,6 +94,7 @@ TEST_P(SignOfDrive, IsToldByNoMoreThanTheActionsForce) {
 
 INSTANTIATE_TEST_SUITE_P(Drive, SignOfDrive, testing::ValuesIn(test::drive_kinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Can, SignOfDrive, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
 
 // The only drive that needs no [driver]; it named no key then.
 TEST(SignOfMicrocontroller, IsMendedByAKeyThoughTheFileHasNoDriver) {
@@ -188,6 +189,7 @@ TEST_P(AnswersOfDrive, OneThatIsLostDoesNotLoseTheNext) {
 
 INSTANTIATE_TEST_SUITE_P(Drive, AnswersOfDrive, testing::ValuesIn(test::drive_kinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Can, AnswersOfDrive, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
 
 // The force's bytes leave after the system has taken them: at 9600 Bd some 14 ms, a third of the delay.
 TEST(DelayOfDrive, IsThatOfTheWire) {

@@ -121,6 +121,7 @@ class PtyEmulator {
       while (const auto arrived = inbox_.arrived()) {
         for (std::string& frame : firmware_->receive(*arrived, motor_)) answer(std::move(frame));
       }
+      for (std::string& frame : firmware_->unasked(motor_)) tell(std::move(frame));
       while (const auto arrived = outbox_.arrived()) put(*arrived);
     }
   }
@@ -139,7 +140,7 @@ class PtyEmulator {
   };
 
   void travel(Wire& wire, std::string bytes) const {
-    const double time = line_.is_paced ? 10.0 * static_cast<double>(bytes.size()) / line_.baud : 0.0;
+    const double time = line_.is_paced ? firmware_->time_on_wire(bytes, line_.baud) : 0.0;
     wire.free_at = std::max(wire.free_at, Clock::now()) +
                    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));
     wire.under_way.emplace_back(wire.free_at, std::move(bytes));
@@ -160,6 +161,15 @@ class PtyEmulator {
     if (fault == Fault::wrong_checksum) frame[frame.size() / 2] ^= 1;
     if (fault == Fault::half_frames) frame.resize(place_ % frame.size());
     if (fault == Fault::late) std::this_thread::sleep_for(std::chrono::milliseconds(answer_delay_));
+    travel(outbox_, std::move(frame));
+  }
+
+  /// What nobody asked for: lost and broken as answers are, but never late.
+  void tell(std::string frame) {
+    const Fault fault = fault_;
+    if (fault == Fault::silent) return;
+    if (fault == Fault::wrong_checksum) frame[frame.size() / 2] ^= 1;
+    if (fault == Fault::half_frames) frame.resize(place_ % frame.size());
     travel(outbox_, std::move(frame));
   }
 

@@ -1,4 +1,4 @@
-// Each driver of a serial line against its drive's emulated firmware on a pseudo-terminal.
+// Each driver of a serial line or a CAN bus against its drive's emulated firmware on a pseudo-terminal.
 #include "rig/serial_driver.hpp"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,8 @@ class OnDrive : public testing::TestWithParam<DriveKind> {
       return problem.what();
     }
   }
-  const Device device = belt_device();
+  const Device device = test::belt_device_of(GetParam());
+  const bool is_on_bus = GetParam().name.ends_with("-can");
 };
 
 // Over the line the same numbers as without it: the drive moves one period with each force, at a rate that its line
@@ -53,7 +54,8 @@ TEST_P(OnDrive, TheLimitOverTheLine) {
   emulator.set_fault(Fault::no_watchdog);
   const auto driver = GetParam().driver(link(emulator, device, true));
   const DriverFacts& facts = driver->facts();
-  ASSERT_FALSE(find_problem(SerialLoad{facts.bytes_per_cycle, 10.0 * *facts.byte_rate, device.loop().sampling_period}));
+  const double time = facts.bytes_per_cycle / *facts.byte_rate + facts.bus_time_per_cycle;
+  ASSERT_LT(time, serial_share_of_cycle * device.loop().sampling_period);
   expect_limit(device, *driver);
   EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().force() == 0.0; }));
 }
@@ -111,7 +113,7 @@ TEST_P(OnDrive, AWatchdogThatDoesNotBiteIsNone) {
 }
 
 TEST_P(OnDrive, APositionIsNeverAPeriodOld) {
-  const Device slow = belt_device(0.04);
+  const Device slow = test::belt_device_of(GetParam(), 0.04);
   PtyEmulator emulator(GetParam().firmware(), slow);
   const auto driver = GetParam().driver(link(emulator, slow, false));
   driver->arm();
@@ -122,7 +124,7 @@ TEST_P(OnDrive, APositionIsNeverAPeriodOld) {
 
 // The drive was asked again, and the answer to the question before it, which comes after all, was taken for the new one's.
 TEST_P(OnDrive, APositionIsOfTheQuestionAfterALostAnswer) {
-  const Device slow = belt_device(0.04);
+  const Device slow = test::belt_device_of(GetParam(), 0.04);
   PtyEmulator emulator(GetParam().firmware(), slow);
   emulator.set_fault(Fault::no_watchdog);
   const auto driver = GetParam().driver(link(emulator, slow, false));
@@ -150,16 +152,22 @@ TEST_P(OnDrive, TellsWhatIsInTheWay) {
   EXPECT_THAT(failure(name + ":/dev/null", device), HasSubstr("is no serial port"));
   EXPECT_THAT(failure(name + ":/no/such/port", device), HasSubstr("No such file"));
   EXPECT_THAT(failure(name + ":", device), HasSubstr("names no port"));
-  const std::string fast = failure(name + ":" + emulator.path(), belt_device(name == "serial" ? 3e-4 : 1e-3));
+  const auto at = [&](double period) { return test::belt_device_of(GetParam(), period); };
+  const bool is_fast = name == "serial" || name == "moteus-can";
+  const std::string fast = failure(name + ":" + emulator.path(), at(is_fast ? 3e-4 : 1e-3));
   EXPECT_THAT(fast, HasSubstr("the line is too slow"));
-  EXPECT_THAT(fast, HasSubstr("set the drive and driver.baud to"));
-  EXPECT_THAT(failure(name + ":" + emulator.path(), belt_device(0.6)),
-              HasSubstr(GetParam().has_watchdog ? "lets go" : ""));
+  EXPECT_THAT(fast, HasSubstr("loop.sampling_period to "));
+  const bool has_no_faster = name == "moteus-can" || name == "vesc-can";  // at their bus's fastest
+  if (!has_no_faster) {
+    EXPECT_THAT(fast, HasSubstr("set the drive and driver.baud to"));
+  }
+  EXPECT_THAT(failure(name + ":" + emulator.path(), at(0.6)), HasSubstr(GetParam().has_watchdog ? "lets go" : ""));
   DeviceParameters other_speed = device.parameters();
-  other_speed.driver->baud = 460800;
+  other_speed.driver->baud = is_on_bus ? 125000 : 460800;
   EXPECT_THAT(failure(name + ":" + emulator.path(), Device(other_speed)), HasSubstr("that driver.baud is the "));
   other_speed.driver->baud = 1234567;
-  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(other_speed)), HasSubstr("one of 1200, 2400"));
+  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(other_speed)),
+              HasSubstr(is_on_bus ? "one of 10000, 20000" : "one of 1200, 2400"));
   DeviceParameters bare = device.parameters();
   bare.driver.reset();
   if (name != "serial") {  // which speaks of the device
@@ -277,6 +285,7 @@ TEST(MoteusDriver, BehindAnAdapterThatKnowsNoChecksums) {
 
 INSTANTIATE_TEST_SUITE_P(Drive, OnDrive, testing::ValuesIn(test::drive_kinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Can, OnDrive, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
 
 }  // namespace
 }  // namespace zwidth::rig

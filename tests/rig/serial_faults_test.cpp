@@ -99,7 +99,7 @@ class DriveFault : public testing::TestWithParam<DriveKind> {
     }
   }
 
-  const Device device = test::belt_device(period);
+  const Device device = test::belt_device_of(GetParam(), period);
   std::filesystem::path folder;
   int pauses = 0;  // of the machine, which stopped a rig before its fault: it is tried again
 };
@@ -190,6 +190,7 @@ TEST_P(DriveFault, FirmwareWithoutAWatchdogIsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Serial, DriveFault, testing::ValuesIn(test::drive_kinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Can, DriveFault, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
 
 }  // namespace
 }  // namespace zwidth::rig

@@ -167,6 +167,8 @@ TEST_P(LimitsOnDrive, WhatTheDriveSaysOfItsFaultIsTold) {
 const auto name_of = [](const auto& kind) { return std::string(kind.param.name); };
 INSTANTIATE_TEST_SUITE_P(Drive, LimitsOnDrive, testing::ValuesIn(test::drive_kinds), name_of);
 INSTANTIATE_TEST_SUITE_P(Drive, FrictionOnDrive, testing::ValuesIn(test::drive_kinds), name_of);
+INSTANTIATE_TEST_SUITE_P(Can, LimitsOnDrive, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
+INSTANTIATE_TEST_SUITE_P(Can, FrictionOnDrive, testing::ValuesIn(test::can_drive_kinds), test::name_of_bus_drive);
 
 }  // namespace
 }  // namespace zwidth::rig

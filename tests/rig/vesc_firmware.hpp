@@ -48,6 +48,14 @@ class VescFirmware : public Firmware {
     motor.let_go();
   }
 
+  static std::string packet(const std::string& payload) {
+    const unsigned crc = crc_of(payload);
+    std::string packet{2, static_cast<char>(payload.size())};
+    packet += payload;
+    packet += {static_cast<char>(crc >> 8U), static_cast<char>(crc), 3};
+    return packet;
+  }
+
  private:
   static unsigned crc_of(std::string_view payload) {
     unsigned crc = 0;
@@ -86,11 +94,7 @@ class VescFirmware : public Firmware {
         append(reply, static_cast<std::uint32_t>(static_cast<std::int32_t>(degrees * 1e6)));
       }
       if ((mask >> 21U & 1U) != 0) reply += static_cast<char>(has_timeout_ ? 1 : 0);
-      const unsigned crc = crc_of(reply);
-      std::string packet{2, static_cast<char>(reply.size())};
-      packet += reply;
-      packet += {static_cast<char>(crc >> 8U), static_cast<char>(crc), 3};
-      answers.push_back(packet);
+      answers.push_back(packet(reply));
     }
   }
 

@@ -14,9 +14,9 @@ struct MotorDrive {
   double force_sign = 1.0;                ///< 1; -1 where its torque pushes against the way that it counts
   std::optional<double> torque_constant;  ///< of the motor, N m/A; > 0
   std::optional<double> torque_per_volt;  ///< of the motor at rest, N m/V; > 0
-  std::optional<int> id;                  ///< ODrive: axis, 0 or 1; moteus: 1 to 127; absent: the firmware's default
-  std::string command = "M";              ///< SimpleFOC: the letter that the sketch gave the motor
-  std::optional<int> baud;                ///< of the serial line, 1200 to 4000000; absent: the firmware's default
+  std::optional<int> id;  ///< ODrive: axis, 0 or 1, on CAN its node; moteus: 1 to 127; VESC on CAN; absent: the default
+  std::string command = "M";  ///< SimpleFOC: the letter that the sketch gave the motor
+  std::optional<int> baud;    ///< of the serial line or the CAN bus, 1200 to 4000000; absent: the firmware's default
 
   /// m or rad of the device per turn of the motor: sign travel/gear.
   [[nodiscard]] double position_per_turn() const { return sign * travel.value_or(2.0 * std::numbers::pi) / gear; }
