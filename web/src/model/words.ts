@@ -69,11 +69,14 @@ export const directionWord = (direction: number[]): string =>
   `(${direction.map((each) => say(Math.round(each * 1e3) / 1e3 + 0, '').replace('-', '−')).join(', ')})`
 
 /** A wall is one of these, in texts, page and figures. */
-export type WallWord = 'stable for anyone' | 'stable alone only' | 'unstable'
+export type WallWord = 'stable for anyone' | 'stable alone only' | 'stable alone; any user not known' | 'unstable'
 
 /** The verdict on a wall: a person always lets go. */
-export const wallWord = (wall: NonNullable<Analysis['wall']>): WallWord =>
-  !wall.stable ? 'unstable' : wall.stable_for.any_user ? 'stable for anyone' : 'stable alone only'
+export const wallWord = ({
+  stable,
+  stable_for: { any_user: anyUser },
+}: Pick<NonNullable<Analysis['wall']>, 'stable' | 'stable_for'>): WallWord =>
+  !stable ? 'unstable' : anyUser === null ? 'stable alone; any user not known' : anyUser ? 'stable for anyone' : 'stable alone only'
 
 /** A margin that is null is none, or was left out: then one of these was found. */
 const marginsLeftOut = {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest'
 import { groupsOf, inWords } from '../../src/model/keys'
 import { scan } from '../../src/model/toml'
-import { asListed, limitWord, remarkLine } from '../../src/model/words'
+import { asListed, limitWord, remarkLine, wallWord } from '../../src/model/words'
 
 const finding = (text: string) => ({
   code: 'stated',
@@ -31,6 +31,15 @@ describe('words', () => {
     )
     expect(limitWord({ status: 'unbounded', stable_intervals: [[0, null]] })).toBe('every wall is stable')
     expect(limitWord({ status: 'refused', stable_intervals: null })).toBe('refused')
+  })
+
+  it('call a wall stable alone only where some user is known to destabilise it', () => {
+    const word = (stable: boolean, anyUser: boolean | null): string =>
+      wallWord({ stable, stable_for: { nobody: stable, user: null, any_user: anyUser } })
+    expect(word(true, true)).toBe('stable for anyone')
+    expect(word(true, false)).toBe('stable alone only')
+    expect(word(true, null)).toBe('stable alone; any user not known')
+    expect(word(false, null)).toBe('unstable')
   })
 
   it('name numbers as the page does, in the texts of the program', () => {
