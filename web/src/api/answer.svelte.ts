@@ -5,6 +5,8 @@ import { stale } from '../model/words'
 import { post, Problem } from './client'
 
 export type Options = Record<string, unknown>
+/** Where what shows an answer stands: in view, further down, or on another tab. */
+export type View = 'in' | 'out' | 'hidden'
 
 export interface Question {
   path: string // analyze, design, ...
@@ -71,7 +73,7 @@ export class Answer<T> {
   private askedText = '' // of the request under way
   private replacedAt = 0 // when something newer than that was asked
 
-  private isInView = true
+  private view: View = 'in'
   private timer: ReturnType<typeof setTimeout> | undefined
 
   private progress = $state<number | null>(null)
@@ -88,10 +90,17 @@ export class Answer<T> {
 
   constructor(private readonly isSlow = false) {}
 
-  /** What nobody sees waits until the questions rest. */
-  seen(inView: boolean): void {
-    this.isInView = inView
-    if (inView && this.late) this.start()
+  /** What is out of view waits until the questions rest, what is on another tab until that is shown. */
+  seen(view: View): void {
+    this.view = view
+    if (view === 'hidden') {
+      clearTimeout(this.timer)
+      this.timer = undefined
+    } else if (this.late) this.startInView()
+  }
+  private startInView(): void {
+    if (this.view === 'in') this.start()
+    else if (this.view === 'out') this.startLater()
   }
 
   /** `since`: when what is shown ceased to be what is asked. */
@@ -142,8 +151,7 @@ export class Answer<T> {
         this.document = null
         this.problem = null
       }
-      if (this.isInView) this.start()
-      else this.startLater()
+      this.startInView()
     }
   }
 
@@ -159,8 +167,8 @@ export class Answer<T> {
   private async run(): Promise<void> {
     this.running = true
     for (let first = true; this.wanted !== null && this.wantedText !== this.shownText; first = false) {
-      if (!first && !this.isInView) {
-        this.startLater()
+      if (!first && this.view !== 'in') {
+        this.startInView()
         break
       }
       if (this.isSlow) await turn()

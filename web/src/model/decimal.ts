@@ -75,6 +75,20 @@ export function say(value: number | null | undefined, unit: string, digits = 4):
   return full ? `${number} ${full}` : number
 }
 
+/** Numbers side by side in one unit: with the prefix of the greatest, as long as the least is read well with it. */
+export function sayAlike(
+  values: (number | null | undefined)[],
+  unit: string,
+): (value: number | null | undefined, digits?: number) => string {
+  const sizes = values.filter((each): each is number => typeof each === 'number' && Number.isFinite(each) && each > 0)
+  const greatest = shown(Math.max(...sizes, 0), unit, 4)
+  const isFar = Math.min(...sizes) * 10 ** -greatest.places < 0.01
+  return (value, digits = 4) =>
+    typeof value !== 'number' || isFar || !Number.isFinite(value)
+      ? say(value, unit, digits)
+      : `${shifted(Number(value.toPrecision(digits)).toString(), -greatest.places)} ${greatest.unit}`.trim()
+}
+
 /** Three digits, two below 1 %. */
 export const percent = (share: number, digits = Math.abs(share) < 0.01 ? 2 : 3): string =>
   `${share > 0 ? '+' : share < 0 ? '−' : ''}${shown(Math.abs(share * 100), '', digits).number} %`

@@ -33,7 +33,7 @@ export const limitWord = ({ status, stable_intervals }: Pick<Analysis, 'status' 
 export const holderName = { nobody: 'nobody holding', user: 'the file’s user', any_user: 'any passive user' }
 
 /** The limit that a holder leaves. */
-export const holderWord = (of: Analysis | null, holder: HolderLimit | null | undefined): string =>
+export const holderWord = (of: Analysis | null, holder: HolderLimit | null | undefined, told = say): string =>
   !of
     ? ''
     : of.status === 'refused'
@@ -43,7 +43,7 @@ export const holderWord = (of: Analysis | null, holder: HolderLimit | null | und
         : holder === of.limits.any_user && holder.critical_stiffness === 0
           ? 'none: some user destabilises every wall'
           : holder.critical_stiffness
-            ? say(holder.critical_stiffness, of.units.stiffness)
+            ? told(holder.critical_stiffness, of.units.stiffness)
             : holder.critical_stiffness === null
               ? 'every wall is stable'
               : holder === of.limits.nobody && of.limits.user
@@ -51,29 +51,50 @@ export const holderWord = (of: Analysis | null, holder: HolderLimit | null | und
                 : limitWord(of)
 
 /** The bounds of the limit with any passive user, of a wall in every direction. */
-const boundsWord = ({ point_wall: point, units }: Analysis): string => {
+const boundsWord = ({ point_wall: point, units }: Analysis, told: typeof say): string => {
   const bounds = point?.any_user
   if (!bounds) return 'not known'
   if (bounds.at_least === null) return 'every wall is stable'
   if (bounds.at_least === 0) return 'not known: some user may destabilise every wall'
-  const [least, most] = [bounds.at_least, bounds.at_most].map((each) => (each === null ? '' : say(each, units.stiffness)))
+  const [least, most] = [bounds.at_least, bounds.at_most].map((each) => (each === null ? '' : told(each, units.stiffness)))
   return least === most || !most ? `at least ${least}` : `${least} to ${most}`
 }
 
 /** With any passive user: of a wall in every direction bounds are known, else a limit. */
-export const anyUserLimitWord = (of: Analysis): string =>
-  of.point_wall && of.status !== 'refused' ? boundsWord(of) : holderWord(of, of.limits.any_user)
+export const anyUserLimitWord = (of: Analysis, told = say): string =>
+  of.point_wall && of.status !== 'refused' ? boundsWord(of, told) : holderWord(of, of.limits.any_user, told)
+
+/** What is known of the limit with any passive user: the limit, or of a wall in every direction what is stable at least. */
+export const anyUserAtLeast = (of: Analysis): number | null | undefined =>
+  of.point_wall ? of.point_wall.any_user?.at_least : of.limits.any_user?.critical_stiffness
+
+/** Where an uncertain limit lies, in 95 %; an end that is null is none. */
+export type Interval = readonly [number | null, number | null]
+export const intervalWord = (
+  [low, high]: Interval,
+  unit: string,
+  told: (value: number, unit: string, digits: number) => string,
+): string => {
+  if (low === null) return 'every wall is stable'
+  const [from, to] = [told(low, unit, 3), high === null ? '' : told(high, unit, 3)]
+  if (to === '') return `${from} or more`
+  const [number, same] = from.split(/ (.*)/)
+  return from === to ? from : to.endsWith(` ${same}`) ? `${number} to ${to}` : `${from} to ${to}`
+}
 
 /** "(−0.93, 0.36, 0)" */
 export const directionWord = (direction: number[]): string =>
   `(${direction.map((each) => say(Math.round(each * 1e3) / 1e3 + 0, '').replace('-', '−')).join(', ')})`
 
 /** A wall is one of these, in texts, page and figures. */
-export type WallWord = 'stable for anyone' | 'stable alone only' | 'unstable'
+export type WallWord = 'stable for anyone' | 'stable alone only' | 'stable alone; any user not known' | 'unstable'
 
 /** The verdict on a wall: a person always lets go. */
-export const wallWord = (wall: NonNullable<Analysis['wall']>): WallWord =>
-  !wall.stable ? 'unstable' : wall.stable_for.any_user ? 'stable for anyone' : 'stable alone only'
+export const wallWord = ({
+  stable,
+  stable_for: { any_user: anyUser },
+}: Pick<NonNullable<Analysis['wall']>, 'stable' | 'stable_for'>): WallWord =>
+  !stable ? 'unstable' : anyUser === null ? 'stable alone; any user not known' : anyUser ? 'stable for anyone' : 'stable alone only'
 
 /** A margin that is null is none, or was left out: then one of these was found. */
 const marginsLeftOut = {

@@ -3,7 +3,6 @@ import { tick } from 'svelte'
 import type { Analysis } from '../api/documents'
 import { tomlOfNumber } from '../model/decimal'
 import { workbench } from '../model/workbench.svelte'
-import { panels } from './open.svelte'
 
 /** The limit for any passive user, else alone, with its first two digits: not above it. */
 export function firstStiffness(of: Analysis | null): number {
@@ -15,7 +14,6 @@ export function firstStiffness(of: Analysis | null): number {
 /** Puts it into the file, and the keyboard on its handle. */
 export async function putWall(stiffness: number): Promise<void> {
   workbench.edit({ 'wall.stiffness': tomlOfNumber(stiffness) })
-  panels.bar = true
   for (let i = 0; i < 50; ++i) {
     await tick()
     await new Promise((done) => setTimeout(done, 20))

@@ -1,30 +1,67 @@
+// Which tab of the page is shown, and how one gets to a panel, a number or a line of the file.
 import { tick } from 'svelte'
+import { MediaQuery } from 'svelte/reactivity'
 import { fullKey, sameKey } from '../model/keys'
 import { assumedKeys } from '../model/parts'
 import { workbench } from '../model/workbench.svelte'
 
-/** Which panels are open; the palette opens them too. */
-export const panels = $state<Record<string, boolean>>({})
+/** Where the device does not stand beside the tabs, but is the first of them. */
+export const narrow = new MediaQuery('max-width: 900px')
 
-export const panelNames: [id: string, title: string][] = [
-  ['bar', 'Which stiffness is stable'],
-  ['workspace', 'Where in the workspace'],
-  ['limits', 'What limits, what to change'],
-  ['recommend', 'Which wall to render'],
-  ['region', 'Stiff and damped walls'],
-  ['time', 'The wall hit in time'],
-  ['bode', 'Frequency response'],
-  ['sweep', 'Follow one number'],
-  ['diagnose', 'What is this buzz?'],
-  ['relay', 'Relay experiment'],
-  ['recording', 'From a recording to a device'],
-  ['compare', 'Pinned designs'],
-  ['file', 'Device file and commands'],
+export const tabNames = {
+  device: 'Device',
+  wall: 'Wall',
+  time: 'Time',
+  frequency: 'Frequency',
+  change: 'Change',
+  recording: 'Recording',
+  compare: 'Compare',
+  workspace: 'Workspace',
+  file: 'File',
+}
+export type Tab = keyof typeof tabNames
+
+export const panelNames: [id: string, title: string, tab: Tab][] = [
+  ['region', 'Stiff and damped walls', 'wall'],
+  ['recommend', 'Which wall to render', 'wall'],
+  ['time', 'The wall hit in time', 'time'],
+  ['diagnose', 'What is this buzz?', 'time'],
+  ['bode', 'Frequency response', 'frequency'],
+  ['relay', 'Relay experiment', 'frequency'],
+  ['limits', 'What limits, what to change', 'change'],
+  ['sweep', 'Follow one number', 'change'],
+  ['recording', 'From a recording to a device', 'recording'],
+  ['compare', 'Pinned designs', 'compare'],
+  ['workspace', 'Where in the workspace', 'workspace'],
+  ['file', 'Device file and commands', 'file'],
 ]
+export const titleOfPanel = (id: string): string => panelNames.find(([each]) => each === id)?.[1] ?? id
+const tabOf = (id: string): Tab => panelNames.find(([each]) => each === id)?.[2] ?? 'wall'
+
+class Desk {
+  private chosen = $state<Tab>('device')
+  /** Of those with plots, the one chosen last. */
+  private beside = $state<Tab>('wall')
+  tabs = $derived(
+    (Object.keys(tabNames) as Tab[]).filter(
+      (each) => (each !== 'device' || narrow.current) && (each !== 'workspace' || workbench.shape.mechanism !== null),
+    ),
+  )
+  private wanted = $derived(narrow.current ? this.chosen : this.beside)
+  tab: Tab = $derived(this.tabs.includes(this.wanted) ? this.wanted : 'wall')
+
+  show(tab: Tab): void {
+    this.chosen = tab
+    if (tab !== 'device') this.beside = tab
+  }
+}
+export const desk = new Desk()
+/** Whether its panel is on the tab that is shown. */
+export const isShown = (id: string): boolean => desk.tab === tabOf(id)
 
 /** A line of the device file, selected in its panel. */
 export function showLine(line: number): void {
-  panels.file = true
+  desk.show('file')
   setTimeout(() => {
     const field = document.querySelector<HTMLTextAreaElement>('#toml')
     if (!field) return
@@ -37,12 +74,12 @@ export function showLine(line: number): void {
 }
 
 export function showPanel(id: string): void {
-  panels[id] = true
+  desk.show(tabOf(id))
   void tick().then(() => {
     const panel = document.getElementById(`panel-${id}`)
     if (!panel) return
     keepAtTop(panel)
-    panel.querySelector<HTMLElement>('h2 button')?.focus()
+    panel.querySelector<HTMLElement>('h2')?.focus({ preventScroll: true })
   })
 }
 
@@ -54,12 +91,12 @@ export function sweepOver(key: string): void {
 
 let shown = new AbortController()
 
-/** Brings it to the top, and again as answers above it arrive, until somebody moves the page; for 5 s at most. */
+/** Brings it to the top of its tab, and again as answers above it arrive, until somebody moves the page; for 5 s at most. */
 function keepAtTop(panel: HTMLElement): void {
   shown.abort()
   const until = (shown = new AbortController())
   const grown = new ResizeObserver(() => panel.scrollIntoView({ block: 'start' }))
-  grown.observe(document.body) // it is told at once, too
+  for (const each of panel.parentElement?.children ?? []) grown.observe(each) // it is told at once, too
   until.signal.addEventListener('abort', () => grown.disconnect())
   for (const moved of ['wheel', 'touchstart', 'pointerdown', 'keydown']) {
     addEventListener(moved, () => until.abort(), { once: true, signal: until.signal })
@@ -67,16 +104,24 @@ function keepAtTop(panel: HTMLElement): void {
   setTimeout(() => until.abort(), 5_000)
 }
 
-/** The answer of another device, on top; the keyboard goes on from there, to its numbers. */
+/** Another device: the keyboard goes on from its answer, to its numbers. */
 export function showAnswer(): void {
-  const title = document.getElementById('answer-title')
-  title?.scrollIntoView({ block: 'start' })
-  title?.focus({ preventScroll: true })
+  desk.show('device')
+  void tick().then(() => {
+    document.getElementById('device')?.scrollTo({ top: 0 })
+    document.getElementById('answer-title')?.focus({ preventScroll: true })
+  })
+}
+
+/** The numbers of a part, on a narrow page their tab. */
+export function select(group: string): void {
+  workbench.selected = group
+  desk.show('device')
 }
 
 /** That number's field, ready to be typed over. */
 export function goTo(key: string): void {
-  workbench.selected = workbench.groups.find((group) => group.rows.some((row) => sameKey(row.key, key)))?.id ?? ''
+  select(workbench.groups.find((group) => group.rows.some((row) => sameKey(row.key, key)))?.id ?? '')
   void tick().then(() => document.querySelector<HTMLInputElement>(`[data-key="${CSS.escape(fullKey(key))}"] input`)?.focus())
 }
 
@@ -85,5 +130,5 @@ export function beginWith(toml: string): void {
   workbench.load(toml)
   showAnswer()
   const [first] = assumedKeys(toml)
-  if (first !== undefined) goTo(first)
+  if (first !== undefined) void tick().then(() => goTo(first))
 }

@@ -99,7 +99,7 @@ it('leaves no empty space at an unstable wall, and lets nothing jump while it is
   await type(page, 'wall.stiffness', '3 kN/m')
   await settled(page)
   const word = page.locator('[data-answer="wall"]')
-  const height = (): Promise<number> => word.evaluate((each) => each.getBoundingClientRect().height)
+  const height = (): Promise<number> => page.locator('.answer-words').evaluate((each) => each.getBoundingClientRect().height)
   const stable = await height()
   const slider = row(page, 'wall.stiffness').locator('input[type="range"]')
   await slider.scrollIntoViewIfNeeded()

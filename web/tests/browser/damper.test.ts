@@ -1,7 +1,7 @@
 // The damper in a loop of its own: added, changed and taken out again.
 import { expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { documentOf, nobody, openPage, place, row, runPalette, settled, type } from './program'
+import { askAll, documentOf, nobody, onEachTab, openPage, place, row, runPalette, settled, show, toDevice, type } from './program'
 
 const here = place('devices/lhifam.toml')
 const limitOf = (...sets: string[]): string =>
@@ -13,7 +13,6 @@ it.each([1280, 390])('runs the damper at a rate of its own, and in one loop agai
   await expect.poll(() => nobody(page)).toBe('187.2 kN/m')
   const group = page.locator('[id="group-loop.damper"]')
   const file = (): Promise<string> => page.locator('#toml').inputValue()
-  await runPalette(page, 'show: device file')
   const before = await file()
   await group.getByRole('button', { name: 'Damper’s own loop (none)' }).click()
   await group.getByRole('button', { name: 'Add it, ten times as fast' }).click()
@@ -39,13 +38,11 @@ it.each([1280, 390])('runs the damper at a rate of its own, and in one loop agai
   await expect.poll(() => period.inputValue()).toBe('500 µs')
 
   // Every panel answers or says why it does not.
-  await runPalette(page, 'open all panels')
-  await page.getByLabel(/It oscillates at/).fill('41')
-  await page.getByLabel(/Force of the relay/).fill('5')
-  await page.getByLabel(/Force of the relay/).press('Enter')
-  await settled(page)
+  await askAll(page, ['Time', 'Frequency'])
+  await onEachTab(page, async () => {})
+  await toDevice(page)
   expect(await page.getByText('This panel failed').count()).toBe(0)
-  const told = (await page.locator('.panel .panel-body > .problem').allInnerTexts()).filter(Boolean)
+  const told = (await page.locator('.panel .panel-body > .problem').allTextContents()).map((each) => each.trim()).filter(Boolean)
   expect(told.filter((each) => !/runs the damper (in a loop of its own|apart)/.test(each))).toEqual([])
 
   await group.getByRole('button', { name: 'Take it out' }).click()
@@ -66,6 +63,7 @@ it('draws the region of one loop for both beside it', async () => {
   await runPalette(page, 'go to own loop: sampling period')
   await page.keyboard.type('0.1 ms')
   await page.keyboard.press('Enter')
+  await show(page, 'Wall')
   await page.locator('#body-region', { hasText: 'one loop for both, nobody holding' }).waitFor()
   await page.locator('#body-region', { hasText: /damper’s own loop gives [\d.]+ times that/ }).waitFor()
   await type(page, 'loop.damper.sampling_period', '')

@@ -1,13 +1,12 @@
 // The drive of a rig: a table of the device file that no limit feels.
 import { execFileSync } from 'node:child_process'
 import { expect, it } from 'vitest'
-import { nobody, openPage, place, program, row, runPalette, settled, type } from './program'
+import { nobody, openPage, place, program, row, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
 
 it.each([1280, 390])('is written with its units, judged at its fields, and taken out again, %i pixels wide', async (width) => {
   const { page, context, complaints } = await openPage(here, width)
-  await runPalette(page, 'show: device file')
   const text = (): Promise<string> => page.locator('#toml').inputValue()
   const [before, answer] = [await text(), await nobody(page)]
   await page.getByRole('button', { name: 'Drive of a rig' }).click()

@@ -1,7 +1,7 @@
 // What stood in the way of people who were new to it.
 import { expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { nobody, documentOf, openPage, place, project, row, runPalette, settled, type } from './program'
+import { nobody, documentOf, openPage, place, project, row, runPalette, settled, show, type, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
 const focused = '[data-key]:has(input[type="text"]:focus)'
@@ -34,6 +34,7 @@ it('goes by Tab from number to number, and by keys through each', async () => {
 
 it('puts a wall that no user destabilises, with the keyboard on it', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
+  await show(page, 'Time')
   await page.locator('#panel-time').getByRole('button', { name: 'put one at the limit' }).click()
   await page.waitForSelector('[data-answer="wall"]')
   await page.waitForFunction(() => document.activeElement?.matches('#panel-bar .handle'))
@@ -79,6 +80,7 @@ it('says why a relay has no reading in the program’s words, and shows what it 
 
 it('names what reaches a stiffness, folds away what does not, and says when it is reached', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
+  await show(page, 'Change')
   const wanted = page.getByLabel(/Limit wanted/)
   await settled(page)
   await expect.poll(() => wanted.getAttribute('placeholder')).toBe('such as 18 kN/m') // twice the limit there is
@@ -100,7 +102,7 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   const { page, context, complaints } = await openPage(here, 1280)
   await runPalette(page, 'show: from a recording')
   await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/free_motion.csv`)
-  await page.getByLabel('Time', { exact: true }).selectOption('time')
+  await page.locator('#column-time').selectOption('time')
   await page.getByLabel('Fit', { exact: true }).selectOption('rigid')
   await page.getByLabel('By', { exact: true }).selectOption('time-domain')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
@@ -157,19 +159,30 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   await context.close()
 })
 
-it('shows the limits while one works further down, and with a user the limit that there is with nobody', async () => {
-  for (const width of [1280, 390]) {
+it('keeps answer, bar and wall in view on every tab, however far down one works, and with a user the limit with nobody', async () => {
+  for (const width of [1440, 1024, 390]) {
     const { page, context, complaints } = await openPage(here, width)
-    const short = page.locator('[data-answer="in-short"]')
-    await expect.poll(() => short.count()).toBe(0)
-    await row(page, 'loop.delay').scrollIntoViewIfNeeded()
-    await page.evaluate(() => document.querySelector('[data-key="loop.delay"]')!.scrollIntoView({ block: 'start' }))
-    await short.waitFor()
-    await expect.poll(() => short.innerText()).toMatch(/nobody 8\.849 kN\/m, any user 5\.776 kN\/m/)
+    const inView = (selector: string): Promise<boolean> =>
+      page.locator(selector).evaluate((each) => {
+        const box = each.getBoundingClientRect()
+        const on = document.elementFromPoint((box.left + box.right) / 2, (box.top + box.bottom) / 2)
+        return box.top >= 0 && box.bottom <= innerHeight && (each.contains(on) || on?.contains(each) === true)
+      })
+    await withWall(page)
+    for (const tab of await page.getByRole('tab').allInnerTexts()) {
+      await show(page, tab)
+      await settled(page)
+      await page.evaluate(() => document.querySelectorAll('.device, .sheets').forEach((each) => each.scrollTo({ top: 1e6 })))
+      for (const part of ['[data-answer="nobody"]', '[data-answer="any-user"]', '[data-answer="trust"]', '#panel-bar .handle .knob.fill'])
+        expect(await inView(part), `${part} on ${tab}, ${width} pixels wide`).toBe(true)
+    }
+    // The limit to build on stands first.
+    await expect.poll(() => page.locator('.limits dt').first().innerText()).toBe('Any passive user')
+    await type(page, 'wall.stiffness', '')
     await type(page, 'loop.delay', '0.25 ms')
     await settled(page)
     const delayed = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.delay=0.25 ms') as { critical_stiffness: number }
-    await expect.poll(() => short.innerText()).toContain(`nobody ${(delayed.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    await expect.poll(() => nobody(page)).toBe(`${(delayed.critical_stiffness / 1000).toPrecision(4)} kN/m`)
     await type(page, 'loop.delay', '0')
     await expect.poll(() => page.locator('[data-answer="user"]').count()).toBe(0)
     await runPalette(page, 'go to user who holds it damping')

@@ -46,15 +46,15 @@ it('says what is wrong with a link, and keeps what it shows', async () => {
     [hash.replace('#d=b', '#d=a'), /older version/],
   ] as const) {
     await page.evaluate((each) => (location.hash = each), broken)
-    await expect.poll(() => page.locator('main > .problem').allInnerTexts(), broken).toEqual([expect.stringMatching(why)])
+    await expect.poll(() => page.locator('.notices .problem').allInnerTexts(), broken).toEqual([expect.stringMatching(why)])
     await expect.poll(() => stiffness(page)).toBe('70 kN/m')
     const opened = await openPage(here, 1280, broken)
-    await expect.poll(() => opened.page.locator('main > .problem').innerText()).toMatch(why)
+    await expect.poll(() => opened.page.locator('.notices .problem').innerText()).toMatch(why)
     await expect.poll(() => stiffness(opened.page)).toBe('79.5 kN/m')
     await opened.context.close()
   }
   await page.evaluate((each) => (location.hash = each), hash)
-  await expect.poll(() => page.locator('main > .problem').count()).toBe(0)
+  await expect.poll(() => page.locator('.notices .problem').count()).toBe(0)
   expect(complaints).toEqual([])
   await context.close()
 })

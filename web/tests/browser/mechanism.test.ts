@@ -89,7 +89,6 @@ it.each([
 it('asks for the file that a device names, and takes both at once', async () => {
   const { page, context } = await openPage(here, 1280)
   const [toml, xml] = [`${project}/${file}`, `${project}/devices/mechanisms/planar_arm.xml`]
-  await runPalette(page, 'show: device file')
   await page.locator('#open-file').setInputFiles(toml)
   await page.locator('[data-mechanism="missing"]').waitFor()
   expect(await page.locator('[data-answer="nobody"]').count()).toBe(0)

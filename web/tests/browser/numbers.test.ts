@@ -1,7 +1,7 @@
 // Every panel's numbers are those that the program prints with --json.
 import { expect, it } from 'vitest'
 import { percent, rounded, say } from '../../src/model/decimal'
-import { documentOf, openAll, openPage, place, settled, type } from './program'
+import { documentOf, askAll, openPage, onEachTab, place, show, type } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -12,9 +12,9 @@ it('shows the numbers of every document', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
   await type(page, 'wall.stiffness', '3000 N/m')
   await type(page, 'wall.damping', '4 N s/m')
-  await openAll(page)
-  await page.setViewportSize({ width: 1280, height: 8000 }) // what is out of view waits
-  await settled(page)
+  await askAll(page)
+  await page.setViewportSize({ width: 1280, height: 4000 }) // what is out of view waits
+  await onEachTab(page, async () => {})
   const panel = (id: string): Promise<string> => page.locator(`#body-${id}`).innerText()
   const holds = async (id: string, texts: string[]): Promise<void> => {
     const shown = await panel(id)
@@ -33,6 +33,7 @@ it('shows the numbers of every document', async () => {
   const target = documentOf('design', ...wall, '--target', '12 kN/m') as unknown as {
     targets: { value_needed: number | null; why: string }[]
   }
+  await show(page, 'Change')
   await page.getByText('Numbers that alone cannot').click()
   await holds(
     'limits',
@@ -100,6 +101,7 @@ it('shows the numbers of every document', async () => {
 
   // The table of a curve has the very numbers of the document.
   const sampled = (bode as unknown as { sampled: { frequency_rad_s: number[]; magnitude_db: number[] } }).sampled
+  await show(page, 'Frequency')
   await page.getByRole('button', { name: 'Table of Bode magnitude' }).click()
   const cells = await page.locator('#body-bode .table-scroll tbody tr').first().locator('td').allInnerTexts()
   expect(cells).toEqual(['sampled', say(sampled.frequency_rad_s[0]! / (2 * Math.PI), '', 5), say(sampled.magnitude_db[0], '', 5)])

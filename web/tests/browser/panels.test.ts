@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs'
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { nobody, documentOf, openAll, openPage, place, row, runPalette, settled, type, withWall } from './program'
+import { askAll, documentOf, nobody, onEachTab, openPage, place, row, runPalette, settled, show, toDevice, type, withWall } from './program'
 
 const here = place('devices/quanser_torsion.toml')
 
@@ -52,9 +52,9 @@ const replaceText = async (page: Page, change: (toml: string) => string): Promis
 it('shows no number of a device whose answer is refused, in no panel', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
   await withWall(page)
-  await openAll(page)
-  await page.setViewportSize({ width: 1280, height: 8000 }) // what is out of view waits
-  await settled(page)
+  await askAll(page)
+  await page.setViewportSize({ width: 1280, height: 4000 }) // what is out of view waits
+  await onEachTab(page, async () => {})
   const numbers = (): Promise<string[]> =>
     page.evaluate(() => {
       const parts = [
@@ -70,9 +70,10 @@ it('shows no number of a device whose answer is refused, in no panel', async () 
       )
     })
   await expect.poll(async () => (await numbers()).length).toBeGreaterThan(10)
+  await show(page, 'File')
   await replaceText(page, (toml) => `${toml}\n[uncertainty]\nverdict = "refused"\nwarning = "the record was cut off"\n`)
   await page.waitForFunction(() => /refused/.test(document.querySelector('[data-answer="trust"]')?.textContent ?? ''))
-  await settled(page)
+  await onEachTab(page, async () => {})
   await expect.poll(() => numbers()).toEqual([])
   await expect.poll(() => page.locator('.answer').innerText()).toContain('the record was cut off')
   for (const panel of ['time', 'bode', 'relay'])
@@ -171,6 +172,7 @@ it.each([1280, 390])('cuts no unit from a number, %i pixels wide', async (width)
   for (const key of ['loop.delay', 'wall.stiffness', 'wall.damping']) await type(page, key, digits)
   await runPalette(page, 'show: device file')
   await replaceText(page, (toml) => toml.replace(/^(inertia|damping|stiffness) = [^\n#]*/gm, `$1 = ${digits}`))
+  await toDevice(page)
   const cut = await page
     .locator('.numbers input[type="text"]')
     .evaluateAll((all) => all.filter((each) => each.scrollWidth > each.clientWidth + 1).map((each) => (each as HTMLInputElement).value))
@@ -185,12 +187,13 @@ it('says what is missing in an empty device file, and keeps the panels', async (
   await replaceText(page, () => '')
   await page.locator('.answer .problem', { hasText: 'The device file is empty' }).waitFor()
   await settled(page)
-  await expect.poll(() => page.locator('.panel').count()).toBe(12)
+  await expect.poll(() => page.locator('.panel').count()).toBe(11)
   await expect.poll(() => page.locator('.schematic').innerText()).toContain('no bodies')
-  await page.locator('.answer .problem button').click()
-  await page.getByLabel('Examples').selectOption({ index: 1 })
+  await page.locator('.answer .problem').getByRole('button', { name: 'New, open' }).click()
+  await page.locator('.examples button').first().click()
   await page.waitForSelector('[data-answer="nobody"]')
   for (const motion of ['linear', 'rotary']) {
+    await page.getByRole('button', { name: 'New, open' }).click()
     await page.getByRole('button', { name: `New device, ${motion}` }).click()
     await settled(page)
     await expect.poll(() => page.locator('h1').innerText()).toBe('new device')
@@ -227,6 +230,7 @@ it.each([1280, 390])('cuts no wall recommended, no label and no long name, %i pi
     .poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth))
     .toBeLessThanOrEqual(0)
   await expect.poll(() => page.locator('h1').evaluate((each) => each.scrollWidth - each.clientWidth)).toBeLessThanOrEqual(0)
+  await toDevice(page)
   const outside = await page.locator('.schematic svg .part').evaluateAll((parts) =>
     parts.flatMap((part) => {
       const box = part.querySelector('rect.box')?.getBoundingClientRect()

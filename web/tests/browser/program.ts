@@ -138,20 +138,43 @@ export const runPalette = async (page: Page, text: string): Promise<void> => {
 export const row = (page: Page, key: string) => page.locator(`[data-key="${key}"]`)
 export const nobody = (page: Page): Promise<string> => page.locator('[data-answer="nobody"]').innerText()
 
+/** A tab of the page; of a narrow one the device is one, too. */
+export const show = async (page: Page, tab: string): Promise<void> => page.getByRole('tab', { name: tab, exact: true }).click()
+export const tabs = ['Wall', 'Time', 'Frequency', 'Change', 'Recording', 'Compare', 'File']
+/** Each tab in turn, once its panels have caught up. */
+export async function onEachTab(page: Page, look: (tab: string) => Promise<void>): Promise<void> {
+  for (const tab of tabs) {
+    await show(page, tab)
+    await settled(page)
+    await look(tab)
+  }
+}
+/** Device and numbers, which on a wide page always stand there. */
+export async function toDevice(page: Page): Promise<void> {
+  if ((await page.getByRole('tab', { name: 'Device', exact: true }).count()) > 0) await show(page, 'Device')
+}
 export const withWall = async (page: Page): Promise<void> => {
+  await toDevice(page)
   await page.getByRole('button', { name: /Put a wall/ }).click()
   await page.waitForSelector('[data-answer="wall"]')
 }
 export const type = async (page: Page, key: string, text: string): Promise<void> => {
+  await toDevice(page)
   const input = row(page, key).locator('input[type="text"]')
   await input.fill(text)
   await input.press('Enter')
 }
-/** Every panel, each with a question. */
-export const openAll = async (page: Page): Promise<void> => {
-  await runPalette(page, 'open all panels')
-  await page.getByLabel(/Limit wanted/).fill('12 kN/m')
-  await page.getByLabel(/It oscillates at/).fill('41')
-  await page.getByLabel(/Force of the relay/).fill('5')
-  await page.getByLabel(/Force of the relay/).press('Enter')
+/** Every panel with a question; the tab that was shown at first is shown again. */
+const questions = [
+  ['Change', /Limit wanted/, '12 kN/m'],
+  ['Time', /It oscillates at/, '41'],
+  ['Frequency', /Force of the relay/, '5'],
+] as const
+export const askAll = async (page: Page, of: readonly (typeof questions)[number][0][] = ['Change', 'Time', 'Frequency']): Promise<void> => {
+  for (const [tab, label, text] of questions.filter(([each]) => of.includes(each))) {
+    await show(page, tab)
+    await page.getByLabel(label).fill(text)
+    await page.getByLabel(label).press('Enter')
+  }
+  await show(page, 'Wall')
 }

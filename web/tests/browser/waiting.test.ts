@@ -1,7 +1,7 @@
 // What the page says while there is no answer yet.
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { nobody, openAll, openPage, place, serve, serveAt, settled, type, withWall } from './program'
+import { askAll, nobody, onEachTab, openPage, place, serve, serveAt, settled, show, tabs, toDevice, type, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -22,8 +22,9 @@ it('marks an answer that is of the device before, without a tick', async () => {
   await page.locator('.answer.stale').waitFor()
   await expect.poll(() => answered(page)).toContain('of the device before; computing …')
   expect(await answered(page)).not.toContain('✓')
-  await expect.poll(() => page.locator('#panel-bar').innerText()).toContain('of the device before; computing …')
-  await expect.poll(() => page.locator('#body-bar.stale, #body-limits.stale').count()).toBe(2)
+  await show(page, 'Change')
+  await expect.poll(() => page.locator('#panel-limits').innerText()).toContain('of the device before; computing …')
+  await expect.poll(() => page.locator('#body-limits.stale').count()).toBe(1)
   free()
   await page.locator('.answer:not(.stale)').waitFor()
   await settled(page)
@@ -52,9 +53,9 @@ it('asks again where the program was ended, and goes on when it is started again
 it.each([1280, 390])('says in every panel of long work how far it is, and lets nothing jump meanwhile, %i pixels wide', async (width) => {
   const { page, context, complaints } = await openPage(here, width)
   await withWall(page)
-  await openAll(page)
-  await page.setViewportSize({ width, height: 9000 }) // what is out of view waits
-  await settled(page)
+  await askAll(page)
+  await page.setViewportSize({ width, height: 4000 }) // what is out of view waits
+  await onEachTab(page, async () => {})
   // Every answer takes long, and tells after a while that it is done by 37 %.
   await page.evaluate(() => {
     const real = window.fetch
@@ -76,8 +77,8 @@ it.each([1280, 390])('says in every panel of long work how far it is, and lets n
       return new Response(body, { status: 200, headers: { 'Content-Type': 'application/x-ndjson' } })
     }
   })
-  await type(page, 'body.handle.mass', '4.9') // from then on all are known to take long
-  await settled(page)
+  await type(page, 'body.handle.mass', '4.9')
+  await onEachTab(page, async () => {}) // from then on all are known to take long
   await page.evaluate(() => {
     const seen = { told: [] as string[], places: [] as string[] }
     Object.assign(window, { seen })
@@ -88,8 +89,11 @@ it.each([1280, 390])('says in every panel of long work how far it is, and lets n
         if (text.includes('37 %') && !seen.told.includes(name)) seen.told.push(name)
       }
       const top = (selector: string): number => document.querySelector(selector)!.getBoundingClientRect().top
+      const of = document.querySelector('[role="tab"][aria-selected="true"]')!.textContent!
       const place = [
+        of,
         top('[data-key="loop.delay"]') - top('.numbers'),
+        top('.tabs'),
         ...[...document.querySelectorAll('.panel > header')].map((each) => each.getBoundingClientRect().height),
       ].join()
       if (!seen.places.includes(place)) seen.places.push(place)
@@ -99,10 +103,11 @@ it.each([1280, 390])('says in every panel of long work how far it is, and lets n
   })
   await type(page, 'body.handle.mass', '4.8')
   await settled(page)
+  await onEachTab(page, async () => {})
+  await toDevice(page)
   const seen = await page.evaluate(() => (window as unknown as { seen: { told: string[]; places: string[] } }).seen)
   expect(seen.told.sort()).toEqual([
     'answer',
-    'bar',
     'bode',
     'compare',
     'diagnose',
@@ -115,7 +120,7 @@ it.each([1280, 390])('says in every panel of long work how far it is, and lets n
     'sweep',
     'time',
   ])
-  expect(seen.places).toHaveLength(1)
+  expect(seen.places).toHaveLength(tabs.length + (width < 900 ? 1 : 0)) // one of each tab
   await expect.poll(() => page.locator('main').innerText()).not.toContain('37 %')
   expect(complaints).toEqual([])
   await context.close()

@@ -3,7 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { dirname } from 'node:path'
 import { describe, expect, it } from 'vitest'
-import { nobody, openAll, openPage, place, program, project, runPalette, serve, settled, type, withWall } from './program'
+import { askAll, nobody, openPage, place, program, project, runPalette, serve, settled, show, type, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -45,11 +45,13 @@ describe('work habits', () => {
     const { page, context, complaints } = await openPage(here, 1280)
     await withWall(page)
     await settled(page)
-    for (const [name, start] of [
-      ['Save Bode magnitude as SVG', '<svg'],
-      ['Save Which stiffness is stable as PNG', '\x89PNG'],
-      ['Save the numbers of Stiff and damped walls as CSV', 'curve,'],
+    for (const [tab, name, start] of [
+      ['Frequency', 'Save Bode magnitude as SVG', '<svg'],
+      ['Frequency', 'Save Which stiffness is stable as PNG', '\x89PNG'],
+      ['Wall', 'Save the numbers of Stiff and damped walls as CSV', 'curve,'],
     ] as const) {
+      await show(page, tab)
+      await settled(page)
       const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name }).click()])
       const bytes = readFileSync(await download.path())
       expect(bytes.subarray(0, start.length).toString('latin1')).toBe(start)
@@ -69,10 +71,17 @@ it('says in every panel of numbers that a doubtful device is one', async () => {
   const { page, context, complaints } = await openPage({ browser: here.browser, served: other }, 1280)
   expect(await page.locator('[data-answer="trust"]').innerText()).toContain('doubtful')
   await withWall(page)
-  await openAll(page)
-  await page.setViewportSize({ width: 1280, height: 6000 }) // what is out of view waits
-  await settled(page)
-  for (const panel of ['limits', 'region', 'time', 'bode', 'recommend']) {
+  await askAll(page)
+  await page.setViewportSize({ width: 1280, height: 3000 }) // what is out of view waits
+  for (const [tab, panel] of [
+    ['Change', 'limits'],
+    ['Wall', 'region'],
+    ['Time', 'time'],
+    ['Frequency', 'bode'],
+    ['Wall', 'recommend'],
+  ] as const) {
+    await show(page, tab)
+    await settled(page)
     await expect.poll(() => page.locator(`#panel-${panel}`).innerText()).toMatch(/doubtful: .*measured by a guess/)
   }
   expect(complaints).toEqual([])

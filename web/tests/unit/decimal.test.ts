@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { percent, say, shifted, shown, tomlOfNumber, tomlOfTyped, wholeRatio, written } from '../../src/model/decimal'
+import { percent, say, sayAlike, shifted, shown, tomlOfNumber, tomlOfTyped, wholeRatio, written } from '../../src/model/decimal'
 
 describe('decimal', () => {
   it('moves the point without rounding', () => {
@@ -15,6 +15,14 @@ describe('decimal', () => {
         expect(Number(tomlOfTyped(`${text.number} ${text.unit}`, text)), `${value} ${unit}`).toBe(value)
       }
     }
+  })
+
+  it('says numbers side by side in one unit, as long as the least is read well', () => {
+    const alike = sayAlike([12_000, 950, null, Infinity], 'N/m')
+    expect([12_000, 950, null].map((each) => alike(each))).toEqual(['12 kN/m', '0.95 kN/m', 'none'])
+    expect(sayAlike([3e8, 20], 'N/m')(20)).toBe('20 N/m')
+    expect(sayAlike([], 'N/m')(5)).toBe('5 N/m')
+    expect(sayAlike([0, 2], 'N m/rad')(0)).toBe('0 N m/rad')
   })
 
   it('says numbers with prefixes', () => {

@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest'
+import { say } from '../../src/model/decimal'
 import { groupsOf, inWords } from '../../src/model/keys'
 import { scan } from '../../src/model/toml'
-import { asListed, limitWord, remarkLine } from '../../src/model/words'
+import { asListed, intervalWord, limitWord, remarkLine, wallWord } from '../../src/model/words'
 
 const finding = (text: string) => ({
   code: 'stated',
@@ -31,6 +32,24 @@ describe('words', () => {
     )
     expect(limitWord({ status: 'unbounded', stable_intervals: [[0, null]] })).toBe('every wall is stable')
     expect(limitWord({ status: 'refused', stable_intervals: null })).toBe('refused')
+  })
+
+  it('call a wall stable alone only where some user is known to destabilise it', () => {
+    const word = (stable: boolean, anyUser: boolean | null): string =>
+      wallWord({ stable, stable_for: { nobody: stable, user: null, any_user: anyUser } })
+    expect(word(true, true)).toBe('stable for anyone')
+    expect(word(true, false)).toBe('stable alone only')
+    expect(word(true, null)).toBe('stable alone; any user not known')
+    expect(word(false, null)).toBe('unstable')
+  })
+
+  it('say where an uncertain limit lies', () => {
+    const word = (low: number | null, high: number | null): string => intervalWord([low, high], 'N/m', say)
+    expect(word(2000, 31_000)).toBe('2 to 31 kN/m')
+    expect(word(900, 3100)).toBe('900 N/m to 3.1 kN/m')
+    expect(word(2000, null)).toBe('2 kN/m or more')
+    expect(word(null, null)).toBe('every wall is stable')
+    expect(word(2000, 2000)).toBe('2 kN/m')
   })
 
   it('name numbers as the page does, in the texts of the program', () => {
