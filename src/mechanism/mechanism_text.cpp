@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <span>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "counted.hpp"
 #include "zwidth/require_valid.hpp"
@@ -34,6 +39,9 @@ constexpr std::array<std::string_view, 7> not_read{"attach", "composite", "exten
 constexpr std::array<std::string_view, 9> attributes_not_needed{
     "file", "filename", "meshdir", "texturedir", "assetdir", "material", "texture", "strippath", "discardvisual"};
 constexpr std::array<std::string_view, 5> paths{"file", "filename", "meshdir", "texturedir", "assetdir"};
+constexpr std::array<std::string_view, 20> attributes_of_names{
+    "name",  "class", "childclass", "file",    "filename", "joint", "joint1", "joint2", "body",     "body1",
+    "body2", "site",  "tendon",     "tendon1", "tendon2",  "geom",  "mesh",   "link",   "material", "model"};
 constexpr std::array<std::string_view, 3> joints{"joint", "freejoint", "ball"};
 
 bool is_of(Names names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
@@ -78,6 +86,23 @@ bool moves(const XMLElement& body) {
     if (name != "body" || std::ranges::any_of(joints, has_child)) return true;
   }
   return true;
+}
+
+bool is_no_number(std::string_view word) {
+  std::string low(word);
+  std::ranges::transform(low, low.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  while (low.starts_with('-') || low.starts_with('+')) low.erase(0, 1);
+  return low.starts_with("nan") || low == "inf" || low == "infinity";
+}
+
+// NaN or infinity among numbers, which MuJoCo takes for others; or a quaternion of zeros, which turns nowhere.
+bool has_no_number(const XMLAttribute& attribute) {
+  if (is_of(attributes_of_names, attribute.Name())) return false;
+  std::istringstream words{attribute.Value()};
+  const std::vector<std::string> each{std::istream_iterator<std::string>(words), {}};
+  if (std::ranges::any_of(each, is_no_number)) return true;
+  const auto is_zero = [](const std::string& word) { return word.find_first_not_of("+-0.eE") == std::string::npos; };
+  return attribute.Name() == "quat"sv && !each.empty() && std::ranges::all_of(each, is_zero);
 }
 
 class MechanismReader {
@@ -165,6 +190,7 @@ class MechanismReader {
       if (std::string_view(each->Value()).find('<') != std::string_view::npos) {
         refuse_xml(document, each->GetLineNum(), "value");
       }
+      if (has_no_number(*each)) refuse_xml(document, each->GetLineNum(), "number");
       names_file = names_file || is_of(paths, each->Name());
     }
     if (names_file && !may_name_files_) refuse(ProblemCode::path_in_text, document, element.GetLineNum(), name);

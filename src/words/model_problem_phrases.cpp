@@ -124,7 +124,8 @@ std::span<const ProblemPhrase> model_problem_phrases() {
           "too "
           "deep}{?why=many|more elements than are read}{?why=roots|a second root element}{?why=value|an attribute has "
           "a "
-          "<}{?why=zero|a byte of 0}{?why=none|no element}{?why=declared|declarations of types, CDATA and text outside "
+          "<}{?why=number|NaN, infinity or a quaternion of zeros}{?why=zero|a byte of 0}{?why=none|no "
+          "element}{?why=declared|declarations of types, CDATA and text outside "
           "of "
           "elements are not read}",
           ""},

@@ -115,7 +115,7 @@ std::span<const Phrase> stability_phrases() {
       Phrase{workspace_of_tried_poses, "workspace_of_tried_poses", note,
              "the least is that of {poses:n} pose{poses:s} with {directions:n} direction{directions:s} tried in all"
              "{?refined|, refined between the directions}",
-             "between those poses a limit may be less", "give more poses where it is low"},
+             "between those poses and directions a limit may be less", "give more of them where it is low"},
       Phrase{workspace_poses_refused, "workspace_poses_refused", warning,
              "{count:n} of {of:n} poses are singular, or not reached: no limit is known there", "",
              "poses say why, one by one"},

@@ -24,6 +24,9 @@ constexpr double worth_refining_within = 1.3;  // times the least of those tried
 constexpr std::size_t most_lows = 3;
 constexpr std::size_t most_compared = 1000;  // beyond, the least alone is refined
 constexpr double neighbours_within = 1.7;    // spacings
+constexpr double neighbours_of_jump = 1.3;   // spacings
+constexpr double jump = 2.0;                 // of neighbouring limits
+constexpr int most_halvings = 4;
 constexpr int plane_bits = 10;
 constexpr std::uintmax_t most_plane_steps = 40;
 constexpr double finest_step = 2e-3;  // rad
@@ -63,6 +66,36 @@ std::vector<std::size_t> lows(const std::vector<Eigen::Vector3d>& tried, const s
 }
 
 using Function = std::function<double(const Eigen::Vector3d&)>;
+
+// A limit jumps over directions where a crossover appears, and may be least in a few degrees beside the jump. Between neighbours that
+// differ by more than a continuous limit would, halves are looked at; the least of them, and half of what they are apart.
+class JumpSearch {
+ public:
+  JumpSearch(const Function& function, double spacing) : function_(function), spacing_(spacing) {}
+
+  void look_between(const Eigen::Vector3d& a, double at_a, const Eigen::Vector3d& b, double at_b) {
+    const Eigen::Vector3d same_side = a.dot(b) < 0.0 ? Eigen::Vector3d(-b) : b;
+    look(a, at_a, same_side, at_b, most_halvings);
+  }
+
+  [[nodiscard]] const LeastDirection& least() const { return least_; }
+  [[nodiscard]] double half_apart() const { return spacing_ / std::exp2(most_halvings); }
+
+ private:
+  void look(const Eigen::Vector3d& a, double at_a, const Eigen::Vector3d& b, double at_b, int halvings) {
+    const bool is_jump = std::max(at_a, at_b) > jump * std::min(at_a, at_b);
+    if (halvings == 0 || !is_jump) return;
+    const Eigen::Vector3d middle = (a + b).normalized();
+    const double value = finite(function_(middle));
+    if (value < least_.value) least_ = {middle, value};
+    look(a, at_a, middle, value, halvings - 1);
+    look(middle, value, b, at_b, halvings - 1);
+  }
+
+  const Function& function_;
+  double spacing_;
+  LeastDirection least_{Eigen::Vector3d::Zero(), std::numeric_limits<double>::max()};
+};
 
 LeastDirection least_in_plane(const Eigen::Vector3d& near, const Eigen::MatrixXd& moved, double spacing,
                               const Function& function) {
@@ -205,7 +238,18 @@ LeastDirection least_direction(const std::vector<Eigen::Vector3d>& tried, const 
                                                    : least_on_sphere({tried[i], values[i]}, spacing, function);
     if (found.value < least.value) least = found;
   }
-  return least;
+  JumpSearch jumps(function, spacing);
+  for (std::size_t i = 0; i < tried.size() && tried.size() <= most_compared; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (angle_between(tried[i], tried[j]) > neighbours_of_jump * spacing) continue;
+      jumps.look_between(tried[i], finite_values[i], tried[j], finite_values[j]);
+    }
+  }
+  if (!(jumps.least().value < least.value)) return least;
+  const LeastDirection found = moved.cols() == 2
+                                   ? least_in_plane(jumps.least().normal, moved, jumps.half_apart(), function)
+                                   : least_on_sphere(jumps.least(), jumps.half_apart(), function);
+  return found.value < jumps.least().value ? found : jumps.least();
 }
 
 }  // namespace zwidth::internal

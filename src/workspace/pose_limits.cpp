@@ -70,6 +70,11 @@ class AnyDirection {
     limits.any_user_frequency = nobody.frequency;
     if (nobody.stiffness == 0.0) return limits;
     const GraspLimit grasp = shared_->any_grasp_along(normal);
+    if (std::isnan(grasp.stiffness)) {
+      limits.any_user.reset();
+      limits.any_user_frequency = 0.0;
+      return limits;
+    }
     if (nobody.stiffness <= grasp.stiffness) return limits;
     limits.any_user = grasp.stiffness;
     limits.any_user_frequency = grasp.frequency;
@@ -168,6 +173,7 @@ ExactLimits exact_limits(const MechanismAtPose& at, const DeviceParameters& para
   ExactLimits limits{critical_stiffness(device), {}};
   if (!with_any_user || limits.nobody.status == StiffnessStatus::refused) return limits;
   if (device.degrees_of_freedom() <= most_bodies_for_absolute_stability) limits.any_user = any_user_limit(device);
+  if (limits.any_user && std::isnan(limits.any_user->stiffness)) limits.any_user.reset();
   return limits;
 }
 

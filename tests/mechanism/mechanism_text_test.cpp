@@ -60,6 +60,18 @@ TEST(MechanismText, ElementsKeepTheirLines) {
   EXPECT_EQ(read.find("<x>"), std::string::npos);
 }
 
+// MuJoCo takes them for other numbers, without a word.
+TEST(MechanismText, NumbersThatAreNoneAreRefusedWithTheirLine) {
+  for (const std::string attribute : {"pos='nan 0 0'", "pos='0 -NaN 0'", "euler='inf 0 0'", "mass='+Infinity'",
+                                      "quat='0 0 0 0'", "quat='0. -0 0e0 0'"}) {
+    const auto refused = refusal_of_text("<mujoco>\n<body " + attribute + "/></mujoco>");
+    ASSERT_TRUE(refused) << attribute;
+    EXPECT_EQ(refused->code, no_xml) << attribute;
+    EXPECT_EQ(refused->line, 2.0) << attribute;
+  }
+  EXPECT_FALSE(refusal_of_text("<mujoco><body name='nan' quat='0 0 0 1'><joint class='inf'/></body></mujoco>"));
+}
+
 // Whatever quotes and entities an attribute's value has, it stays one value.
 TEST(MechanismText, ValuesStayWhatTheyAre) {
   const std::string read =

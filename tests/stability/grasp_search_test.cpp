@@ -92,6 +92,31 @@ TEST(GraspSearch, NoFrequencyLeavesLess) {
   }
 }
 
+// Three joints and two directions: the arm's own motion, which the tip does not see, has a corner far below the sampling rate. Towards
+// w = 0 damping and the hold alone count, and K is in proportion to 1/T, whatever the masses.
+TEST(GraspSearch, FollowsSlowCornersToRest) {
+  TipMotion motion;
+  motion.mass.resize(3, 3);
+  motion.mass << 0.0606, 0.0291, 0.0085, 0.0291, 0.0172, 0.0055, 0.0085, 0.0055, 0.005;
+  const double dampings[] = {2e-3, 2e-4, 1e-3};
+  for (int i = 0; i < 3; ++i) test::add_element(motion, Eigen::Vector3d::Unit(i), 0.0, dampings[i]);
+  motion.tip = Eigen::MatrixXd::Zero(3, 3);
+  motion.tip.row(0) << -0.28, -0.24, -0.1;
+  motion.tip.row(1) << 0.35, 0.16, 0.08;
+  motion.sensed = motion.pushed = motion.tip;
+  const Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+  const auto limit_times_period = [&](double period) {
+    DeviceParameters loop;
+    loop.loop.sampling_period = period;
+    const double limit = any_grasp_limit(motion, loop, normal).stiffness;
+    EXPECT_NEAR(limits_along(motion, loop, {normal}).front().any_grasp->stiffness / limit, 1.0, 1e-4);
+    return limit * period;
+  };
+  const double slow = limit_times_period(1e-3);
+  EXPECT_NEAR(limit_times_period(1e-4) / slow, 1.0, 2e-3);
+  EXPECT_NEAR(limit_times_period(4e-5) / slow, 1.0, 2e-3);
+}
+
 // Some grasp reaches the wall in a range of frequencies narrower than the search's points.
 TEST(GraspSearch, SeesWhatFewFrequenciesLeave) {
   for (const unsigned seed : {473U, 582U}) {

@@ -16,7 +16,8 @@ namespace zwidth {
 
 /// The stiffest wall along a normal that is stable whoever grasps the tip, in whatever direction he holds it.
 struct GraspLimit {
-  double stiffness = 0.0;  ///< N/m; 0 where some grasp destabilises any wall
+  double stiffness =
+      0.0;  ///< N/m; 0 where some grasp destabilises any wall; NaN: not known, a corner lies at some 1e-6 rad a sample
   double frequency = 0.0;  ///< rad/s, where the worst grasp destabilises it; 0: towards w = 0, or a limit of 0
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -21,13 +22,22 @@ constexpr std::size_t least_aliases = 12;
 constexpr double most_aliases = 2000.0;
 constexpr double undamped_below = 1e-12;   // of a motion of the tip, relative: what the motions before it do not damp
 constexpr double rounded_damping = 1e-14;  // relative, of an eigenvalue of D that is rounding
-constexpr double least_damping = 1e-9;     // relative, of a motion that nothing damps, where R = 0 is sought
+constexpr double at_rest_below =
+    1e-6;  // |sT|: rounding leaves poles that rest so far off; a motion as slow counts as one
+constexpr double least_damping = 1e-9;  // relative, of a motion that nothing damps, where R = 0 is sought
 
 // Quicker than the division, which looks for what overflows.
-ComplexNumber reciprocal(ComplexNumber value) { return std::conj(value) / std::norm(value); }
+template <typename Real>
+std::complex<Real> reciprocal(std::complex<Real> value) {
+  return std::conj(value) / std::norm(value);
+}
+
+template <typename Real>
+using ComplexMatrix = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, Eigen::Dynamic>;
 
 // (K - w^2 + jw D) x = b by elimination with row pivots, in place; columns of `b` side by side.
-void solve_motion(Eigen::MatrixXcd& rows, Eigen::MatrixXcd& b) {
+template <typename Real>
+void solve_motion(ComplexMatrix<Real>& rows, ComplexMatrix<Real>& b) {
   const Eigen::Index n = rows.rows();
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::Index pivot = k;
@@ -38,9 +48,9 @@ void solve_motion(Eigen::MatrixXcd& rows, Eigen::MatrixXcd& b) {
       for (Eigen::Index j = k; j < n; ++j) std::swap(rows(k, j), rows(pivot, j));
       for (Eigen::Index j = 0; j < b.cols(); ++j) std::swap(b(k, j), b(pivot, j));
     }
-    const ComplexNumber one_over = reciprocal(rows(k, k));
+    const std::complex<Real> one_over = reciprocal(rows(k, k));
     for (Eigen::Index i = k + 1; i < n; ++i) {
-      const ComplexNumber factor = rows(i, k) * one_over;
+      const std::complex<Real> factor = rows(i, k) * one_over;
       for (Eigen::Index j = k + 1; j < n; ++j) rows(i, j) -= factor * rows(k, j);
       for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) -= factor * b(k, j);
     }
@@ -66,6 +76,62 @@ std::vector<ComplexNumber> motion_poles(const Eigen::MatrixXd& stiffness, const 
   return {poles.begin(), poles.end()};
 }
 
+template <typename Real>
+struct OwnForms {
+  Eigen::Matrix<std::complex<Real>, 3, 3> plant;  // G(pushed -> sensed)
+  Eigen::Matrix<std::complex<Real>, 3, 3> shift;
+  Eigen::Matrix<std::complex<Real>, 3, 3> left;
+  Eigen::Matrix<std::complex<Real>, 3, 3> right;
+};
+
+// R = W^H W with W = sqrt(2) w F g, g = G(held -> all), D = F^T F, in which nothing cancels; R = L L^H by Gram and Schmidt: motions may
+// be damped by magnitudes more and less than one another.
+template <typename Real>
+OwnForms<Real> own_forms(const TipCoordinates& of, const Eigen::MatrixXd& tip, const Eigen::MatrixXd& dampers,
+                         double frequency, bool with_plant) {
+  using Complex = std::complex<Real>;
+  const Eigen::Index m = tip.rows();
+  const auto w = static_cast<Real>(frequency);
+  ComplexMatrix<Real> rows = of.stiffness.cast<Complex>();
+  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> f = dampers.cast<Real>();
+  rows += Complex(0, w) * (f.transpose() * f).template cast<Complex>();
+  rows.diagonal().array() -= w * w;
+  ComplexMatrix<Real> g(tip.cols(), with_plant ? 2 * m : m);
+  g.leftCols(m) = tip.transpose().cast<Complex>();
+  if (with_plant) g.rightCols(m) = of.pushed.transpose().cast<Complex>();
+  solve_motion<Real>(rows, g);
+  const ComplexMatrix<Real> held = g.leftCols(m);
+  OwnForms<Real> forms;
+  forms.plant.setZero();
+  if (with_plant) forms.plant.topLeftCorner(m, m) = of.sensed.cast<Complex>() * g.rightCols(m);
+  // Columns: L^-1 h_s^H, L^-1 h_a.
+  Eigen::Matrix<Complex, 3, 6> both = Eigen::Matrix<Complex, 3, 6>::Zero();
+  both.block(0, 0, m, m) = (of.sensed.cast<Complex>() * held).adjoint();
+  both.block(0, 3, m, m) = (of.pushed.cast<Complex>() * held).transpose();
+  ComplexMatrix<Real> damped = std::sqrt(static_cast<Real>(2)) * w * (dampers.cast<Complex>() * held);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Real own = damped.col(i).norm();
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const Complex shared = damped.col(j).dot(damped.col(i));
+      damped.col(i) -= shared * damped.col(j);
+      both.row(i) -= std::conj(shared) * both.row(j);
+    }
+    const Real rest = damped.col(i).norm();
+    if (!(rest > static_cast<Real>(undamped_below) * own)) {
+      forms.shift = forms.left = forms.right = Eigen::Matrix<Complex, 3, 3>::Constant(HUGE_VAL);
+      return forms;
+    }
+    damped.col(i) /= rest;
+    both.row(i) /= rest;
+  }
+  const Eigen::Matrix<Complex, 3, 3> left = both.template leftCols<3>();
+  const Eigen::Matrix<Complex, 3, 3> right = both.template rightCols<3>();
+  forms.shift = left.adjoint() * right;
+  forms.left = left.adjoint() * left;
+  forms.right = right.adjoint() * right;
+  return forms;
+}
+
 }  // namespace
 
 GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, const Eigen::MatrixXd& directions,
@@ -77,7 +143,7 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
       drive_(drive_path_of(loop)) {
   // A grasp in one basis of the tip's motions is one in any other: in an orthonormal one near a singular pose no row is small.
   const Eigen::HouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
-  of_.tip = (tip.householderQ() * Eigen::MatrixXd::Identity(of_.tip.cols(), of_.tip.rows())).transpose();
+  basis_ = (tip.householderQ() * Eigen::MatrixXd::Identity(of_.tip.cols(), of_.tip.rows())).transpose();
   const auto [dampings, motions] = symmetric_eigen(of_.damping);
   const double none = rounded_damping * std::max(dampings.maxCoeff(), 0.0);
   dampers_ = (dampings.array() > none).select(dampings.array(), 0.0).sqrt().matrix().asDiagonal() * motions.transpose();
@@ -93,6 +159,11 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
       least_aliases + static_cast<std::size_t>(std::min(std::ceil(past_modes * highest_mode / spacing), most_aliases));
   rule_ = alias_sum_quadrature(exact, past_corners * highest_corner / spacing, spacing * delay_);
   undamped_ = !(dampings.maxCoeff() > 0.0);
+  const Sample low = own_at(low_angle);
+  const double lowest = low_angle / period_;
+  const OwnForms<Real> own = own_forms<Real>(of_, of_.tip, dampers_, lowest, true);
+  const std::complex<Real> passed(drive_.is_ideal() ? 1.0 : drive_.response(lowest));
+  others_plant_ = (low.centre - passed * (own.plant / std::complex<Real>(0, lowest) - own.shift)).cast<ComplexNumber>();
   std::vector<double> looked_at{0.1 / period_, 1.0 / period_, pi / period_};
   for (const AliasSumQuadrature::Node& node : rule_.nodes) {
     if (node.number > 0.0) looked_at.push_back(node.number * spacing);
@@ -102,42 +173,30 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
   }
 }
 
-// R = W^H W with W = sqrt(2) w F g, g = G(held -> all), D = F^T F, in which nothing cancels; R = L L^H by Gram and Schmidt: motions may
-// be damped by magnitudes more and less than one another.
 GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
-  const Eigen::Matrix3cd endless = Eigen::Matrix3cd::Constant(HUGE_VAL);
-  const Eigen::Index m = of_.tip.rows();
-  Eigen::MatrixXcd rows = of_.stiffness.cast<ComplexNumber>();
-  rows += ComplexNumber(0.0, frequency) * of_.damping;
-  rows.diagonal().array() -= frequency * frequency;
-  Eigen::MatrixXcd g = of_.tip.transpose().cast<ComplexNumber>();
-  solve_motion(rows, g);
-  // Columns: L^-1 h_s^H, L^-1 h_a.
-  Eigen::Matrix<ComplexNumber, 3, 6> both = Eigen::Matrix<ComplexNumber, 3, 6>::Zero();
-  both.block(0, 0, m, m) = (of_.sensed * g).adjoint();
-  both.block(0, 3, m, m) = (of_.pushed * g).transpose();
-  Eigen::MatrixXcd damped = std::sqrt(2.0) * frequency * (dampers_ * g);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const double own = damped.col(i).norm();
-    for (Eigen::Index j = 0; j < i; ++j) {
-      const ComplexNumber shared = damped.col(j).dot(damped.col(i));
-      damped.col(i) -= shared * damped.col(j);
-      both.row(i) -= std::conj(shared) * both.row(j);
-    }
-    const double rest = damped.col(i).norm();
-    if (!(rest > undamped_below * own)) return {1.0, endless, endless, endless};
-    damped.col(i) /= rest;
-    both.row(i) /= rest;
-  }
-  const Eigen::Matrix3cd left = both.leftCols<3>();
-  const Eigen::Matrix3cd right = both.rightCols<3>();
-  Alias alias{1.0, left.adjoint() * right, left.adjoint() * left, right.adjoint() * right};
+  const OwnForms<double> forms = own_forms<double>(of_, basis_, dampers_, frequency, false);
+  Alias alias{1.0, forms.shift, forms.left, forms.right};
   if (!drive_.is_ideal()) {
     const ComplexNumber passed = drive_.response(frequency);
     alias.shift *= passed;
     alias.right *= std::norm(passed);
   }
   return alias;
+}
+
+void GraspDiscs::add_low(Sample& sample) const {
+  using Complex = std::complex<Real>;
+  const double frequency = sample.angle / period_;
+  const OwnForms<Real> forms = own_forms<Real>(of_, of_.tip, dampers_, frequency, true);
+  const ComplexNumber drive = drive_.is_ideal() ? 1.0 : drive_.response(frequency);
+  const Complex passed(drive);
+  sample.centre = passed * (forms.plant / Complex(0, static_cast<Real>(frequency)) - forms.shift);
+  // Even and odd in the angle.
+  Eigen::Matrix3cd others = others_plant_;
+  others.imag() *= sample.angle / low_angle;
+  sample.centre += others.cast<Complex>();
+  sample.left = forms.left.real();
+  sample.right = std::norm(passed) * forms.right.real();
 }
 
 // Columns: an orthonormal basis of the motions in which the tip stands still.
@@ -147,15 +206,10 @@ Eigen::MatrixXd GraspDiscs::still_motions() const {
   return q.rightCols(of_.tip.cols() - tip.rank());
 }
 
-std::vector<ComplexNumber> GraspDiscs::poles() const {
+std::vector<ComplexNumber> GraspDiscs::still_poles() const {
   const Eigen::MatrixXd still = still_motions();
-  std::vector<ComplexNumber> poles = response_.poles();
-  if (still.cols() == 0) return poles;
-  for (const ComplexNumber& s :
-       motion_poles(still.transpose() * of_.stiffness * still, still.transpose() * of_.damping * still, period_)) {
-    poles.push_back(std::exp(s));
-  }
-  return poles;
+  if (still.cols() == 0) return {};
+  return motion_poles(still.transpose() * of_.stiffness * still, still.transpose() * of_.damping * still, period_);
 }
 
 std::vector<ComplexNumber> GraspDiscs::free_poles() const {
@@ -190,6 +244,16 @@ std::vector<ComplexNumber> GraspDiscs::lossless_points() const {
   return points;
 }
 
+double GraspDiscs::slowest_corner() const {
+  double slowest = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](ComplexNumber s) {
+    if (std::abs(s) > at_rest_below) slowest = std::min(slowest, std::abs(s));
+  };
+  for (const ComplexNumber& s : still_poles()) look_at(s);
+  for (const ComplexNumber& s : lossless_points()) look_at(s);
+  return slowest;
+}
+
 GraspDiscs::Sample GraspDiscs::own_at(double angle) const {
   const Eigen::Index m = of_.tip.rows();
   Sample sample;
@@ -197,9 +261,16 @@ GraspDiscs::Sample GraspDiscs::own_at(double angle) const {
   const double sine = std::sin(0.5 * angle);
   sample.shared =
       2.0 * sine / period_ * ComplexNumber(sine, std::cos(0.5 * angle)) * std::polar(1.0, -angle * delay_ / period_);
-  sample.plant.setZero();
-  sample.plant.topLeftCorner(m, m) = response_.at(angle);
   sample.own = alias(angle / period_);
+  if (angle < low_angle) {
+    add_low(sample);
+    return sample;
+  }
+  Eigen::Matrix3cd plant = Eigen::Matrix3cd::Zero();
+  plant.topLeftCorner(m, m) = response_.at(angle);
+  sample.centre = (plant / sample.shared - sample.own.shift).cast<std::complex<Real>>();
+  sample.left = sample.own.left.real().cast<Real>();
+  sample.right = sample.own.right.real().cast<Real>();
   return sample;
 }
 
@@ -243,12 +314,6 @@ Eigen::Matrix<double, 6, 1> products_of(const Eigen::Vector3d& normal) {
   products << normal.x() * normal.x(), normal.y() * normal.y(), normal.z() * normal.z(), normal.x() * normal.y(),
       normal.x() * normal.z(), normal.y() * normal.z();
   return products;
-}
-
-Eigen::Matrix<double, 1, 6> by_products(const Eigen::Matrix3d& form) {
-  Eigen::Matrix<double, 1, 6> row;
-  row << form(0, 0), form(1, 1), form(2, 2), form(0, 1) + form(1, 0), form(0, 2) + form(2, 0), form(1, 2) + form(2, 1);
-  return row;
 }
 
 }  // namespace zwidth::internal

@@ -38,15 +38,21 @@ class GraspDiscs {
     Eigen::Matrix<double, Eigen::Dynamic, 6> left_forms;
     Eigen::Matrix<double, Eigen::Dynamic, 6> right_forms;
   };
-  // All but `plant` over `shared`.
+  // As w -> 0 centre and radius grow as 1/w, and what is left of their squares is what limits a wall: more digits than a double's.
+  using Real = long double;
+  // All over `shared`.
   struct Sample {
     double angle = 0.0;
-    std::complex<double> shared;  // (1 - e^{-jwT}) e^{-jwt_d}/T
-    Eigen::Matrix3cd plant;       // free
+    std::complex<double> shared;                     // (1 - e^{-jwT}) e^{-jwt_d}/T
+    Eigen::Matrix<std::complex<Real>, 3, 3> centre;  // without the shift of the other aliases
+    Eigen::Matrix<Real, 3, 3> left;                  // of the own alias, real part
+    Eigen::Matrix<Real, 3, 3> right;
     Alias own;
     Others others;
   };
-  // 0 < angle = w T <= pi.
+  // 0 < angle = w T <= pi. Below `low_angle` the free plant's own part is computed with the discs, its other aliases' part is that at
+  // `low_angle`.
+  static constexpr double low_angle = 1e-3;
   [[nodiscard]] Sample at(double angle) const;
   // Without the others.
   [[nodiscard]] Sample own_at(double angle) const;
@@ -63,9 +69,12 @@ class GraspDiscs {
   // sT of the free motions, those with a positive imaginary part.
   [[nodiscard]] std::vector<std::complex<double>> free_poles() const;
 
-  // e^{sT} of the free motions, and of those that are left where the tip stands still: a grasp that holds it so makes them the
-  // loop's own.
-  [[nodiscard]] std::vector<std::complex<double>> poles() const;
+  // sT of the motions that are left where the tip stands still: a grasp that holds it so makes them the loop's own.
+  [[nodiscard]] std::vector<std::complex<double>> still_poles() const;
+
+  // The least |sT| of those and of the lossless points, of what does not rest: as w -> 0 nothing changes far below it. Infinite where
+  // there is none.
+  [[nodiscard]] double slowest_corner() const;
 
   // In how many the tip moves.
   [[nodiscard]] Eigen::Index directions() const { return of_.tip.rows(); }
@@ -75,6 +84,8 @@ class GraspDiscs {
 
  private:
   [[nodiscard]] Alias alias(double frequency) const;
+  // (P/shared - own shift) below low_angle, and both forms.
+  void add_low(Sample& sample) const;
   [[nodiscard]] Eigen::MatrixXd still_motions() const;
 
   TipCoordinates of_;
@@ -82,7 +93,9 @@ class GraspDiscs {
   double period_ = 0.0;
   double delay_ = 0.0;
   DrivePath drive_;
-  Eigen::MatrixXd dampers_;  // F
+  Eigen::MatrixXd basis_;                                     // of the tip's motions, orthonormal rows
+  Eigen::MatrixXd dampers_;                                   // F
+  Eigen::Matrix3cd others_plant_ = Eigen::Matrix3cd::Zero();  // P/shared - own G/(jw) at low_angle
   bool undamped_ = false;
   AliasSumQuadrature rule_;
 };
@@ -90,6 +103,11 @@ class GraspDiscs {
 // n_x^2, n_y^2, n_z^2, n_x n_y, n_x n_z, n_y n_z.
 [[nodiscard]] Eigen::Matrix<double, 6, 1> products_of(const Eigen::Vector3d& normal);
 // The real or imaginary part of n' form n by those.
-[[nodiscard]] Eigen::Matrix<double, 1, 6> by_products(const Eigen::Matrix3d& form);
+template <typename Form>
+[[nodiscard]] Eigen::Matrix<typename Form::Scalar, 1, 6> by_products(const Eigen::MatrixBase<Form>& form) {
+  Eigen::Matrix<typename Form::Scalar, 1, 6> row;
+  row << form(0, 0), form(1, 1), form(2, 2), form(0, 1) + form(1, 0), form(0, 2) + form(2, 0), form(1, 2) + form(2, 1);
+  return row;
+}
 
 }  // namespace zwidth::internal

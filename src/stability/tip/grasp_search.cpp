@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "stability/tip/scan_angles.hpp"
 #include "stability/users/disc_stiffness.hpp"
 
 namespace zwidth::internal {
@@ -24,8 +23,14 @@ constexpr double resolved_to = 1e-6;  // relative
 constexpr double rounded_to = 1e-13;  // relative, of what cancels
 constexpr std::size_t most_panels = 300;
 constexpr int points_per_panel = 40;
-constexpr std::size_t points_a_node = 2;          // of a point wall, whose discs are looked at themselves
-constexpr double at_low_end = 1.001;              // times the lowest angle
+constexpr std::size_t points_a_node = 2;  // of a point wall, whose discs are looked at themselves
+constexpr double at_low_end = 1.001;      // times the lowest angle
+constexpr double usual_lowest = 1e-3;     // rad a sample, of the scan
+constexpr double least_lowest = 3e-7;     // K loses some 1e-17 over the square of the angle
+constexpr double lowest_of_point = 1e-5;  // the same of a point wall, in double
+constexpr double below_corners = 0.01;
+constexpr double far_enough_below = 0.1;  // of the slowest corner: a limit then changes by a hundredth yet
+constexpr double enough_for_point = 0.03;
 constexpr double worth_refining = 1.3;            // times the least of the points
 constexpr double damper_nearly_beaten = 0.5;      // of the condition without a spring
 constexpr double worth_refining_exactly = 1.001;  // times the least of the polynomials
@@ -144,6 +149,15 @@ Looked least_towards(double before, double after, int bits, const ConditionAt& c
   return least;
 }
 
+// Where the least gain is that at the low end `x`: as w -> 0 a gain changes by the square of the angle.
+template <typename GainAt>
+GraspSearch::Least followed_to_rest(GraspSearch::Least least, double x, const GainAt& gain_at) {
+  if (!least.is_at_low_end || !(least.gain > 0.0)) return least;
+  const double rise = gain_at(x + std::log(2.0)) - gain_at(x);
+  if (std::isfinite(rise)) least.gain = std::max(least.gain - rise / 3.0, 0.0);
+  return least;
+}
+
 double constant_of(const GainCondition& condition) { return condition.constant; }
 
 const Eigen::Matrix<double, points_per_panel, panel_nodes>& to_points() {
@@ -158,11 +172,15 @@ const Eigen::Matrix<double, points_per_panel, panel_nodes>& to_points() {
 }
 
 // What a normal makes of the forms.
-PartsRow parts_of(double real, double imaginary, double left, double right, double shared, double others) {
-  const double square = shared * shared * std::max(left * right, 0.0);
-  const double size = std::hypot(real, imaginary);
-  const double radius = std::sqrt(square);
-  return {real, imaginary, (size - radius) * (size + radius), square, shared * others};
+PartsRow parts_of(GraspDiscs::Real real, GraspDiscs::Real imaginary, GraspDiscs::Real left, GraspDiscs::Real right,
+                  ComplexNumber shared, double others) {
+  const GraspDiscs::Real square = std::max(left * right, GraspDiscs::Real(0));
+  const GraspDiscs::Real size = std::hypot(real, imaginary);
+  const GraspDiscs::Real radius = std::sqrt(square);
+  const ComplexNumber centre = shared * ComplexNumber(static_cast<double>(real), static_cast<double>(imaginary));
+  const double scale = std::norm(shared);
+  return {centre.real(), centre.imag(), scale * static_cast<double>((size - radius) * (size + radius)),
+          scale * static_cast<double>(square), std::abs(shared) * others};
 }
 
 // What a panel's polynomials are of, along each of the probes.
@@ -218,7 +236,9 @@ GraspSearch::GraspSearch(const TipMotion& motion, const DeviceParameters& loop, 
       period_(loop.loop.sampling_period),
       delay_angle_(loop.loop.delay / loop.loop.sampling_period) {
   if (discs_.is_undamped()) return;
-  lowest_ = lowest_angle(discs_.poles());
+  slowest_ = discs_.slowest_corner();
+  lowest_ = std::clamp(below_corners * slowest_, least_lowest, usual_lowest);
+  is_known_ = lowest_ <= far_enough_below * slowest_;
   const KnownPoles poles = known_poles(discs_, corners);
   add_others(poles.others);
   add_own(poles.own);
@@ -268,21 +288,25 @@ GraspSearch::OwnForms GraspSearch::own_forms(double angle) const {
   const GraspDiscs::Sample sample = discs_.own_at(angle);
   const OthersPanel& others = others_[others_panel_of(angle)];
   const NodeWeights weights = weights_at(others.panel, angle);
-  Eigen::Matrix3cd shift = sample.own.shift;
+  Eigen::Matrix3cd shift = Eigen::Matrix3cd::Zero();
   for (int i = 0; i < panel_nodes; ++i) shift += weights[i] * others.at_nodes[static_cast<std::size_t>(i)].shift;
-  const Eigen::Matrix3cd centre = std::polar(1.0, delay_angle_ * angle) * (sample.plant - sample.shared * shift);
-  return {by_products(centre.real()), by_products(centre.imag()), by_products(sample.own.left.real()),
-          by_products(sample.own.right.real()), std::abs(sample.shared)};
+  using Form = Eigen::Matrix<GraspDiscs::Real, 3, 3>;
+  const Form real = sample.centre.real() - shift.real().cast<GraspDiscs::Real>();
+  const Form imaginary = sample.centre.imag() - shift.imag().cast<GraspDiscs::Real>();
+  return {by_products(real), by_products(imaginary), by_products(sample.left), by_products(sample.right),
+          std::polar(1.0, delay_angle_ * angle) * sample.shared};
 }
 
 void GraspSearch::add_own(const std::vector<ComplexNumber>& poles) {
   const auto directions = probes(discs_.directions());
+  std::vector<Eigen::Matrix<GraspDiscs::Real, 6, 1>> precise;
+  for (const auto& each : directions) precise.push_back(each.cast<GraspDiscs::Real>());
   const auto parts = [&](const OwnForms& forms) {
     PartsOfProbes rows(static_cast<Eigen::Index>(directions.size()), 5);
     for (std::size_t i = 0; i < directions.size(); ++i) {
       rows.row(static_cast<Eigen::Index>(i)) =
-          parts_of(forms.real.dot(directions[i]), forms.imaginary.dot(directions[i]), forms.left.dot(directions[i]),
-                   forms.right.dot(directions[i]), forms.shared, 0.0)
+          parts_of(forms.real.dot(precise[i]), forms.imaginary.dot(precise[i]), forms.left.dot(precise[i]),
+                   forms.right.dot(precise[i]), forms.shared, 0.0)
               .transpose();
     }
     return rows;
@@ -301,7 +325,7 @@ void GraspSearch::add_own(const std::vector<ComplexNumber>& poles) {
       own.imaginary.row(i) = forms.imaginary;
       own.left.row(i) = forms.left;
       own.right.row(i) = forms.right;
-      own.shared[i] = forms.shared;
+      own.shared[static_cast<std::size_t>(i)] = forms.shared;
       at_nodes.push_back(parts(forms));
     }
     const auto at_end = [&](double x) { return parts(own_forms(std::min(std::exp(x), pi))); };
@@ -321,6 +345,7 @@ GraspSearch::Wall GraspSearch::wall(WallAt at) const {
 GraspSearch::Along::Along(const GraspSearch& search, const Eigen::Vector3d& normal)
     : search_(&search), normal_(normal) {
   const Eigen::Matrix<double, 6, 1> products = products_of(normal);
+  const Eigen::Matrix<GraspDiscs::Real, 6, 1> precise = products.cast<GraspDiscs::Real>();
   std::vector<NodeWeights> radii;  // of the other aliases
   for (const OthersPanel& each : search.others_) {
     NodeWeights& at_nodes = radii.emplace_back();
@@ -332,13 +357,14 @@ GraspSearch::Along::Along(const GraspSearch& search, const Eigen::Vector3d& norm
   at_points_.reserve(search.points_.size());
   for (const OwnPanel& own : search.panels_) {
     Parts& parts = panels_.emplace_back();
-    const NodeWeights real = own.real * products;
-    const NodeWeights imaginary = own.imaginary * products;
-    const NodeWeights left = own.left * products;
-    const NodeWeights right = own.right * products;
+    const auto real = (own.real * precise).eval();
+    const auto imaginary = (own.imaginary * precise).eval();
+    const auto left = (own.left * precise).eval();
+    const auto right = (own.right * precise).eval();
     for (int i = 0; i < panel_nodes; ++i) {
       const double others = own.others_weights.row(i).dot(radii[own.others[static_cast<std::size_t>(i)]]);
-      parts.row(i) = parts_of(real[i], imaginary[i], left[i], right[i], own.shared[i], others).transpose();
+      parts.row(i) = parts_of(real[i], imaginary[i], left[i], right[i], own.shared[static_cast<std::size_t>(i)], others)
+                         .transpose();
     }
     const Eigen::Matrix<double, points_per_panel, 5> at_points = to_points() * parts;
     for (int i = 0; i < points_per_panel; ++i) {
@@ -417,7 +443,8 @@ GraspSearch::Least GraspSearch::Along::quickly_least(const Wall& wall) const {
   for (const Low& each : lows(wall)) {
     if (each.gain < least.gain) least = each;
   }
-  return search_->least_at(least.gain, least.x);
+  const auto gain_at = [&](double x) { return real_gain(gain_condition(disc_near(x), wall.at(std::exp(x)))); };
+  return search_->known(followed_to_rest(search_->least_at(least.gain, least.x), std::log(search_->lowest_), gain_at));
 }
 
 GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
@@ -445,7 +472,12 @@ GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
     const Looked beside = least_towards(each.before, each.after, exact_bits, condition, openness);
     take(std::isfinite(beside.gain) ? beside : Looked{each.gain, each.x});
   }
-  return least;
+  return search_->known(
+      followed_to_rest(least, std::log(search_->lowest_), [&](double x) { return real_gain(condition(x)); }));
+}
+
+GraspSearch::Least GraspSearch::known(const Least& least) const {
+  return is_known_ ? least : Least{std::numeric_limits<double>::quiet_NaN(), 0.0, false};
 }
 
 GraspSearch::Least GraspSearch::least_at(double gain, double x) const {
@@ -460,7 +492,9 @@ GraspSearch::LeastOfPoint GraspSearch::least_of_point(Eigen::Index m, VirtualDam
   const auto stiffness = [&](double x) {
     return least_stiffness_of_point(discs_.at(std::min(std::exp(x), pi)), m, damper, period_);
   };
-  for (std::size_t i = 0; i < points_.size(); i += points_a_node) at.push_back(points_[i]);
+  for (std::size_t i = 0; i < points_.size(); i += points_a_node) {
+    if (points_[i] >= std::log(lowest_of_point)) at.push_back(points_[i]);
+  }
   at.back() = points_.back();
   stiffnesses.reserve(at.size());
   for (const double x : at) stiffnesses.push_back(stiffness(x));
@@ -468,6 +502,7 @@ GraspSearch::LeastOfPoint GraspSearch::least_of_point(Eigen::Index m, VirtualDam
     const auto lowest = std::ranges::min_element(stiffnesses, {}, which);
     const double scanned = (*lowest).*which;
     Least found = least_at(scanned, at[static_cast<std::size_t>(lowest - stiffnesses.begin())]);
+    found.is_at_low_end = lowest == stiffnesses.begin();
     if (!(scanned > 0.0) || !std::isfinite(scanned)) return found;
     for (std::size_t i = 0; i < at.size(); ++i) {
       const std::size_t before = i == 0 ? 0 : i - 1;
@@ -479,9 +514,11 @@ GraspSearch::LeastOfPoint GraspSearch::least_of_point(Eigen::Index m, VirtualDam
           minimum(at[before], at[after], exact_bits, [&](double near) { return stiffness(near).*which; });
       if (refined < found.gain) found = least_at(refined, x);
     }
-    return found;
+    return followed_to_rest(found, at.front(), [&](double x) { return stiffness(x).*which; });
   };
-  return {least(&PointStiffness::at_least), least(&PointStiffness::at_most)};
+  LeastOfPoint both{least(&PointStiffness::at_least), least(&PointStiffness::at_most)};
+  if (!(std::exp(at.front()) <= enough_for_point * slowest_)) both.at_least.gain = 0.0;  // not known
+  return both;
 }
 
 double frequency_of(const GraspSearch::Least& least, double period) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <functional>
@@ -81,7 +82,8 @@ class GraspSearch {
 
   [[nodiscard]] const GraspDiscs& discs() const { return discs_; }
 
-  // How many frequencies the panels took, of the own and of the other aliases.
+  // Not where the slowest corner lies so low that the discs' digits do not reach below it: no limit is known then, and gains are NaN.
+  [[nodiscard]] bool is_known() const { return is_known_; }
 
  private:
   // Over angle; by rows the nodes.
@@ -91,22 +93,24 @@ class GraspSearch {
   };
   // Over the angle's logarithm; by columns products_of() a normal.
   struct OwnPanel {
-    using Forms = Eigen::Matrix<double, panel_nodes, 6>;
+    using Forms = Eigen::Matrix<GraspDiscs::Real, panel_nodes, 6>;
     Panel panel;
     Forms real;
     Forms imaginary;
     Forms left;
     Forms right;
-    Eigen::Matrix<double, panel_nodes, 1> shared;  // |shared|
-    std::vector<std::size_t> others;               // which panel of them each node lies in
+    std::array<std::complex<double>, panel_nodes> shared;
+    std::vector<std::size_t> others;  // which panel of them each node lies in
     Eigen::Matrix<double, panel_nodes, panel_nodes> others_weights;
   };
+  // Over `shared`, which is before the delay.
   struct OwnForms {
-    Eigen::Matrix<double, 1, 6> real;
-    Eigen::Matrix<double, 1, 6> imaginary;
-    Eigen::Matrix<double, 1, 6> left;
-    Eigen::Matrix<double, 1, 6> right;
-    double shared = 0.0;
+    using Form = Eigen::Matrix<GraspDiscs::Real, 1, 6>;
+    Form real;
+    Form imaginary;
+    Form left;
+    Form right;
+    std::complex<double> shared;
   };
 
   void add_others(const std::vector<std::complex<double>>& poles);
@@ -114,11 +118,14 @@ class GraspSearch {
   [[nodiscard]] std::size_t others_panel_of(double angle) const;
   [[nodiscard]] OwnForms own_forms(double angle) const;
   [[nodiscard]] Least least_at(double gain, double x) const;
+  [[nodiscard]] Least known(const Least& least) const;
 
   GraspDiscs discs_;
   double period_ = 0.0;
   double delay_angle_ = 0.0;  // t_d/T: what an angle turns by
   double lowest_ = 0.0;
+  double slowest_ = 0.0;  // corner, rad a sample
+  bool is_known_ = true;
   std::vector<OthersPanel> others_;
   std::vector<OwnPanel> panels_;
   std::vector<double> points_;  // the angle's logarithm, rising

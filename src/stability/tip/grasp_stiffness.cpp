@@ -14,12 +14,6 @@ namespace {
 
 constexpr double real_to = 1e-9;  // an eigenvalue's imaginary part, relative
 
-double radius_along(const GraspDiscs::Alias& alias, const Eigen::Vector3d& normal) {
-  const double left = normal.dot(alias.left.real() * normal);
-  const double right = normal.dot(alias.right.real() * normal);
-  return alias.weight * std::sqrt(std::max(left * right, 0.0));
-}
-
 // Whether d [c + L U R] leaves the loop without a spring at the verge for some |U| <= 1: |R (1 + d c)^-1 d L| >= 1.
 bool is_beaten_without_spring(const Eigen::MatrixXcd& centre, const Eigen::MatrixXcd& left,
                               const Eigen::MatrixXcd& right, std::complex<double> damper) {
@@ -64,18 +58,25 @@ double radius_of_others(const GraspDiscs::Others& others, const Eigen::Matrix<do
 }
 
 TerminationDiscs::Disc disc_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d& normal) {
-  const std::complex<double> shift = (normal.transpose() * (sample.own.shift + sample.others.shift) * normal).value();
-  const double others = radius_of_others(sample.others, products_of(normal));
-  const std::complex<double> centre = (normal.transpose() * sample.plant * normal).value() - sample.shared * shift;
-  const double radius = std::abs(sample.shared) * (radius_along(sample.own, normal) + others);
-  return {centre, radius, (std::abs(centre) - radius) * (std::abs(centre) + radius), 1.0};
+  using Real = GraspDiscs::Real;
+  const Eigen::Matrix<Real, 3, 1> n = normal.cast<Real>();
+  const std::complex<Real> shift((normal.transpose() * sample.others.shift * normal).value());
+  const std::complex<Real> centre = (n.transpose() * sample.centre.real() * n).value() - shift +
+                                    std::complex<Real>(0, 1) * (n.transpose() * sample.centre.imag() * n).value();
+  const Real left = n.dot(sample.left * n);
+  const Real right = n.dot(sample.right * n);
+  const Real radius = std::sqrt(std::max(left * right, Real(0))) + radius_of_others(sample.others, products_of(normal));
+  const double size = std::abs(sample.shared);
+  const Real power = (std::abs(centre) - radius) * (std::abs(centre) + radius);
+  return {sample.shared * std::complex<double>(centre), size * static_cast<double>(radius),
+          size * size * static_cast<double>(power), 1.0};
 }
 
 PointStiffness least_stiffness_of_point(const GraspDiscs::Sample& sample, Eigen::Index m, VirtualDamper damper,
                                         double period) {
   const double shared = std::abs(sample.shared);
   const Eigen::MatrixXcd centre =
-      (sample.plant - sample.shared * (sample.own.shift + sample.others.shift)).topLeftCorner(m, m);
+      (sample.shared * (sample.centre.cast<std::complex<double>>() - sample.others.shift)).topLeftCorner(m, m);
   const std::complex<double> closed = damper_response(damper, period, sample.angle / period);
   Eigen::MatrixXcd left = Eigen::MatrixXcd::Zero(m, m);
   Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(m, m);

@@ -117,7 +117,8 @@ GraspLimit GraspedPlant::least_gain(const std::function<Wall(double frequency)>&
       return internal::WallResponse{unit, closed};
     });
     const internal::GraspSearch::Least found = each.discs.value().least(walls);
-    if (found.gain < least.stiffness) least = {found.gain, internal::frequency_of(found, period)};
+    if (found.gain < least.stiffness || std::isnan(found.gain))
+      least = {found.gain, internal::frequency_of(found, period)};
   }
   return least;
 }

@@ -110,7 +110,10 @@ std::vector<GraspsAtPose> grasps_of(const TipMotion& motion, const DeviceParamet
   return grasps;
 }
 
-GraspLimit lesser(const GraspLimit& a, const GraspLimit& b) { return b.stiffness < a.stiffness ? b : a; }
+// NaN where either is not known.
+GraspLimit lesser(const GraspLimit& a, const GraspLimit& b) {
+  return b.stiffness < a.stiffness || std::isnan(b.stiffness) ? b : a;
+}
 
 // -1/P - B v, which is K where it is real.
 class CrossoverScan {

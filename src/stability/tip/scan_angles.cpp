@@ -9,11 +9,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double usual_lowest = 1e-3;
-constexpr double least_lowest = 3e-4;
-constexpr double below_corners = 0.01;
-constexpr double at_rest_below = 1e-9;  // |z - 1| of a pole that is at 1
-constexpr double same_angle = 1e-6;     // relative
+constexpr double same_angle = 1e-6;  // relative
 
 }  // namespace
 
@@ -26,15 +22,6 @@ std::vector<double> scan_angles(double lowest, int count, std::vector<double> an
   const auto is_same = [](double a, double b) { return b - a < same_angle * b; };
   angles.erase(std::unique(angles.begin(), angles.end(), is_same), angles.end());
   return angles;
-}
-
-double lowest_angle(const std::vector<std::complex<double>>& poles) {
-  double lowest = usual_lowest;
-  for (const std::complex<double>& z : poles) {
-    const double corner = std::abs(z - 1.0);
-    if (corner > at_rest_below) lowest = std::min(lowest, below_corners * corner);
-  }
-  return std::max(lowest, least_lowest);
 }
 
 }  // namespace zwidth::internal

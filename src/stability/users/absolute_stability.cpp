@@ -1,10 +1,12 @@
 #include "zwidth/stability/absolute_stability.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "stability/users/absolute_stability_search.hpp"
 #include "stability/users/any_grasp.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_user.hpp"
 
 namespace zwidth {
@@ -17,8 +19,14 @@ AbsoluteStabilityLimit of_mechanism(const Device& device, VirtualDamper damper) 
   alone.wall.velocity_filter_hz = damper.velocity_filter_hz;
   const Device free(std::move(alone));
   auto limit = any_grasp_absolute_stability(free, damper, critical_stiffness(free));
-  if (!limit) throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::one_direction_alone});
-  return *std::move(limit);
+  if (limit) return *std::move(limit);
+  if (has_damper_loop(free.loop()) && damper.damping > 0.0) {
+    throw Error(ErrorCode::invalid_argument, {.code = ProblemCode::one_direction_alone});
+  }
+  AbsoluteStabilityLimit refused;
+  refused.stiffness = std::numeric_limits<double>::quiet_NaN();
+  refused.trust.refuse({.code = FindingCode::any_grasp_not_known});
+  return refused;
 }
 
 }  // namespace

@@ -64,6 +64,11 @@ AbsoluteStabilityLimit AnyGrasp::limit(FreeGain gain, VirtualDamper damper, cons
     const std::complex<double> velocity = filters * damper_response(damper, period_, frequency);
     return gain == FreeGain::damping ? GraspedPlant::Wall{velocity, 0.0} : GraspedPlant::Wall{filters, velocity};
   });
+  if (std::isnan(grasp.stiffness)) {
+    limit.stiffness = grasp.stiffness;
+    limit.trust.refuse({.code = FindingCode::any_grasp_not_known});
+    return limit;
+  }
   limit.needs_no_user = nobody.stiffness <= grasp.stiffness;
   if (!limit.needs_no_user) limit.stiffness = grasp.stiffness;
   if (limit.stiffness == 0.0 || std::isinf(limit.stiffness)) return limit;
@@ -79,7 +84,9 @@ std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device&
                                                                    const CriticalStiffness& nobody) {
   const bool is_apart = has_damper_loop(device.loop()) && damper.damping > 0.0;
   if (is_apart || !is_of_mechanism(device)) return std::nullopt;
-  return AnyGrasp(device).limit(AnyGrasp::FreeGain::stiffness, damper, nobody);
+  const AbsoluteStabilityLimit limit = AnyGrasp(device).limit(AnyGrasp::FreeGain::stiffness, damper, nobody);
+  if (std::isnan(limit.stiffness) && !std::isnan(nobody.stiffness)) return std::nullopt;
+  return limit;
 }
 
 }  // namespace zwidth::internal

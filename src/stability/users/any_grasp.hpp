@@ -47,7 +47,7 @@ class AnyGrasp {
   double period_ = 0.0;
 };
 
-// The same with one damper. Nothing of other devices, and where it is not known: a damper in a loop of its own.
+// The same with one damper. Nothing of other devices, and where it is not known: a damper in a loop of its own, a corner too slow.
 [[nodiscard]] std::optional<AbsoluteStabilityLimit> any_grasp_absolute_stability(const Device& device,
                                                                                  VirtualDamper damper,
                                                                                  const CriticalStiffness& nobody);
