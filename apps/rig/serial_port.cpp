@@ -123,8 +123,11 @@ std::ptrdiff_t SerialPort::read(std::span<char> bytes, std::int64_t until) noexc
 }
 
 void SerialPort::drop_unsent() noexcept {
+  int waiting = 0;
+  const bool is_empty = ioctl(file_, TIOCOUTQ, &waiting) == 0 && waiting == 0;
   tcflush(file_, TCOFLUSH);
-  is_torn_.store(true, std::memory_order_relaxed);  // perhaps in the middle of a line
+  // Perhaps in the middle of a line. An empty one does no harm but behind a carriage return: a CANable sends its last frame anew.
+  if (line_end_ != '\r' || !is_empty) is_torn_.store(true, std::memory_order_relaxed);
 }
 
 }  // namespace zwidth::rig

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::int64_t telling_patience = 250'000'000;  // ns, for what the adapter is
 constexpr std::int64_t answer_patience = 30'000'000;    // for its answer to a command, where it gives any
+constexpr std::int64_t leaving_time = 20'000'000;       // for what was sent last, on the slowest bus
 constexpr std::string_view line_ends = "\r\a";
 constexpr char bell = '\a';  // SLCAN's error
 constexpr double fdcanusb_rate = 1e6;
@@ -58,6 +59,7 @@ SlcanBus::SlcanBus(const CanAdapter& adapter, const CanBitRates& rates)
 }
 
 SlcanBus::~SlcanBus() {
+  sleep_until(clock_now() + leaving_time);  // closed at once, an adapter drops the frames that let the drive go
   if (!is_fdcanusb_) {
     port_.write("C\r");
   } else if (has_changed_rate_) {

@@ -76,9 +76,8 @@ TEST_F(Rig, TellsWhatItCannotDo) {
                  "driver.id is 63; 0 to 62");
   expect_refused("check " + lhifam + "--driver moteus-can:/dev/null --set driver.id=200 " + belt + limits, 1,
                  "driver.id is 200; a moteus has 1 to 127");
-  expect_refused("check " + lhifam + "--driver vesc-can:/dev/null --set driver.id=254 " + belt +
-                     "--set driver.torque_constant=0.05 " + limits,
-                 1, "driver.id is 254; 0 to 253");
+  expect_refused("check " + lhifam + "--driver vesc-can:/dev/null --set driver.id=254 " + belt + limits, 2,
+                 "driver.id: is 254; must be a whole number from 0 to 253");
   expect_refused("check " + lhifam + "--driver udp:h:9 --start 1", 2, "--start: is for a simulated device");
 }
 

@@ -82,7 +82,9 @@ class CanAdapterFirmware : public Firmware {
     if (!text.empty()) answers.push_back(std::move(text));
   }
 
-  void slcan(const std::string& line, EmulatedMotor& motor, std::vector<std::string>& answers) {
+  void slcan(std::string line, EmulatedMotor& motor, std::vector<std::string>& answers) {
+    if (kind_ == Kind::canable && line.empty()) line = last_;  // "pressing enter repeats the previous TX"
+    last_ = line;
     constexpr std::array<int, 9> rates{10'000, 20'000, 50'000, 100'000, 125'000, 250'000, 500'000, 750'000, 1'000'000};
     switch (line.empty() ? '\0' : line[0]) {
       case 'C':
@@ -192,6 +194,7 @@ class CanAdapterFirmware : public Firmware {
   int bitrate_;
   bool is_open_;
   std::string line_;
+  std::string last_;
 };
 
 }  // namespace zwidth::test
