@@ -1,7 +1,7 @@
 // The documents that a panel shows: at most one request in flight, the newest wins, and what is late says so.
 
 import { deviceKey } from '../model/keys'
-import { stale } from '../model/words'
+import { held, stale } from '../model/words'
 import { post, Problem } from './client'
 import { breathe, changed, inTurn, untilRest } from './turns'
 
@@ -28,6 +28,8 @@ const longWork = 500 // ms; whoever took longer is asked for its progress
 export class Answer<T> {
   document = $state.raw<T | null>(null)
   problem = $state.raw<Problem | null>(null)
+  /** Where the newest question has a mistake in it: the document before, of the same device. It is shown as such, dimmed. */
+  before = $state.raw<T | null>(null)
   /** The document is not yet that of the newest question. */
   late = $state(false)
   /** What is shown has been of another question for so long that people see it; a panel says so. */
@@ -53,8 +55,18 @@ export class Answer<T> {
   private took = 0
   private leaveTimer: ReturnType<typeof setTimeout> | undefined
 
+  /** What a panel draws: a mistake in a number takes no picture away. */
+  get drawn(): T | null {
+    return this.document ?? this.before
+  }
+  /** Whether that is of other numbers than those that stand there. */
+  get isStale(): boolean {
+    return (this.lags && this.document !== null) || this.before !== null
+  }
+
   /** What a panel says while what it shows is not what is asked. */
   get waits(): string {
+    if (this.before) return held
     if (!this.lags) return ''
     return (this.document ? stale : 'computing …') + (this.progress === null ? '' : ` ${Math.floor(100 * this.progress)} %`)
   }
@@ -109,6 +121,7 @@ export class Answer<T> {
     changed()
     if (question === null) {
       this.document = null
+      this.before = null
       this.problem = null
       this.question = null
       this.shownText = ''
@@ -121,6 +134,7 @@ export class Answer<T> {
       // The picture of another device is no picture of this one, however shortly.
       if (this.question && deviceKey(this.question.toml) !== deviceKey(question.toml)) {
         this.document = null
+        this.before = null
         this.problem = null
       }
       this.startInView()
@@ -182,6 +196,7 @@ export class Answer<T> {
     if (problem?.isPassing) problem.again = Math.round(this.pause / 1000)
     else this.pause = firstPause
     this.shownText = problem?.isPassing ? '' : text // what may pass is asked again
+    this.before = problem?.status === 400 ? (this.document ?? this.before) : null
     this.document = document
     this.problem = problem
     this.question = question

@@ -114,6 +114,7 @@ export const marginWord = {
 
 /** Beside numbers that are not yet those of what the page shows. */
 export const stale = 'of the device before; computing …'
+export const held = 'of the numbers before the error'
 
 export const plainWord = (word: string | null | undefined): string => (word ?? '–').replaceAll('_', ' ')
 

@@ -1,6 +1,6 @@
 // What a hand expects: text that is undone as text, a mistake that takes no picture away, words that do what they say.
 import { expect, it } from 'vitest'
-import { openPage, place, row, type } from './program'
+import { nobody, openPage, place, row, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -22,5 +22,25 @@ it('undoes text that is not yet read as text, and selects what Enter read', asyn
   await page.keyboard.press('Control+z')
   await expect.poll(() => mass.inputValue()).toBe('0.4 kg')
   expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('keeps the picture beside a mistake, dimmed, names the number and leads to it', async () => {
+  const { page, context } = await openPage(here, 1280)
+  await settled(page)
+  await type(page, 'body.motor.mass', '-1')
+  await page.locator('.answer .problem', { hasText: 'Body “motor”: mass' }).waitFor()
+  await expect.poll(() => page.locator('#body-region.stale svg path.curve').count()).toBeGreaterThan(0)
+  await expect.poll(() => page.locator('#panel-bar.stale svg').count()).toBe(1)
+  await expect.poll(() => page.locator('#panel-region .late').innerText()).toBe('of the numbers before the error')
+  expect(await page.locator('[data-answer="nobody"]').count()).toBe(0)
+  await page.locator('h1').click()
+  await page.locator('.answer').getByRole('button', { name: 'Go to it' }).click()
+  await expect.poll(() => page.locator('[data-key]:has(input:focus)').getAttribute('data-key')).toBe('body.motor.mass')
+  await page.keyboard.type('0.3')
+  await page.keyboard.press('Enter')
+  await settled(page)
+  await expect.poll(() => page.locator('.stale').count()).toBe(0)
+  expect(await nobody(page)).toBe('8.849 kN/m')
   await context.close()
 })
