@@ -1,8 +1,12 @@
 // What a hand expects: text that is undone as text, a mistake that takes no picture away, words that do what they say.
-import { expect, it } from 'vitest'
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { afterAll, expect, it } from 'vitest'
 import { nobody, openPage, place, row, settled, type } from './program'
 
+const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
 const here = place('devices/lhifam.toml')
+afterAll(() => rmSync(folder, { recursive: true }))
 
 it('undoes text that is not yet read as text, and selects what Enter read', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
@@ -42,5 +46,23 @@ it('keeps the picture beside a mistake, dimmed, names the number and leads to it
   await settled(page)
   await expect.poll(() => page.locator('.stale').count()).toBe(0)
   expect(await nobody(page)).toBe('8.849 kN/m')
+  await context.close()
+})
+
+it('refuses a file that is no text, and keeps the device', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  for (const [name, bytes] of [
+    ['zeros.toml', [0x61, 0, 0x62]],
+    ['picture.toml', [0x89, 0x50, 0x4e, 0x47, 0xff]],
+  ] as const) {
+    writeFileSync(`${folder}/${name}`, Uint8Array.from(bytes))
+    await page.locator('#open-file').setInputFiles(`${folder}/${name}`)
+    await page.locator('.notices .problem', { hasText: `${name} is no text` }).waitFor()
+    expect(await nobody(page)).toBe('8.849 kN/m')
+    expect(await page.getByRole('button', { name: 'Undo' }).isEnabled()).toBe(false)
+  }
+  await page.locator('.notices').getByRole('button', { name: 'Dismiss' }).click()
+  await expect.poll(() => page.locator('.notices .problem').count()).toBe(0)
+  expect(complaints).toEqual([])
   await context.close()
 })
