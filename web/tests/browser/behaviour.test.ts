@@ -2,7 +2,7 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { afterAll, expect, it } from 'vitest'
-import { nobody, openPage, place, row, settled, type } from './program'
+import { documentOf, nobody, openPage, place, row, settled, show, type } from './program'
 
 const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
 const here = place('devices/lhifam.toml')
@@ -46,6 +46,21 @@ it('keeps the picture beside a mistake, dimmed, names the number and leads to it
   await settled(page)
   await expect.poll(() => page.locator('.stale').count()).toBe(0)
   expect(await nobody(page)).toBe('8.849 kN/m')
+  await context.close()
+})
+
+it('takes the wall recommended where it says so', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await show(page, 'Time')
+  await page.getByRole('button', { name: 'take the one recommended' }).click()
+  await page.waitForSelector('[data-answer="wall"]')
+  await settled(page)
+  const { wall } = documentOf('design', 'devices/lhifam.toml', '--recommend') as { wall: { stiffness: number; damping: number } }
+  await show(page, 'File')
+  const text = await page.locator('#toml').inputValue()
+  expect(text).toContain(`stiffness = ${wall.stiffness}`)
+  expect(text).toContain(`damping = ${wall.damping}`)
+  expect(complaints).toEqual([])
   await context.close()
 })
 
