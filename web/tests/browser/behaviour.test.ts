@@ -2,7 +2,7 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { afterAll, expect, it } from 'vitest'
-import { documentOf, nobody, openPage, place, row, settled, show, type } from './program'
+import { documentOf, nobody, openPage, place, row, runPalette, settled, show, type } from './program'
 
 const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
 const here = place('devices/lhifam.toml')
@@ -60,6 +60,29 @@ it('takes the wall recommended where it says so', async () => {
   const text = await page.locator('#toml').inputValue()
   expect(text).toContain(`stiffness = ${wall.stiffness}`)
   expect(text).toContain(`damping = ${wall.damping}`)
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('finds in its commands what people call them', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  for (const [words, first] of [
+    ['bode', 'Show: Frequency response'],
+    ['simulate', 'Show: The wall hit in time'],
+    ['identify', 'Show: From a recording to a device'],
+    ['dark', 'Colours: dark'],
+    ['theme light', 'Colours: light'],
+    ['open file', 'Open a file'],
+    ['share', 'Copy a link to this design'],
+    ['keys', 'Help'],
+  ] as const) {
+    await page.keyboard.press('Control+k')
+    await page.keyboard.type(words)
+    await expect.poll(() => page.locator('#action-0').innerText(), words).toContain(first)
+    await page.keyboard.press('Escape')
+  }
+  await runPalette(page, 'bode')
+  await expect.poll(() => page.locator('#panel-bode').isVisible()).toBe(true)
   expect(complaints).toEqual([])
   await context.close()
 })
