@@ -104,3 +104,19 @@ it('refuses a file that is no text, and keeps the device', async () => {
   expect(complaints).toEqual([])
   await context.close()
 })
+
+it('draws the wall in the colour of its verdict, on the bar and in the region', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  for (const [stiffness, look] of [
+    ['3 kN/m', 'for-anyone'],
+    ['7 kN/m', 'alone-only'],
+    ['20 kN/m', 'unstable'],
+  ] as const) {
+    await type(page, 'wall.stiffness', stiffness)
+    await settled(page)
+    for (const panel of ['bar', 'region'])
+      await expect.poll(() => page.locator(`#panel-${panel} .handle`).getAttribute('class'), { message: panel }).toContain(look)
+  }
+  expect(complaints).toEqual([])
+  await context.close()
+})
