@@ -120,3 +120,20 @@ it('draws the wall in the colour of its verdict, on the bar and in the region', 
   expect(complaints).toEqual([])
   await context.close()
 })
+
+it('leaves a slider where it was let go, and gives it another range at an end', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  const slider = row(page, 'body.motor.mass').locator('input[type="range"]')
+  const slide = (to: number): Promise<void> =>
+    slider.evaluate((each: HTMLInputElement, at) => {
+      each.value = String(at)
+      each.dispatchEvent(new Event('input', { bubbles: true }))
+      each.dispatchEvent(new Event('change', { bubbles: true }))
+    }, to)
+  await slide(650)
+  await expect.poll(async () => Math.abs(Number(await slider.inputValue()) - 650)).toBeLessThan(3)
+  await slide(1000)
+  await expect.poll(async () => Number(await slider.inputValue())).toBeLessThan(500)
+  expect(complaints).toEqual([])
+  await context.close()
+})
