@@ -137,3 +137,16 @@ it('leaves a slider where it was let go, and gives it another range at an end', 
   expect(complaints).toEqual([])
   await context.close()
 })
+
+it('offers the unit that the name of a column states', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  writeFileSync(`${folder}/knob.csv`, 'time_s,torque [mNm],angle (deg)\n0,0,0\n0.001,1,0\n0.002,0,1e-3\n')
+  await show(page, 'Recording')
+  await page.getByLabel(/choose it/).setInputFiles(`${folder}/knob.csv`)
+  await page.getByRole('button', { name: 'Take 1 mN m, as its name says' }).click()
+  await page.getByRole('button', { name: 'Take 1 deg, as its name says' }).click()
+  await expect.poll(() => page.getByLabel('One unit of the force is').inputValue()).toBe('1 mN m')
+  await expect.poll(() => page.getByLabel('One unit of the position is').inputValue()).toBe('1 deg')
+  expect(complaints).toEqual([])
+  await context.close()
+})
