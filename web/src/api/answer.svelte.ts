@@ -1,8 +1,9 @@
 // The documents that a panel shows: at most one request in flight, the newest wins, and what is late says so.
 
 import { deviceKey } from '../model/keys'
-import { stale } from '../model/words'
+import { held, stale } from '../model/words'
 import { post, Problem } from './client'
+import { breathe, changed, inTurn, untilRest } from './turns'
 
 export type Options = Record<string, unknown>
 /** Where what shows an answer stands: in view, further down, or on another tab. */
@@ -18,45 +19,17 @@ export interface Question {
 const textOf = ({ toml, options = {}, more = {} }: Question): string =>
   JSON.stringify({ ...(toml === undefined ? {} : { device_toml: toml }), ...more, options })
 
-// What takes long waits for its turn, so that the quick panels follow a drag: then one at a time, a twentieth of the time.
-const mostTurns = 2
-let turns = mostTurns
-let lastChange = 0
-const dragPause = 200 // ms
-const untilRest = 300 // ms
-const noticed = 150 // ms
+const restPause = 300 // ms, after which what nobody sees is asked
+const noticed = 50 // ms
 const firstPause = 1000 // ms, before a server that does not answer is asked again; then each twice as long
 const longestPause = 30_000 // ms
 const patience = 1000 // ms that work on something no longer asked may still take
 const longWork = 500 // ms; whoever took longer is asked for its progress
-const waiting: (() => void)[] = []
-const isDrag = (): boolean => performance.now() - lastChange < dragPause
-/** Until nothing has been asked for a while, or for so long. */
-async function rest(longest: number): Promise<void> {
-  for (const end = performance.now() + longest; ; ) {
-    const left = Math.min(end, lastChange + dragPause) - performance.now()
-    if (left <= 0) return
-    await new Promise((resolve) => setTimeout(resolve, left))
-  }
-}
-async function turn(): Promise<void> {
-  const most = isDrag() ? 1 : mostTurns
-  if (turns > mostTurns - most) --turns
-  else await new Promise<void>((resolve) => waiting.push(resolve))
-}
-async function endTurn(took: number): Promise<void> {
-  if (isDrag()) await rest(Math.min(3000, 20 * took))
-  ++turns
-  const most = isDrag() ? 1 : mostTurns
-  while (waiting.length > 0 && turns > mostTurns - most) {
-    --turns
-    waiting.shift()!()
-  }
-}
-
 export class Answer<T> {
   document = $state.raw<T | null>(null)
   problem = $state.raw<Problem | null>(null)
+  /** Where the newest question has a mistake in it: the document before, of the same device. It is shown as such, dimmed. */
+  before = $state.raw<T | null>(null)
   /** The document is not yet that of the newest question. */
   late = $state(false)
   /** What is shown has been of another question for so long that people see it; a panel says so. */
@@ -82,12 +55,23 @@ export class Answer<T> {
   private took = 0
   private leaveTimer: ReturnType<typeof setTimeout> | undefined
 
+  /** What a panel draws: a mistake in a number takes no picture away. */
+  get drawn(): T | null {
+    return this.document ?? this.before
+  }
+  /** Whether that is of other numbers than those that stand there. */
+  get isStale(): boolean {
+    return (this.lags && this.document !== null) || this.before !== null
+  }
+
   /** What a panel says while what it shows is not what is asked. */
   get waits(): string {
+    if (this.before) return held
     if (!this.lags) return ''
     return (this.document ? stale : 'computing …') + (this.progress === null ? '' : ` ${Math.floor(100 * this.progress)} %`)
   }
 
+  /** `isSlow`: it may take long, and gives way to those that never do. */
   constructor(private readonly isSlow = false) {}
 
   /** What is out of view waits until the questions rest, what is on another tab until that is shown. */
@@ -117,10 +101,10 @@ export class Answer<T> {
     if (!this.running) void this.run()
   }
   /** When nothing has been asked anywhere for a while; the timer that runs is kept, for a drag asks often. */
-  private startLater(after = untilRest): void {
+  private startLater(after = restPause): void {
     this.timer ??= setTimeout(() => {
       this.timer = undefined
-      const left = lastChange + untilRest - performance.now()
+      const left = untilRest(restPause)
       if (left > 1) this.startLater(left)
       else this.start()
     }, after)
@@ -134,9 +118,10 @@ export class Answer<T> {
     this.wanted = question
     this.wantedText = text
     this.leave(isOther ? 0 : patience)
-    lastChange = performance.now()
+    changed()
     if (question === null) {
       this.document = null
+      this.before = null
       this.problem = null
       this.question = null
       this.shownText = ''
@@ -149,6 +134,7 @@ export class Answer<T> {
       // The picture of another device is no picture of this one, however shortly.
       if (this.question && deviceKey(this.question.toml) !== deviceKey(question.toml)) {
         this.document = null
+        this.before = null
         this.problem = null
       }
       this.startInView()
@@ -171,12 +157,13 @@ export class Answer<T> {
         this.startInView()
         break
       }
-      if (this.isSlow) await turn()
-      const question: Question | null = this.wanted
-      const text = this.wantedText
-      const start = performance.now()
-      if (question !== null) await this.once(question, text)
-      if (this.isSlow) await endTurn(performance.now() - start)
+      let text = ''
+      await inTurn(this.isSlow && this.took === 0 ? Infinity : this.isSlow ? this.took : 0, async () => {
+        const question: Question | null = this.wanted
+        text = this.wantedText
+        if (question !== null) await this.once(question, text)
+      })
+      if (this.isSlow) await breathe(this.took)
       if (this.problem?.isPassing && this.wantedText === text) {
         this.timer = setTimeout(() => this.start(), this.pause)
         this.pause = Math.min(longestPause, 2 * this.pause)
@@ -209,6 +196,7 @@ export class Answer<T> {
     if (problem?.isPassing) problem.again = Math.round(this.pause / 1000)
     else this.pause = firstPause
     this.shownText = problem?.isPassing ? '' : text // what may pass is asked again
+    this.before = problem?.status === 400 ? (this.document ?? this.before) : null
     this.document = document
     this.problem = problem
     this.question = question

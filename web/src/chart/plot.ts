@@ -30,6 +30,7 @@ export interface Handle {
   label: string
   text: string
   locked?: boolean
+  look?: string // its colour, as a class
   move: (x: number, y: number, gesture: string) => void
   key?: (event: KeyboardEvent) => void
   end: () => void

@@ -1,6 +1,5 @@
 // The page's questions as the command line, C++ and Python ask them: the same numbers.
 
-import { examples } from '../api/shared.svelte'
 import type { Options } from '../api/answer.svelte'
 import { groupsOf, type Row } from './keys'
 import { scan, type Entry } from './toml'
@@ -52,16 +51,6 @@ export function setsFrom(example: string, text: string): string[] | null {
   return before.size > 0 ? null : sets
 }
 
-function source(text: string): { file: string; sets: string[] } | null {
-  let best: { file: string; sets: string[] } | null = null
-  for (const example of examples.list) {
-    if (example.opened) continue // where it lies only its user knows
-    const sets = setsFrom(example.device_toml, text)
-    if (sets && (!best || sets.length < best.sets.length)) best = { file: `devices/${example.file}`, sets }
-  }
-  return best
-}
-
 const optionsText = (options: Options): string[] =>
   Object.entries(options).flatMap(([key, value]) => {
     const name = `--${key.replaceAll('_', '-')}`
@@ -78,13 +67,10 @@ function unused(word: string, isFree: (each: string) => boolean): string {
   }
 }
 
-/** The exact line: from an example with --set, else with the whole file behind it. */
+/** The line with the whole file behind it: it gives the same in any folder. */
 export function commandLine(command: string, options: Options = {}, text = workbench.toml): string {
   const words = command === 'recommend' ? ['design'] : [command]
   const all = command === 'recommend' ? { recommend: true, ...options } : options
-  const from = source(text)
-  if (from)
-    return ['zwidth', ...words, quoted(from.file), ...from.sets.flatMap((each) => ['--set', quoted(each)]), ...optionsText(all)].join(' ')
   const line = ['zwidth', ...words, '-', ...optionsText(all)].join(' ')
   if (hasControls(text)) return `printf '${printfFormat(text)}' | ${line}`
   const lines = new Set(text.split('\n'))

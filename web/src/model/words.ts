@@ -96,6 +96,10 @@ export const wallWord = ({
 }: Pick<NonNullable<Analysis['wall']>, 'stable' | 'stable_for'>): WallWord =>
   !stable ? 'unstable' : anyUser === null ? 'stable alone; any user not known' : anyUser ? 'stable for anyone' : 'stable alone only'
 
+/** That verdict as a figure colours it. */
+export const verdictLook = (wall: Pick<NonNullable<Analysis['wall']>, 'stable' | 'stable_for'>): string =>
+  !wall.stable ? 'unstable' : wall.stable_for.any_user === true ? 'for-anyone' : 'alone-only'
+
 /** A margin that is null is none, or was left out: then one of these was found. */
 const marginsLeftOut = {
   gain: ['left_out_beside_damper_loop'],
@@ -114,6 +118,7 @@ export const marginWord = {
 
 /** Beside numbers that are not yet those of what the page shows. */
 export const stale = 'of the device before; computing …'
+export const held = 'of the numbers before the error'
 
 export const plainWord = (word: string | null | undefined): string => (word ?? '–').replaceAll('_', ' ')
 

@@ -59,6 +59,9 @@ export const desk = new Desk()
 /** Whether its panel is on the tab that is shown. */
 export const isShown = (id: string): boolean => desk.tab === tabOf(id)
 
+/** What is said on top of the page, until it is dismissed. */
+export const notice = $state({ text: '' })
+
 /** A line of the device file, selected in its panel. */
 export function showLine(line: number): void {
   desk.show('file')

@@ -1,6 +1,6 @@
 // How fast the page is, in print: scripts/bench runs it.
 import { expect, it } from 'vitest'
-import { openPage } from './program'
+import { openPage, settled, show, withWall } from './program'
 import { here, key, opened } from './slider'
 
 it.each([1280, 390])('how soon the first answer is on the screen, %i pixels wide', async (width) => {
@@ -59,4 +59,41 @@ it('how fast a drag is drawn, all panels open', async () => {
   )
   expect(Math.max(...found.times)).toBeLessThan(2000)
   await end()
+})
+
+it.each([
+  ['Time', 'simulate'],
+  ['Frequency', 'bode'],
+] as const)('how often the tab %s is drawn while the wall is dragged on the bar and the sensitivities take a second', async (tab, path) => {
+  const { page, context, complaints } = await openPage(here, 1440)
+  await withWall(page)
+  await show(page, tab)
+  await settled(page)
+  await page.evaluate(() => {
+    const answered: string[] = []
+    Object.assign(window, { answered })
+    const real = window.fetch
+    window.fetch = async (url, init) => {
+      const name = String(url).split('/').at(-1)!
+      if (name === 'design') await new Promise((done) => setTimeout(done, 1000))
+      const response = await real(url, init)
+      answered.push(name)
+      return response
+    }
+  })
+  const box = (await page.locator('#panel-bar .handle .reach').boundingBox())!
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  const begun = Date.now()
+  for (let i = 0; Date.now() - begun < 3500; ++i) await page.mouse.move(x - 100 * Math.sin(i / 20), y)
+  const answered = await page.evaluate(() => (window as unknown as { answered: string[] }).answered)
+  await page.mouse.up()
+  const of = (name: string): number => answered.filter((each) => each === name).length
+  console.log(
+    `tab ${tab}, 3.5 s of a drag: ${of('analyze')} answers, ${of(path)} of ${path}, ${of('design')} of the sensitivities, held to 1 s`,
+  )
+  await settled(page)
+  expect(complaints).toEqual([])
+  await context.close()
 })

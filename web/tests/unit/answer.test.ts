@@ -132,7 +132,7 @@ describe('answer', () => {
     expect(answer.late).toBe(false)
   })
 
-  it('lags where what it shows is of another question for more than 150 ms, and not while it follows', async () => {
+  it('lags where what it shows is of another question for more than 50 ms, and not while it follows', async () => {
     install()
     const answer = new Answer<{ n: number }>()
     const pause = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms))
