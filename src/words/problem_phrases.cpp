@@ -157,7 +157,7 @@ std::span<const ProblemPhrase> option_problem_phrases() {
       ProblemPhrase{
           no_damper_of_its_own, "no_damper_of_its_own",
           "is given, and {?drive|{drive}}{!drive|this firmware} closes no damper beside the force that it is sent",
-          "{?drive|simulated, }odrive, moteus and simplefoc do"},
+          "{?drive|simulated, }odrive, moteus, moteus-can and simplefoc do"},
       ProblemPhrase{damper_not_faster, "damper_not_faster", "is {value:exact} s beside a loop of {bound:exact} s",
                     "a damper on the drive runs faster than the spring: must be below it"},
       ProblemPhrase{no_damping_for_drive, "no_damping_for_drive", "is 0",
