@@ -25,8 +25,10 @@ constexpr std::size_t most_lows = 3;
 constexpr std::size_t most_compared = 1000;  // beyond, the least alone is refined
 constexpr double neighbours_within = 1.7;    // spacings
 constexpr double neighbours_of_jump = 1.3;   // spacings
-constexpr double jump = 2.0;                 // of neighbouring limits
-constexpr int most_halvings = 4;
+constexpr double jump_in_plane = 1.3;        // of neighbouring limits
+constexpr double jump_in_space = 1.5;
+constexpr int halvings_in_plane = 4;
+constexpr int halvings_in_space = 2;
 constexpr int plane_bits = 10;
 constexpr std::uintmax_t most_plane_steps = 40;
 constexpr double finest_step = 2e-3;  // rad
@@ -71,19 +73,23 @@ using Function = std::function<double(const Eigen::Vector3d&)>;
 // differ by more than a continuous limit would, halves are looked at; the least of them, and half of what they are apart.
 class JumpSearch {
  public:
-  JumpSearch(const Function& function, double spacing) : function_(function), spacing_(spacing) {}
+  JumpSearch(const Function& function, Eigen::Index moved, double spacing)
+      : function_(function),
+        jump_(moved == 2 ? jump_in_plane : jump_in_space),
+        halvings_(moved == 2 ? halvings_in_plane : halvings_in_space),
+        half_apart_(spacing / std::exp2(halvings_)) {}
 
   void look_between(const Eigen::Vector3d& a, double at_a, const Eigen::Vector3d& b, double at_b) {
     const Eigen::Vector3d same_side = a.dot(b) < 0.0 ? Eigen::Vector3d(-b) : b;
-    look(a, at_a, same_side, at_b, most_halvings);
+    look(a, at_a, same_side, at_b, halvings_);
   }
 
   [[nodiscard]] const LeastDirection& least() const { return least_; }
-  [[nodiscard]] double half_apart() const { return spacing_ / std::exp2(most_halvings); }
+  [[nodiscard]] double half_apart() const { return half_apart_; }
 
  private:
   void look(const Eigen::Vector3d& a, double at_a, const Eigen::Vector3d& b, double at_b, int halvings) {
-    const bool is_jump = std::max(at_a, at_b) > jump * std::min(at_a, at_b);
+    const bool is_jump = std::max(at_a, at_b) > jump_ * std::min(at_a, at_b);
     if (halvings == 0 || !is_jump) return;
     const Eigen::Vector3d middle = (a + b).normalized();
     const double value = finite(function_(middle));
@@ -93,7 +99,9 @@ class JumpSearch {
   }
 
   const Function& function_;
-  double spacing_;
+  double jump_;
+  int halvings_;
+  double half_apart_;
   LeastDirection least_{Eigen::Vector3d::Zero(), std::numeric_limits<double>::max()};
 };
 
@@ -225,7 +233,7 @@ std::vector<Eigen::Vector3d> directions_beside(const Eigen::MatrixXd& all, const
 }
 
 LeastDirection least_direction(const std::vector<Eigen::Vector3d>& tried, const std::vector<double>& values,
-                               const Eigen::MatrixXd& moved, const Function& function) {
+                               const Eigen::MatrixXd& moved, const Function& function, bool may_jump) {
   std::vector<double> finite_values;
   finite_values.reserve(values.size());
   for (const double each : values) finite_values.push_back(finite(each));
@@ -238,7 +246,8 @@ LeastDirection least_direction(const std::vector<Eigen::Vector3d>& tried, const 
                                                    : least_on_sphere({tried[i], values[i]}, spacing, function);
     if (found.value < least.value) least = found;
   }
-  JumpSearch jumps(function, spacing);
+  if (!may_jump) return least;
+  JumpSearch jumps(function, moved.cols(), spacing);
   for (std::size_t i = 0; i < tried.size() && tried.size() <= most_compared; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (angle_between(tried[i], tried[j]) > neighbours_of_jump * spacing) continue;

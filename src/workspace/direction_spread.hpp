@@ -32,9 +32,11 @@ struct LeastDirection {
 };
 
 // Refines what is low among `tried`, of which the function's values are known; some 10 values a low in a plane and 30 in
-// space. Infinite values are large ones. `tried` must not be empty.
+// space. Infinite values are large ones. Where the function `may_jump` as limits with nobody holding do, what lies between neighbours
+// that differ is looked at, too: some 1 degree in a plane, 5 in space. `tried` must not be empty.
 [[nodiscard]] LeastDirection least_direction(const std::vector<Eigen::Vector3d>& tried,
                                              const std::vector<double>& values, const Eigen::MatrixXd& moved,
-                                             const std::function<double(const Eigen::Vector3d&)>& function);
+                                             const std::function<double(const Eigen::Vector3d&)>& function,
+                                             bool may_jump);
 
 }  // namespace zwidth::internal

@@ -102,19 +102,25 @@ double nobody_of(const DirectionLimits& limits) {
   return limits.status == StiffnessStatus::refused ? std::numeric_limits<double>::infinity() : limits.nobody;
 }
 
+struct Refinement {
+  bool with_any_user = false;
+  bool may_jump = false;  // as the limit with nobody holding over directions
+};
+
 // The direction in which `value` is least, refined from those tried.
 template <typename Value>
 DirectionLimits refined(const std::vector<DirectionLimits>& tried, const Eigen::MatrixXd& moved,
-                        const AnyDirection& any_direction, bool with_any_user, const Value& value) {
+                        const AnyDirection& any_direction, Refinement how, const Value& value) {
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> values;
   for (const DirectionLimits& each : tried) {
     normals.push_back(each.normal);
     values.push_back(value(each));
   }
-  const LeastDirection least = least_direction(normals, values, moved, [&](const Eigen::Vector3d& normal) {
-    return value(any_direction.along(normal, with_any_user));
-  });
+  const LeastDirection least = least_direction(
+      normals, values, moved,
+      [&](const Eigen::Vector3d& normal) { return value(any_direction.along(normal, how.with_any_user)); },
+      how.may_jump);
   return any_direction.along(least.normal, true);
 }
 
@@ -143,9 +149,9 @@ void add_extremes(const AnyDirection& any_direction, const Eigen::MatrixXd& move
     if (has_any_user) pose.least_any_user = least_of(known, any_user);
     return;
   }
-  pose.least = refined(known, moved, any_direction, false, nobody_of);
-  pose.greatest = refined(known, moved, any_direction, false, greatest);
-  if (has_any_user) pose.least_any_user = refined(known, moved, any_direction, true, any_user);
+  pose.least = refined(known, moved, any_direction, {.may_jump = true}, nobody_of);
+  pose.greatest = refined(known, moved, any_direction, {}, greatest);
+  if (has_any_user) pose.least_any_user = refined(known, moved, any_direction, {.with_any_user = true}, any_user);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST(LeastDirection, IsFoundBesideAJumpInThePlane) {
   const std::vector<Eigen::Vector3d> tried = spread_directions(moved, usual_directions(2));
   std::vector<double> values;
   for (const Eigen::Vector3d& each : tried) values.push_back(in_plane(each));
-  EXPECT_LT(least_direction(tried, values, moved, in_plane).value, 30.0);
+  EXPECT_LT(least_direction(tried, values, moved, in_plane, true).value, 30.0);
 }
 
 // A cap of five degrees around a direction that none of the spread is near.
@@ -40,7 +40,7 @@ TEST(LeastDirection, IsFoundBesideAJumpInSpace) {
   const std::vector<Eigen::Vector3d> tried = spread_directions(moved, usual_directions(3));
   std::vector<double> values;
   for (const Eigen::Vector3d& each : tried) values.push_back(limit(each));
-  EXPECT_LT(least_direction(tried, values, moved, limit).value, 30.0);
+  EXPECT_LT(least_direction(tried, values, moved, limit, true).value, 30.0);
 }
 
 }  // namespace
