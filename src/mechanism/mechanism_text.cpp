@@ -42,6 +42,8 @@ constexpr std::array<std::string_view, 5> paths{"file", "filename", "meshdir", "
 constexpr std::array<std::string_view, 20> attributes_of_names{
     "name",  "class", "childclass", "file",    "filename", "joint", "joint1", "joint2", "body",     "body1",
     "body2", "site",  "tendon",     "tendon1", "tendon2",  "geom",  "mesh",   "link",   "material", "model"};
+constexpr std::array<std::string_view, 3> numbers_of_parts{"damping", "stiffness",
+                                                           "frictionloss"};  // refused with their part
 constexpr std::array<std::string_view, 3> joints{"joint", "freejoint", "ball"};
 
 bool is_of(Names names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
@@ -97,7 +99,7 @@ bool is_no_number(std::string_view word) {
 
 // NaN or infinity among numbers, which MuJoCo takes for others; or a quaternion of zeros, which turns nowhere.
 bool has_no_number(const XMLAttribute& attribute) {
-  if (is_of(attributes_of_names, attribute.Name())) return false;
+  if (is_of(attributes_of_names, attribute.Name()) || is_of(numbers_of_parts, attribute.Name())) return false;
   std::istringstream words{attribute.Value()};
   const std::vector<std::string> each{std::istream_iterator<std::string>(words), {}};
   if (std::ranges::any_of(each, is_no_number)) return true;

@@ -216,6 +216,7 @@ void add_singular_pose(const Device& device, Analysis& analysis) {
   }
   loop.loop.damper.reset();
   const double at_pose = any_grasp_limit(*motion, loop, wall_normal(device), GraspedPose::alone).stiffness;
+  if (std::isnan(at_pose)) return analysis.remarks.push_back(singular_pose_remark(*motion));
   analysis.remarks.push_back(singular_pose_remark(*motion, std::min(at_pose, analysis.limits.nobody.critical_stiffness),
                                                   analysis.any_user->stiffness));
 }

@@ -22,9 +22,9 @@ constexpr std::size_t least_aliases = 12;
 constexpr double most_aliases = 2000.0;
 constexpr double undamped_below = 1e-12;   // of a motion of the tip, relative: what the motions before it do not damp
 constexpr double rounded_damping = 1e-14;  // relative, of an eigenvalue of D that is rounding
-constexpr double at_rest_below =
-    1e-6;  // |sT|: rounding leaves poles that rest so far off; a motion as slow counts as one
-constexpr double least_damping = 1e-9;  // relative, of a motion that nothing damps, where R = 0 is sought
+constexpr double at_rest_below = 1e-7;     // |sT|: rounding leaves poles that rest so far off
+constexpr double no_spring_below = 1e-12;  // relative, of the springs of still motions
+constexpr double least_damping = 1e-9;     // relative, of a motion that nothing damps, where R = 0 is sought
 
 // Quicker than the division, which looks for what overflows.
 template <typename Real>
@@ -237,7 +237,15 @@ std::vector<ComplexNumber> GraspDiscs::lossless_points() const {
   companion.topRightCorner(n, n).setIdentity();
   companion.bottomLeftCorner(n, n) = -leading * still.transpose() * stiffness * sprung;
   companion.bottomRightCorner(n, n) = -leading * (mixed + mixed.transpose() - still.transpose() * damping * still);
-  for (const ComplexNumber& square : eigenvalues(companion)) {
+  // Each still motion that no spring holds leaves one point at rest, which rounding moves by the square root of itself.
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> held(stiffness * still);
+  held.setThreshold(no_spring_below);
+  const Eigen::VectorXcd found = eigenvalues(companion);
+  std::vector<ComplexNumber> squares(found.begin(), found.end());
+  std::ranges::sort(squares, {}, [](const ComplexNumber& each) { return std::abs(each); });
+  const Eigen::Index at_rest = stiffness.isZero(0.0) ? n : n - held.rank();
+  squares.erase(squares.begin(), squares.begin() + at_rest);
+  for (const ComplexNumber& square : squares) {
     const ComplexNumber root = std::sqrt(square);
     points.push_back(root.imag() >= 0.0 ? root : -root);
   }
