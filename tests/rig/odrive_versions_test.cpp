@@ -77,7 +77,7 @@ TEST(OdriveLimits, TheVelocityLimitOfTorqueControlBoundsTheTorque) {
   PtyEmulator emulator(std::move(firmware), device);
   const MotorDrive& motor = *device.parameters().driver;
   const OdriveDriver driver({emulator.path(), motor, device.loop().sampling_period, true});
-  EXPECT_NEAR(driver.facts().force_limit.value(), 2.0 / 6.0 / std::abs(motor.torque_per_force()), 1e-5);
+  EXPECT_NEAR(driver.facts().force_limit.value() * std::abs(motor.torque_per_force()), 2.0 / 6.0, 1e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(From, OdriveVersions,
@@ -87,9 +87,9 @@ INSTANTIATE_TEST_SUITE_P(From, OdriveVersions,
 // 0.5.2 ends an answer by its checksum alone, however its bytes come.
 TEST(OdriveProtocol, AnswersWithoutAnEndOfTheirLine) {
   const std::string two = "1.250000 -0.500000*140*48";
-  EXPECT_EQ(odrive_unended_answer_size(two), 22U);
-  EXPECT_EQ(odrive_unended_answer_size(std::string_view(two).substr(22)), 4U);
-  for (std::size_t size = 0; size < 22; ++size) {
+  EXPECT_EQ(odrive_unended_answer_size(two), 21U);
+  EXPECT_EQ(odrive_unended_answer_size(std::string_view(two).substr(21)), 4U);
+  for (std::size_t size = 0; size < 21; ++size) {
     EXPECT_EQ(odrive_unended_answer_size(std::string_view(two).substr(0, size)), 0U) << size;
   }
   EXPECT_EQ(odrive_unended_answer_size("unknown command\r\n1.2"), 17U);
