@@ -192,7 +192,9 @@ class MechanismReader {
       if (std::string_view(each->Value()).find('<') != std::string_view::npos) {
         refuse_xml(document, each->GetLineNum(), "value");
       }
-      if (has_no_number(*each)) refuse_xml(document, each->GetLineNum(), "number");
+      if (has_no_number(*each)) {
+        refuse(ProblemCode::mechanism_file_refused, document, each->GetLineNum(), "", {{"part", "numbers"}});
+      }
       names_file = names_file || is_of(paths, each->Name());
     }
     if (names_file && !may_name_files_) refuse(ProblemCode::path_in_text, document, element.GetLineNum(), name);

@@ -71,10 +71,12 @@ std::span<const ProblemPhrase> model_problem_phrases() {
                     "leave it out, or give another pose"},
       ProblemPhrase{
           mechanism_file_refused, "mechanism_file_refused",
-          "{?why|{why}}{?name|\"{name}\" cannot be read}{?part=reader|MuJoCo cannot read it}{?part=joint|has "
+          "{?line|{?file|{file}: }line {line:n}: }{?why|{why}}{?name|\"{name}\" cannot be read}{?part=reader|MuJoCo "
+          "cannot read it}{?part=joint|has "
           "no joint}{?part=loops|has too many "
           "loops}{?part=files|includes too many files}{?part=mass|has masses, inertias or armatures that make "
-          "no mass matrix}{?part=numbers|has numbers that are none}{?part=joint's|{attribute} of joint \"{of}\" "
+          "no mass matrix}{?part=numbers|has numbers that are none: NaN, infinity, or a quaternion of "
+          "zeros}{?part=joint's|{attribute} of joint \"{of}\" "
           "is {value:exact}}{?part=tendon's|{attribute} of tendon \"{of}\" is {value:exact}}",
           "{!value|must be a file in MJCF or URDF}{?value|must be a finite number{?attribute=position| from "
           "-1e+06 to 1e+06}{!attribute=position|, 0 or from 1e-30 to 1e+30}}"},
@@ -124,7 +126,7 @@ std::span<const ProblemPhrase> model_problem_phrases() {
           "too "
           "deep}{?why=many|more elements than are read}{?why=roots|a second root element}{?why=value|an attribute has "
           "a "
-          "<}{?why=number|NaN, infinity or a quaternion of zeros}{?why=zero|a byte of 0}{?why=none|no "
+          "<}{?why=zero|a byte of 0}{?why=none|no "
           "element}{?why=declared|declarations of types, CDATA and text outside "
           "of "
           "elements are not read}",

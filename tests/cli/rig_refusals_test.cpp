@@ -96,7 +96,7 @@ TEST_F(Rig, RunsADamperOnTheDriveWhereTheFileStatesItsLoop) {
   for (const std::string driver :
        {"vesc:/dev/null", "serial:/dev/null", "udp:127.0.0.1:9", "odrive-can:can0", "vesc-can:can0"}) {
     expect_refused("wall " + apart + limits + "--stiffness 4000 --driver " + driver, 2,
-                   "closes no damper beside the force that it is sent; simulated, odrive, moteus and simplefoc do");
+                   "closes no damper beside the force that it is sent; simulated, odrive, moteus, moteus-can and simplefoc do");
   }
 }
 

@@ -59,7 +59,7 @@ TEST(DeviceDriver, HasTheKeysOfItsDocument) {
   EXPECT_EQ(keys, (std::vector<std::string>{"travel", "gear", "sign", "force_sign", "torque_constant",
                                             "torque_per_volt", "id", "command", "baud"}));
   for (const std::string least : {"travel = 1e-9\n", "gear = 0.001\n", "sign = -1\n", "force_sign = -1\n",
-                                  "torque_constant = 1e-6\n", "torque_per_volt = 1e-6\n", "id = 0\n", "id = 127\n",
+                                  "torque_constant = 1e-6\n", "torque_per_volt = 1e-6\n", "id = 0\n", "id = 253\n",
                                   "command = \"z\"\n", "baud = 1200\n", "baud = 4000000\n"}) {
     EXPECT_EQ(refusal_of_drive(rotary + least).str(), "") << least;
   }
@@ -106,9 +106,9 @@ TEST(DeviceDriver, IsRefusedWithItsPlace) {
   test::expect_refused(refusal_of_drive(rotary + "id = 1.5\n"),
                        {{"f.toml", 8, 6, "driver.id"},
                         {.code = ProblemCode::no_whole_number, .evidence = {{"value", 1.5}, {"most", 1e9}}}});
-  test::expect_refused(refusal_of_drive(rotary + "id = 128\n"),
+  test::expect_refused(refusal_of_drive(rotary + "id = 254\n"),
                        {{"f.toml", 8, 6, "driver.id"},
-                        {.code = ProblemCode::not_between, .evidence = {{"value", 128.0}, {"whole", 1.0}}}});
+                        {.code = ProblemCode::not_between, .evidence = {{"value", 254.0}, {"whole", 1.0}}}});
   test::expect_refused(refusal_of_drive(rotary + "baud = 1e30\n"),
                        {{"f.toml", 8, 8, "driver.baud"},
                         {.code = ProblemCode::no_whole_number, .evidence = {{"value", 1e+30}, {"most", 1e9}}}});

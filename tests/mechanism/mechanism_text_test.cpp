@@ -66,7 +66,7 @@ TEST(MechanismText, NumbersThatAreNoneAreRefusedWithTheirLine) {
                                       "quat='0 0 0 0'", "quat='0. -0 0e0 0'"}) {
     const auto refused = refusal_of_text("<mujoco>\n<body " + attribute + "/></mujoco>");
     ASSERT_TRUE(refused) << attribute;
-    EXPECT_EQ(refused->code, no_xml) << attribute;
+    EXPECT_EQ(refused->code, mechanism_file_refused) << attribute;
     EXPECT_EQ(refused->line, 2.0) << attribute;
   }
   EXPECT_FALSE(refusal_of_text("<mujoco><body name='nan' quat='0 0 0 1'><joint class='inf'/></body></mujoco>"));

@@ -12,8 +12,8 @@ struct CanFrameShape {
 
 /// How fast a CAN bus is, in bits/s.
 struct CanBitRates {
-  double nominal = 0.0;
-  double data = 0.0;  ///< of CAN FD, from its bit rate switch to the end of its CRC
+  double nominal = 0.0;  ///< of all but that data
+  double data = 0.0;     ///< of CAN FD, from its bit rate switch to the end of its CRC
 };
 
 /// The longest that a frame may take, with every bit stuffed that may be and the space behind it.
