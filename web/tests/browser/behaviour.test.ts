@@ -77,11 +77,11 @@ it('finds in its commands what people call them', async () => {
     ['keys', 'Help'],
   ] as const) {
     await page.keyboard.press('Control+k')
-    await page.locator('dialog.palette input').waitFor()
+    await page.getByRole('combobox', { name: 'What to do?' }).waitFor()
     await page.keyboard.type(words)
     await expect.poll(() => page.locator('#action-0').innerText(), words).toContain(first)
     await page.keyboard.press('Escape')
-    await page.locator('dialog.palette').waitFor({ state: 'hidden' })
+    await page.getByRole('combobox', { name: 'What to do?' }).waitFor({ state: 'hidden' })
   }
   await runPalette(page, 'bode')
   await expect.poll(() => page.locator('#panel-bode').isVisible()).toBe(true)

@@ -131,7 +131,7 @@ export const documentOf = (...words: string[]): Record<string, unknown> =>
 
 export const runPalette = async (page: Page, text: string): Promise<void> => {
   await page.keyboard.press('Control+k')
-  await page.locator('dialog.palette input').waitFor()
+  await page.getByRole('combobox', { name: 'What to do?' }).waitFor()
   await page.keyboard.type(text)
   await page.keyboard.press('Enter')
 }
