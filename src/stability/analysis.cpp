@@ -148,8 +148,8 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
                                           .effect = {{"critical_stiffness", alone.critical.stiffness}}}));
     }
   }
-  analysis.alone = AnswerAlone{std::move(alone.critical), std::move(alone.modes), std::move(alone.suspended_rigid_body),
-                               std::move(alone.wall)};
+  analysis.alone =
+      AnswerAlone{std::move(alone.critical), std::move(alone.modes), alone.suspended_rigid_body, std::move(alone.wall)};
 }
 
 /// Whether any passive user leaves the wall stable, with the damper alone where it has no spring. Above a lower bound it is

@@ -93,7 +93,7 @@ OwnForms<Real> own_forms(const TipCoordinates& of, const Eigen::MatrixXd& tip, c
   const Eigen::Index m = tip.rows();
   const auto w = static_cast<Real>(frequency);
   ComplexMatrix<Real> rows = of.stiffness.cast<Complex>();
-  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> f = dampers.cast<Real>();
+  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& f = dampers.cast<Real>();
   rows += Complex(0, w) * (f.transpose() * f).template cast<Complex>();
   rows.diagonal().array() -= w * w;
   ComplexMatrix<Real> g(tip.cols(), with_plant ? 2 * m : m);

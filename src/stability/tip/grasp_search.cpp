@@ -226,7 +226,8 @@ GraspSearch::OwnForms GraspSearch::own_forms(double angle) const {
 void GraspSearch::add_own(const std::vector<ComplexNumber>& poles) {
   const auto directions = probes(discs_.directions());
   std::vector<Eigen::Matrix<GraspDiscs::Real, 6, 1>> precise;
-  for (const auto& each : directions) precise.push_back(each.cast<GraspDiscs::Real>());
+  precise.reserve(directions.size());
+  for (const auto& each : directions) precise.emplace_back(each.cast<GraspDiscs::Real>());
   const auto parts = [&](const OwnForms& forms) {
     PartsOfProbes rows(static_cast<Eigen::Index>(directions.size()), 5);
     for (std::size_t i = 0; i < directions.size(); ++i) {
