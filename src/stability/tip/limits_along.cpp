@@ -3,6 +3,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "stability/loop/damper_response.hpp"
@@ -207,8 +208,8 @@ NormalLimits nobody_along(const Posed& posed, const CrossoverScan& scan, const E
 namespace internal {
 
 struct LimitsAtPose::Scans {
-  Scans(const TipMotion& of, const DeviceParameters& loop, const NormalLimitsOptions& options)
-      : motion(of), posed(motion, loop), crossovers(posed) {
+  Scans(TipMotion of, const DeviceParameters& loop, const NormalLimitsOptions& options)
+      : motion(std::move(of)), posed(motion, loop), crossovers(posed) {
     if (options.any_grasp) grasps = grasps_of(motion, loop, GraspedPose::beside);
   }
   TipMotion motion;
