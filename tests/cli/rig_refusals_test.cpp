@@ -95,8 +95,9 @@ TEST_F(Rig, RunsADamperOnTheDriveWhereTheFileStatesItsLoop) {
   expect_refused("wall " + slow + "--stiffness 4000", 2, "a damper on the drive runs faster than the spring");
   for (const std::string driver :
        {"vesc:/dev/null", "serial:/dev/null", "udp:127.0.0.1:9", "odrive-can:can0", "vesc-can:can0"}) {
-    expect_refused("wall " + apart + limits + "--stiffness 4000 --driver " + driver, 2,
-                   "closes no damper beside the force that it is sent; simulated, odrive, moteus, moteus-can and simplefoc do");
+    expect_refused(
+        "wall " + apart + limits + "--stiffness 4000 --driver " + driver, 2,
+        "closes no damper beside the force that it is sent; simulated, odrive, moteus, moteus-can and simplefoc do");
   }
 }
 
