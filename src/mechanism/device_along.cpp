@@ -32,8 +32,10 @@ Eigen::VectorXd through_cables(const Eigen::VectorXd& along, const Eigen::Matrix
   solver.setThreshold(dependent_below);
   solver.compute(columns);
   const Eigen::VectorXd shares = solver.solve(along);
-  if (!((columns * shares - along).norm() <= dependent_below * along.norm())) refuse_normal(not_determined, normal);
-  return columns.rightCols(rows.rows()) * shares.tail(rows.rows());
+  const Eigen::VectorXd of_rows = shares.tail(rows.rows());
+  const bool is_along = (columns * shares - along).norm() <= dependent_below * along.norm();
+  if (!is_along || !(of_rows.norm() > no_weight_below * shares.norm())) refuse_normal(not_determined, normal);
+  return columns.rightCols(rows.rows()) * of_rows;
 }
 
 std::vector<double> weights(const Eigen::VectorXd& values) {

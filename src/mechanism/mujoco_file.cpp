@@ -190,6 +190,7 @@ class Posed {
       at.tip_position = Eigen::Map<const Eigen::Vector3d>(data_->site_xpos + std::ptrdiff_t{3} * site);
     }
     at.tip = jacobian;
+    if (!(at.tip_position.cwiseAbs().maxCoeff() <= farthest_position)) refuse_part("tip");
   }
 
   void check_number(mjtObj kind, int of, const char* what, double value) const {
@@ -328,6 +329,7 @@ Model read_model(const std::vector<MechanismText>& texts) {
     throw RefusedSource{{.code = ProblemCode::joint_of_many_motions,
                          .subjects = {{"name", Parts(model.get()).name(mjOBJ_JOINT, joint)}}}};
   }
+  if (model->opt.viscosity != 0.0) refuse_part("viscosity");
   model->opt.jacobian = mjJAC_DENSE;
   model->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY;
   // A state has room for so many, which each pose clears: without contacts, and of the loops alone.

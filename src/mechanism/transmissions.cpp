@@ -7,6 +7,9 @@
 namespace zwidth::internal {
 namespace {
 
+// Relative: what rounding leaves of a motion that loops hold, as a tendon of fixed length.
+constexpr double fixed_below = 1e-9;
+
 void add_row(Eigen::MatrixXd& rows, const Eigen::VectorXd& row) {
   rows.conservativeResize(rows.rows() + 1, row.size());
   rows.bottomRows(1) = row.transpose();
@@ -62,21 +65,32 @@ void add_transmission(MechanismAtPose& mechanism, Eigen::Index joint, const Tran
 MechanismAtPose with_loops(const MechanismAtPose& mechanism, const Eigen::MatrixXd& free_motions) {
   MechanismAtPose result;
   result.mass = free_motions.transpose() * mechanism.mass * free_motions;
-  const auto in_free_motions = [&free_motions](const std::vector<double>& weights) -> Eigen::VectorXd {
-    const Eigen::Map<const Eigen::VectorXd> along(weights.data(), static_cast<Eigen::Index>(weights.size()));
-    return free_motions.transpose() * along;
+  const auto in_free_motions = [&free_motions](const Eigen::MatrixXd& rows) -> Eigen::MatrixXd {
+    Eigen::MatrixXd free = rows * free_motions;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      if (free.row(i).norm() <= fixed_below * rows.row(i).norm()) free.row(i).setZero();
+    }
+    return free;
+  };
+  const auto along = [&in_free_motions](const std::vector<double>& weights) -> Eigen::VectorXd {
+    const auto count = static_cast<Eigen::Index>(weights.size());
+    return in_free_motions(Eigen::Map<const Eigen::RowVectorXd>(weights.data(), count)).transpose();
   };
   for (const auto& [weights, stiffness, damping] : mechanism.elements) {
-    add_element(result, in_free_motions(weights), stiffness, damping);
+    add_element(result, along(weights), stiffness, damping);
   }
   for (const auto& [weights, force] : mechanism.frictions) {
-    const Eigen::VectorXd along = in_free_motions(weights);
-    if (along.isZero(0.0)) continue;
-    result.frictions.push_back({{along.begin(), along.end()}, force});
+    const Eigen::VectorXd free = along(weights);
+    if (free.isZero(0.0)) continue;
+    result.frictions.push_back({{free.begin(), free.end()}, force});
   }
-  result.cables = mechanism.cables * free_motions;
-  result.motors = mechanism.motors * free_motions;
-  result.encoders = mechanism.encoders * free_motions;
+  result.cables.resize(0, free_motions.cols());
+  const Eigen::MatrixXd cables = in_free_motions(mechanism.cables);
+  for (Eigen::Index i = 0; i < cables.rows(); ++i) {
+    if (!cables.row(i).isZero(0.0)) add_row(result.cables, cables.row(i).transpose());
+  }
+  result.motors = in_free_motions(mechanism.motors);
+  result.encoders = in_free_motions(mechanism.encoders);
   result.tip = mechanism.tip * free_motions;
   result.joint_motions = mechanism.joint_motions * free_motions;
   result.joints = mechanism.joints;

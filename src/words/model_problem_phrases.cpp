@@ -75,10 +75,14 @@ std::span<const ProblemPhrase> model_problem_phrases() {
           "cannot read it}{?part=joint|has "
           "no joint}{?part=loops|has too many "
           "loops}{?part=files|includes too many files}{?part=mass|has masses, inertias or armatures that make "
-          "no mass matrix}{?part=numbers|has numbers that are none: NaN, infinity, or a quaternion of "
+          "no mass matrix}{?part=tip|has its tip beyond 1e+06 m}{?part=viscosity|is in a viscous fluid, and drag on "
+          "geoms is "
+          "not read}{?part=numbers|has numbers that are none: NaN, infinity, or a quaternion of "
           "zeros}{?part=joint's|{attribute} of joint \"{of}\" "
           "is {value:exact}}{?part=tendon's|{attribute} of tendon \"{of}\" is {value:exact}}",
-          "{!value|must be a file in MJCF or URDF}{?value|must be a finite number{?attribute=position| from "
+          "{!value|must {!part=viscosity|be a file in MJCF or URDF}{?part=viscosity|leave viscosity out: write the "
+          "drag as "
+          "damping of joints}}{?value|must be a finite number{?attribute=position| from "
           "-1e+06 to 1e+06}{!attribute=position|, 0 or from 1e-30 to 1e+30}}"},
       ProblemPhrase{no_such_part, "no_such_part",
                     "the mechanism has no {?kind=joint|joint}{?kind=tip|site or body}{?kind=tendon|tendon} \"{name}\"",

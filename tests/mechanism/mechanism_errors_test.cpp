@@ -194,6 +194,41 @@ TEST(MechanismErrors, ATendonThatNothingMovesIsNone) {
   EXPECT_EQ(code_of(mechanism(paddle(mass + tip + ends, still))), std::nullopt);
 }
 
+// The cable goes from the paddle to the world, and the motor stands beside it.
+TEST(MechanismErrors, AMotorBesideTheCableMovesNoTip) {
+  const std::string rotor = "</body><body><joint name='m' axis='0 0 1'/>" + mass;
+  const std::string cable =
+      "<tendon><fixed stiffness='100'><joint joint='a' coef='1'/><joint joint='m' coef='0'/></fixed></tendon>";
+  EXPECT_EQ(code_of(mechanism(paddle(mass + tip + rotor, cable, "<actuator><motor joint='m'/></actuator>"))),
+            tip_not_determined_by_encoders);
+}
+
+TEST(MechanismErrors, ATipBeyondReachIsRefused) {
+  EXPECT_EQ(code_of(mechanism(paddle(mass + "<site name='tip' pos='1e7 0 0'/>"))), mechanism_file_refused);
+}
+
+TEST(MechanismErrors, DragInAFluidIsRefused) {
+  std::string text = paddle(mass + tip);
+  text.insert(text.find("<worldbody>"), "<option viscosity='0.1'/>");
+  EXPECT_EQ(code_of(mechanism(text)), mechanism_file_refused);
+}
+
+// A cable of fixed length is a gear: its spring and its damping do nothing.
+TEST(MechanismErrors, ACableOfFixedLengthIsAGear) {
+  const auto limit = [](const std::string& equality) {
+    const std::string rotor =
+        "</body><body><joint name='m' axis='0 0 1' damping='1e-3'/><inertial pos='0 0 0' mass='0.1' "
+        "diaginertia='1e-4 1e-4 1e-4'/>";
+    const std::string cable =
+        "<tendon><fixed name='cable' stiffness='400' damping='0.05' springlength='0'><joint joint='m' coef='0.1'/>"
+        "<joint joint='a' coef='-1'/></fixed></tendon>";
+    const std::string motor = "<equality>" + equality + "</equality><actuator><motor joint='m'/></actuator>";
+    return critical_stiffness(device(mechanism(paddle(mass + tip + rotor, cable, motor)))).stiffness;
+  };
+  EXPECT_NEAR(limit("<tendon tendon1='cable'/>") / limit("<joint joint1='m' joint2='a' polycoef='0 10 0 0 0'/>"), 1.0,
+              1e-9);
+}
+
 TEST(MechanismErrors, IncludesStayBesideTheFile) {
   const std::string path = testing::TempDir() + "including.xml";
   MechanismFile file;
