@@ -115,7 +115,7 @@ TextTable cluster_table(const Study& study) {
                                ? fmt::format("{} to {}", quantity(hertz(*each.lowest_frequency), "Hz"),
                                              quantity(hertz(*each.highest_frequency), "Hz"))
                                : std::string("-");
-    table.rows.push_back({mechanism_of(each.status, each.limited_by ? each.limited_by->mode : -1),
+    table.rows.push_back({oscillator_of(each.status, each.limited_by ? each.limited_by->mode : -1),
                           std::to_string(each.count), share_of_all_text(each.share), at,
                           common.empty() ? "nothing" : common});
   }
@@ -171,7 +171,7 @@ std::string worst_sentence(const StudyRun& run, const Study& study) {
     const int mode = worst.critical.limit ? worst.critical.limit->limited_by.mode : -1;
     const std::string critical =
         fmt::format("K_CR {}, limited by {}", unit_stiffness_text(run, worst.critical.stiffness),
-                    mechanism_of(worst.critical.status, mode));
+                    oscillator_of(worst.critical.status, mode));
     const std::string limits =
         any_user         ? fmt::format("{} ({})", unit_stiffness_text(run, *worst.any_user), critical)
         : worst.any_user ? fmt::format("{} ({} with any user)", critical, unit_stiffness_text(run, *worst.any_user))
@@ -255,7 +255,7 @@ std::string study_report(const StudyRun& run, const Study& study, Medium medium)
 
 }  // namespace
 
-std::string mechanism_of(StiffnessStatus status, int mode) {
+std::string oscillator_of(StiffnessStatus status, int mode) {
   switch (status) {
     case StiffnessStatus::none_stable:
       return "no wall is stable";

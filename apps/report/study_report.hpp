@@ -16,6 +16,6 @@ namespace zwidth::report {
 [[nodiscard]] std::string worst_device_file(const Study& study);
 
 /// "vibration mode 1", "no wall is stable", ...
-[[nodiscard]] std::string mechanism_of(StiffnessStatus status, int mode);
+[[nodiscard]] std::string oscillator_of(StiffnessStatus status, int mode);
 
 }  // namespace zwidth::report

@@ -178,7 +178,7 @@ Rows inherent_delay() {
   const CriticalStiffness delayed = critical_of(with_delay(paper_lhifam_reduced_pretension(), inferred_delay));
   std::optional<Crossover> resonance;
   for (const Crossover& crossover : delayed.crossovers) {
-    if (crossover.limited_by.kind != Mechanism::Kind::vibration_mode) continue;
+    if (crossover.limited_by.kind != Oscillator::Kind::vibration_mode) continue;
     if (!resonance || crossover.stiffness < resonance->stiffness) resonance = crossover;
   }
   const std::string branch = resonance ? fmt::format("The resonance branch is at {:.1f} Hz and {:.2f} dB",
@@ -200,7 +200,7 @@ Rows inherent_delay() {
 
 Rows figure_14_numbers() {
   const CriticalStiffness critical = critical_of(handle_sensed(paper_lhifam_reduced_pretension()));
-  const bool rigid = critical.limit->limited_by.kind == Mechanism::Kind::rigid_body;
+  const bool rigid = critical.limit->limited_by.kind == Oscillator::Kind::rigid_body;
   return {{"Fig. 14, Section VI", "Handle sensed: what sets the margin", "not the vibration mode",
            fmt::format("{}: {:.3f} dB at {:.2f} rad/s", rigid ? "the rigid body" : "the vibration mode",
                        decibels(critical.stiffness), critical.limit->frequency),

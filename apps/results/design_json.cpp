@@ -23,7 +23,7 @@ std::optional<double> frequency_of(const std::optional<Crossover>& limit) {
   return limit ? std::optional(limit->frequency) : std::nullopt;
 }
 
-std::optional<Mechanism> mechanism_of(const std::optional<Crossover>& limit) {
+std::optional<Oscillator> oscillator_of(const std::optional<Crossover>& limit) {
   return limit ? std::optional(limit->limited_by) : std::nullopt;
 }
 
@@ -53,7 +53,7 @@ Json state_json(const std::optional<NotchState>& state) {
   const CriticalStiffness& critical = state->analysis.critical;
   return {{"critical_stiffness", critical.stiffness},
           {"critical_frequency_rad_s", frequency_of(critical.limit)},
-          {"limited_by", mechanism_of(critical.limit)},
+          {"limited_by", oscillator_of(critical.limit)},
           {"any_user_stiffness", stiffness_of(state->analysis.any_user)},
           {"wall", state->analysis.wall}};
 }
@@ -62,7 +62,7 @@ Json critical_json(const CriticalStiffness& critical) {
   return {{"status", critical.status},
           {"critical_stiffness", critical.stiffness},
           {"frequency_rad_s", frequency_of(critical.limit)},
-          {"limited_by", mechanism_of(critical.limit)}};
+          {"limited_by", oscillator_of(critical.limit)}};
 }
 
 /// The value of the key with the greatest K; null where that is not known.
@@ -80,14 +80,14 @@ void to_json(Json& json, const BranchSwitch& each) {
           {"frequency_rad_s", each.before.frequency},
           {"limited_by", each.before.limited_by},
           {"frequency_beyond_rad_s", frequency_of(each.beyond)},
-          {"limited_by_beyond", mechanism_of(each.beyond)}};
+          {"limited_by_beyond", oscillator_of(each.beyond)}};
 }
 
 void to_json(Json& json, const SweepPoint& point) {
   json = {{"status", point.status},
           {"critical_stiffness", point.stiffness},
           {"frequency_rad_s", frequency_of(point.limit)},
-          {"limited_by", mechanism_of(point.limit)},
+          {"limited_by", oscillator_of(point.limit)},
           {"any_user_stiffness", stiffness_of(point.any_user)},
           {"trust", point.trust}};
 }

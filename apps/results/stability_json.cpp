@@ -4,9 +4,9 @@
 
 namespace zwidth::results {
 
-void to_json(Json& json, const Mechanism& mechanism) {
-  json = {{"kind", mechanism.kind}};
-  if (mechanism.kind == Mechanism::Kind::vibration_mode) json["mode"] = mechanism.mode;
+void to_json(Json& json, const Oscillator& oscillator) {
+  json = {{"kind", oscillator.kind}};
+  if (oscillator.kind == Oscillator::Kind::vibration_mode) json["mode"] = oscillator.mode;
 }
 
 void to_json(Json& json, const Crossover& crossover) {
@@ -96,7 +96,7 @@ void to_json(Json& json, const StableFor& wall) {
 
 void add_critical(Json& document, const CriticalStiffness& critical) {
   std::optional<double> frequency;
-  std::optional<Mechanism> limited_by;
+  std::optional<Oscillator> limited_by;
   if (critical.limit) {
     frequency = critical.limit->frequency;
     limited_by = critical.limit->limited_by;

@@ -15,8 +15,8 @@ NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessStatus, {{StiffnessStatus::finite, "finite
 NLOHMANN_JSON_SERIALIZE_ENUM(RigidApproximation::Error, {{RigidApproximation::Error::none, "none"},
                                                          {RigidApproximation::Error::safe, "safe"},
                                                          {RigidApproximation::Error::unsafe, "unsafe"}})
-NLOHMANN_JSON_SERIALIZE_ENUM(Mechanism::Kind, {{Mechanism::Kind::rigid_body, "rigid_body"},
-                                               {Mechanism::Kind::vibration_mode, "vibration_mode"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Oscillator::Kind, {{Oscillator::Kind::rigid_body, "rigid_body"},
+                                                {Oscillator::Kind::vibration_mode, "vibration_mode"}})
 
 NLOHMANN_JSON_SERIALIZE_ENUM(WallStability, {{WallStability::anyone, "anyone"},
                                              {WallStability::alone_only, "alone_only"},
@@ -26,7 +26,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Holder,
                              {{Holder::nobody, "nobody"}, {Holder::user, "user"}, {Holder::any_user, "any_user"}})
 
 /// {"kind": "rigid_body"} or {"kind": "vibration_mode", "mode": 1}
-void to_json(Json& json, const Mechanism& mechanism);
+void to_json(Json& json, const Oscillator& oscillator);
 
 /// "frequency_rad_s", "frequency_hz", "stiffness", "stiffness_db", "limited_by", "poles_leaving"
 void to_json(Json& json, const Crossover& crossover);

@@ -94,10 +94,10 @@ struct WorkspacePose {
 
 /// A limit somewhere in the workspace, computed once more as `analyze()` does for the device of that pose and normal.
 struct WorkspaceLimit {
-  double stiffness = 0.0;                    ///< N/m; 0: no wall is stable, infinity: every one is
-  double frequency = 0.0;                    ///< rad/s, of the oscillation or of the worst user; 0 where there is none
-  std::optional<Mechanism> limited_by = {};  ///< what oscillates; of any user where nobody sets his limit
-  std::size_t pose = 0;                      ///< of Workspace::poses
+  double stiffness = 0.0;                     ///< N/m; 0: no wall is stable, infinity: every one is
+  double frequency = 0.0;                     ///< rad/s, of the oscillation or of the worst user; 0 where there is none
+  std::optional<Oscillator> limited_by = {};  ///< what oscillates; of any user where nobody sets his limit
+  std::size_t pose = 0;                       ///< of Workspace::poses
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of length 1
 };
 

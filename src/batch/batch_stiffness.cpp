@@ -147,9 +147,9 @@ const BatchException* exception_of(const BatchStiffness& columns, std::size_t i)
 
 }  // namespace
 
-std::optional<Mechanism> BatchStiffness::limited_by(std::size_t i) const {
+std::optional<Oscillator> BatchStiffness::limited_by(std::size_t i) const {
   if (mode[i] < 0) return std::nullopt;
-  return Mechanism{mode[i] == 0 ? Mechanism::Kind::rigid_body : Mechanism::Kind::vibration_mode, mode[i]};
+  return Oscillator{mode[i] == 0 ? Oscillator::Kind::rigid_body : Oscillator::Kind::vibration_mode, mode[i]};
 }
 
 Trust BatchStiffness::trust_of(std::size_t i) const {

@@ -10,6 +10,7 @@
 #include "model/key_members.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
+#include "zwidth/model/mechanism_key.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -138,11 +139,9 @@ void write_mechanism(const DeviceParameters& device, Writer& out) {
   for (const auto& [joint, position] : mechanism.pose) out.value(text_value(joint), number_value(position));
   std::map<std::string, std::string> tables;  // of joints and tendons
   for (const auto& [key, number] : mechanism.numbers) {
-    const std::size_t kind_end = key.find('.');
-    const std::size_t name_end = key.rfind('.');
-    const std::string name = text_value(key.substr(kind_end + 1, name_end - kind_end - 1));
-    const std::string header = fmt::format("\n[mechanism.{}.{}]\n", key.substr(0, kind_end), name);
-    tables[header] += fmt::format("{} = {}\n", key.substr(name_end + 1), number_value(number));
+    const MechanismNumberName of(key);
+    const std::string header = fmt::format("\n[mechanism.{}.{}]\n", of.kind, text_value(std::string(of.part)));
+    tables[header] += fmt::format("{} = {}\n", of.attribute, number_value(number));
   }
   for (const auto& [header, values] : tables) out.whole_table(header, values);
   for (const Transmission& each : mechanism.transmissions) {

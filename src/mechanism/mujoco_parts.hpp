@@ -108,11 +108,9 @@ inline std::map<std::string, MechanismNumber> numbers_of(mjModel& model) {
 inline void replace_numbers(mjModel& model, const MechanismFile& file) {
   const Parts parts(&model);
   for (const auto& [key, value] : file.numbers) {
-    const std::size_t kind_end = key.find('.');
-    const std::size_t name_end = key.rfind('.');
-    const mjtObj kind = key.starts_with("joint.") ? mjOBJ_JOINT : mjOBJ_TENDON;
-    const std::string name = key.substr(kind_end + 1, name_end - kind_end - 1);
-    static_cast<void>(parts.index(fmt::format("mechanism.{}", key), kind, name));
+    const MechanismNumberName of(key);
+    const mjtObj kind = of.kind == "joint" ? mjOBJ_JOINT : mjOBJ_TENDON;
+    static_cast<void>(parts.index(fmt::format("mechanism.{}", key), kind, std::string(of.part)));
   }
   visit_numbers(model, [&](mjtObj kind, int of, const char* attribute, double& value, bool slides) {
     const std::string key = key_of_number(model, kind, of, attribute);

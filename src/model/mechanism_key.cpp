@@ -18,6 +18,11 @@ bool is_key_of_mechanism_file(std::string_view key) {
          key.starts_with(path_of(DeviceTable::mechanism_tendon) + ".");
 }
 
+MechanismNumberName::MechanismNumberName(std::string_view key)
+    : kind(key.substr(0, key.find('.'))),
+      part(key.substr(kind.size() + 1, key.rfind('.') - kind.size() - 1)),
+      attribute(key.substr(key.rfind('.') + 1)) {}
+
 Motion motion_of_key(const DeviceParameters& parameters, std::string_view key) {
   if (!is_key_of_mechanism(key)) return parameters.motion;
   if (!parameters.mechanism) return Motion::rotary;

@@ -22,8 +22,8 @@ void visit_file_numbers(File& mechanism, const Visitor& visit) {
   for (const auto& [key, number] : mechanism.file_numbers) numbers.emplace(key, number.value);
   for (auto& [key, value] : numbers) {
     const double before = value;
-    const std::size_t dot = key.rfind('.');
-    visit(fmt::format("{}.{}", path_of(DeviceTable::mechanism), key.substr(0, dot)), key.substr(dot + 1), value);
+    const MechanismNumberName of(key);
+    visit(fmt::format("{}.{}.{}", path_of(DeviceTable::mechanism), of.kind, of.part), of.attribute, value);
     if constexpr (!std::is_const_v<File>) {
       if (value != before) mechanism.numbers[key] = value;
     }
@@ -94,6 +94,12 @@ std::string full_parameter_key(const DeviceParameters& parameters, std::string_v
     }
   }
   return without_alias(key);
+}
+
+Device Device::with(std::string_view key, double value) const {
+  DeviceParameters changed = parameters_;
+  set_parameter(changed, key, value);
+  return Device(std::move(changed));
 }
 
 std::vector<std::string> parameter_keys(const DeviceParameters& parameters) {

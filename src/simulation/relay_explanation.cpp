@@ -47,7 +47,7 @@ Finding beside_crossover(const RelayMean& mean, const CriticalStiffness& linear)
   if (!crossover) return {.code = FindingCode::no_linear_crossover};
   Finding finding{.code = FindingCode::oscillates_off_crossovers,
                   .evidence = at(crossover->frequency, crossover->stiffness)};
-  if (crossover->limited_by.kind != Mechanism::Kind::rigid_body) {
+  if (crossover->limited_by.kind != Oscillator::Kind::rigid_body) {
     finding.evidence.push_back({"mode", static_cast<double>(crossover->limited_by.mode)});
   }
   if (is_near(mean.frequency, crossover->frequency)) {

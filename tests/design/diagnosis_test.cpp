@@ -31,7 +31,7 @@ const Device& lhifam() {
 TEST(Diagnosis, NamesTheDeviceItself) {
   const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 39.5, .stiffness = 9200.0});
   EXPECT_EQ(diagnosis.cause, OscillationCause::device);
-  EXPECT_EQ(diagnosis.candidates.front().limited_by->kind, Mechanism::Kind::rigid_body);
+  EXPECT_EQ(diagnosis.candidates.front().limited_by->kind, Oscillator::Kind::rigid_body);
   EXPECT_NEAR(*diagnosis.candidates.front().stiffness, 8848.70869499712, 1e-6);
 }
 

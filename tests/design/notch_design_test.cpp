@@ -50,7 +50,7 @@ double excess(const Device& device, double stiffness) {
 
 TEST(NotchDesign, RaisesTheWorstWallAndEigenvaluesAgree) {
   const Device device = mode_limited();
-  ASSERT_EQ(critical_stiffness(device).limit->limited_by.kind, Mechanism::Kind::vibration_mode);
+  ASSERT_EQ(critical_stiffness(device).limit->limited_by.kind, Oscillator::Kind::vibration_mode);
   const NotchDesign design = design_notch(device, without_margins(0.1));
   ASSERT_TRUE(design.notch);
   EXPECT_GT(design.with, 1.5 * design.without);

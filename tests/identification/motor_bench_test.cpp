@@ -83,7 +83,7 @@ TEST_F(MotorBench, ItsLinesHaveTheModesAndTheRatioOfTheData) {
   EXPECT_GE(ratio, 0.97);
   EXPECT_LE(ratio, 1.15);
   ASSERT_TRUE(found.analysis.critical.limit.has_value());
-  EXPECT_EQ(found.analysis.critical.limit->limited_by.kind, Mechanism::Kind::vibration_mode);
+  EXPECT_EQ(found.analysis.critical.limit->limited_by.kind, Oscillator::Kind::vibration_mode);
   EXPECT_NEAR(device.loop.delay + device.actuator.time_constant, 0.4e-3, 0.15e-3);
   expect_honest(found);
 }

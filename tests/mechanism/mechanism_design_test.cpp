@@ -67,18 +67,12 @@ DeviceParameters posed_arm(double shoulder, double elbow) {
   return parameters;
 }
 
-Device with_number(const Device& device, const std::string& key, double value) {
-  DeviceParameters parameters = device.parameters();
-  set_parameter(parameters, key, value);
-  return Device(std::move(parameters));
-}
-
 TEST(MechanismDesign, a_device_whose_numbers_change_is_put_to_its_pose_again) {
   const Device device = device_of_mechanism(posed_arm(0.3, 1.2));
   DeviceParameters moved = posed_arm(0.3, 0.4);
   moved.mechanism->mechanism.transmissions[1].stiffness = 250.0;
   const Device expected = device_of_mechanism(std::move(moved));
-  const Device found = with_number(with_number(device, "mechanism.pose.elbow", 0.4), "transmission.1.stiffness", 250.0);
+  const Device found = device.with("mechanism.pose.elbow", 0.4).with("transmission.1.stiffness", 250.0);
   EXPECT_EQ(found.parameters().coordinates->mass, expected.parameters().coordinates->mass);
   EXPECT_EQ(critical_stiffness(found).stiffness, critical_stiffness(expected).stiffness);
   EXPECT_EQ(parameter(found.parameters(), "mechanism.pose.elbow"), 0.4);
@@ -126,9 +120,7 @@ TEST(MechanismDesign, slopes_are_those_of_the_limits_of_changed_mechanisms) {
       if (each.value == 0.0) continue;
       SCOPED_TRACE(each.key);
       const double step = 1e-4 * each.value;
-      const auto limit_at = [&](double value) {
-        return critical_stiffness(with_number(device, each.key, value)).stiffness;
-      };
+      const auto limit_at = [&](double value) { return critical_stiffness(device.with(each.key, value)).stiffness; };
       const double expected = (limit_at(each.value + step) - limit_at(each.value - step)) / (2.0 * step);
       EXPECT_NEAR(each.slope / expected, 1.0, 1e-5);
       EXPECT_EQ(each.relative.has_value(), !is_key_of_pose(each.key));
@@ -145,9 +137,7 @@ TEST(MechanismDesign, slopes_of_any_grasp_are_those_of_its_limits) {
     const Sensitivity* const found = find_sensitivity(slopes, key);
     ASSERT_NE(found, nullptr);
     const double step = 1e-3 * found->value;
-    const auto limit_at = [&](double value) {
-      return absolute_stability_limit(with_number(device, key, value), {}).stiffness;
-    };
+    const auto limit_at = [&](double value) { return absolute_stability_limit(device.with(key, value), {}).stiffness; };
     const double expected = (limit_at(found->value + step) - limit_at(found->value - step)) / (2.0 * step);
     EXPECT_NEAR(found->slope / expected, 1.0, 1e-4);
   }
@@ -203,7 +193,7 @@ TEST(MechanismDesign, a_design_finds_where_another_crossover_takes_over_but_not_
     SCOPED_TRACE(each.key);
     EXPECT_FALSE(is_key_of_pose(each.key));
     const double below =
-        critical_stiffness(with_number(device_of_mechanism(posed_arm(0.3, 1.2)), each.key, each.value)).stiffness;
+        critical_stiffness(device_of_mechanism(posed_arm(0.3, 1.2)).with(each.key, each.value)).stiffness;
     EXPECT_NEAR(below / each.stiffness_beyond, 1.0, 0.05);
   }
 }
@@ -248,7 +238,7 @@ TEST(MechanismDesign, targets_are_reached_and_judged_by_any_grasp) {
     EXPECT_FALSE(is_key_of_pose(each.key));
     if (!each.value_needed) continue;
     ++reached;
-    const Device there = with_number(device, each.key, *each.value_needed);
+    const Device there = device.with(each.key, *each.value_needed);
     EXPECT_NEAR(critical_stiffness(there).stiffness / *found.target, 1.0, 1e-8);
     const double any_user = absolute_stability_limit(there, virtual_damper(there)).stiffness;
     ASSERT_TRUE(each.absolute_stability_limit_then.has_value());
@@ -272,7 +262,7 @@ TEST(MechanismDesign, an_oscillation_is_told_and_what_moves_it_is_judged_by_any_
     EXPECT_NE(each.kind, DiagnosisChange::Kind::damper_on_drive);
     EXPECT_TRUE(each.safe.has_value());
     if (each.key != "transmission.0.stiffness") continue;
-    const Device there = with_number(device, each.key, each.value_then);
+    const Device there = device.with(each.key, each.value_then);
     EXPECT_NEAR(*each.limit_then / critical_stiffness(there).stiffness, 1.0, 1e-8);
   }
   // Between the two limits it is a user.

@@ -156,7 +156,7 @@ TEST(Theory, ReducedPretensionCrossesOnce) {
   expect_printed(result.crossovers[1].stiffness, {199859895.8, 1.0});
   expect_printed(result.crossovers[0].frequency, {411.2257, 1e-4});
   expect_printed(decibels(result.stiffness), {87.2116, 1e-4});
-  EXPECT_EQ(result.limit->limited_by.kind, Mechanism::Kind::vibration_mode);
+  EXPECT_EQ(result.limit->limited_by.kind, Oscillator::Kind::vibration_mode);
   EXPECT_EQ(result.limit->limited_by.mode, 1);
 }
 
@@ -174,12 +174,12 @@ TEST(Theory, ReducedPretensionWithDelay) {
   ASSERT_EQ(result.status, StiffnessStatus::finite);
   expect_printed(decibels(result.stiffness), {80.216, 1e-3});
   expect_printed(result.limit->frequency, {37.7, 0.1});
-  EXPECT_EQ(result.limit->limited_by.kind, Mechanism::Kind::rigid_body);
+  EXPECT_EQ(result.limit->limited_by.kind, Oscillator::Kind::rigid_body);
   ASSERT_EQ(result.crossovers.size(), 3U);
   const Crossover& resonance = result.crossovers[2];
   expect_printed(resonance.frequency / (2.0 * std::numbers::pi), {60.5, 0.1});
   expect_printed(decibels(resonance.stiffness), {83.83, 0.01});
-  EXPECT_EQ(resonance.limited_by.kind, Mechanism::Kind::vibration_mode);
+  EXPECT_EQ(resonance.limited_by.kind, Oscillator::Kind::vibration_mode);
 }
 
 // A spring of 363025 N/m in the user's hand, passive, and yet below the rigid bound 2b/T = 7000 N/m.

@@ -124,7 +124,7 @@ TEST(AnalysisText, NamesEveryDelayThatLimits) {
   parameters.loop.delay = 0.25e-3;
   parameters.actuator.time_constant = 2e-3;
   analysed.device = Device(parameters);
-  analysed.analysis.critical.limit->limited_by = {Mechanism::Kind::vibration_mode, 1};
+  analysed.analysis.critical.limit->limited_by = {Oscillator::Kind::vibration_mode, 1};
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("then shakes at 6.143 Hz: vibration mode 1 (84.31 Hz, damping "
                                                       "ratio 0.0507), the sampling delay of T/2 = 500 µs, "
                                                       "the added delay of 250 µs and the actuator's lag of 2 ms "));

@@ -22,8 +22,8 @@ inline AnalysedDevice lhifam() {
   parameters.links = {{0, 1, 79.5e3, 15.0}};
   parameters.loop = {0, 0, 1, 1e-3, 0.0};
   parameters.sensor.resolution = 3.14e-6;
-  const Mechanism rigid_body;
-  const Mechanism mode{Mechanism::Kind::vibration_mode, 1};
+  const Oscillator rigid_body;
+  const Mechanism mode{Oscillator::Kind::vibration_mode, 1};
   Analysis analysis;
   analysis.critical.stiffness = 8848.70869499712;
   analysis.critical.limit = Crossover{38.5965268731856, 8848.70869499712, rigid_body, 2};
@@ -120,7 +120,7 @@ inline AnalysedDevice pushed_the_wrong_way() {
   analysis.critical.limit = Crossover{0.0, 1.0, {}, 1};
   analysis.critical.crossovers = {*analysis.critical.limit};
   analysis.critical.stable_intervals = {{0.0, 1.0}};
-  analysis.limits.nobody = {.critical_stiffness = 1.0, .frequency = 0.0, .limited_by = Mechanism()};
+  analysis.limits.nobody = {.critical_stiffness = 1.0, .frequency = 0.0, .limited_by = Oscillator()};
   return {Device(parameters), analysis};
 }
 

@@ -51,8 +51,8 @@ TEST(Json, TrustAndEnumsHaveTheirNames) {
   EXPECT_EQ(Json(trust)["verdict"], "refused");
   EXPECT_EQ(name_of(StiffnessStatus::none_stable), "none_stable");
   EXPECT_EQ(name_of(StiffnessStatus::unbounded), "unbounded");
-  EXPECT_EQ(Json(Mechanism{Mechanism::Kind::rigid_body, 0}).dump(), R"({"kind":"rigid_body"})");
-  EXPECT_EQ(Json(Mechanism{Mechanism::Kind::vibration_mode, 2}).dump(), R"({"kind":"vibration_mode","mode":2})");
+  EXPECT_EQ(Json(Oscillator{Oscillator::Kind::rigid_body, 0}).dump(), R"({"kind":"rigid_body"})");
+  EXPECT_EQ(Json(Oscillator{Oscillator::Kind::vibration_mode, 2}).dump(), R"({"kind":"vibration_mode","mode":2})");
 }
 
 TEST(Json, FindingsAreListedOnceWithTheirNumbers) {

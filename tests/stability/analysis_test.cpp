@@ -24,9 +24,9 @@ TEST(Analysis, OfLhifam) {
   EXPECT_EQ(analysis.critical.status, StiffnessStatus::finite);
   EXPECT_NEAR(analysis.critical.stiffness, 8848.70869499712, 1e-5);
   ASSERT_TRUE(analysis.critical.limit.has_value());
-  EXPECT_EQ(analysis.critical.limit->limited_by.kind, Mechanism::Kind::rigid_body);
+  EXPECT_EQ(analysis.critical.limit->limited_by.kind, Oscillator::Kind::rigid_body);
   ASSERT_EQ(analysis.critical.crossovers.size(), 4U);
-  EXPECT_EQ(analysis.critical.crossovers[2].limited_by.kind, Mechanism::Kind::vibration_mode);
+  EXPECT_EQ(analysis.critical.crossovers[2].limited_by.kind, Oscillator::Kind::vibration_mode);
   EXPECT_EQ(analysis.critical.crossovers[2].limited_by.mode, 1);
   ASSERT_EQ(analysis.modes.size(), 1U);
   EXPECT_NEAR(analysis.modes[0].frequency, 529.7, 1.0);

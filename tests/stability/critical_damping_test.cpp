@@ -59,7 +59,7 @@ TEST(CriticalDamping, OfARigidDeviceHasAClosedForm) {
     ASSERT_TRUE(found.trust.sound()) << i;
     ASSERT_EQ(found.status, StiffnessStatus::finite) << i;
     EXPECT_NEAR(found.damping / critical_damping_of_rigid(m, b, T), 1.0, 1e-9) << i;
-    EXPECT_EQ(found.limit->limited_by.kind, Mechanism::Kind::rigid_body);
+    EXPECT_EQ(found.limit->limited_by.kind, Oscillator::Kind::rigid_body);
   }
 }
 

@@ -135,7 +135,7 @@ TEST(Holding, ADamperAloneIsAWall) {
   ASSERT_TRUE(shaking.limits.nobody.critical_damping);
   EXPECT_LT(*shaking.limits.nobody.critical_damping, 0.006);
   ASSERT_TRUE(shaking.limits.nobody.damping_limited_by);
-  EXPECT_EQ(shaking.limits.nobody.damping_limited_by->kind, Mechanism::Kind::rigid_body);
+  EXPECT_EQ(shaking.limits.nobody.damping_limited_by->kind, Oscillator::Kind::rigid_body);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(StiffnessInterval, HoldsWhereTheLimitingBranchSwitches) {
   DeviceParameters device = test::lhifam_parameters();
   const auto limited_by_mode = [&](double damping) {
     device.links[0].damping = damping;
-    return critical_stiffness(Device(device)).limit->limited_by.kind == Mechanism::Kind::vibration_mode;
+    return critical_stiffness(Device(device)).limit->limited_by.kind == Oscillator::Kind::vibration_mode;
   };
   double low = 0.1;  // limited by the mode
   double high = 15.0;

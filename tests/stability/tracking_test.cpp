@@ -202,7 +202,7 @@ TEST(Tracking, WhatLimitsIsNamedAsWithoutIt) {
     const CriticalStiffness critical = critical_stiffness(Device(tracked(test::lhifam_parameters(), bandwidth)));
     ASSERT_TRUE(critical.limit);
     // Modes' parts of the sampled plant, each by itself, at the crossover.
-    EXPECT_EQ(critical.limit->limited_by.kind, Mechanism::Kind::rigid_body) << bandwidth;
+    EXPECT_EQ(critical.limit->limited_by.kind, Oscillator::Kind::rigid_body) << bandwidth;
   }
 }
 

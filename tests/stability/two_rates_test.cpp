@@ -116,7 +116,7 @@ TEST(TwoRates, LimitsSayWhatIsLeftOut) {
     left_out += remark.finding && remark.finding->code == FindingCode::left_out_beside_damper_loop ? 1 : 0;
   }
   EXPECT_EQ(left_out, 3);  // Q, disk margin, gain margin
-  EXPECT_EQ(analysis.critical.limit->limited_by.kind, Mechanism::Kind::vibration_mode);
+  EXPECT_EQ(analysis.critical.limit->limited_by.kind, Oscillator::Kind::vibration_mode);
 }
 
 // docs/theory.md, "Two rates".

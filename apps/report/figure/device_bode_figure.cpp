@@ -55,7 +55,7 @@ void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t c
     const bool is_on_axis = crossover.frequency >= figure.range.from && crossover.frequency <= figure.range.to;
     if (crossover.frequency > 0.0 && !is_on_axis) continue;
     const bool limits = critical.limit && critical.limit->frequency == crossover.frequency;
-    const std::string belongs_to = crossover.limited_by.kind == Mechanism::Kind::rigid_body
+    const std::string belongs_to = crossover.limited_by.kind == Oscillator::Kind::rigid_body
                                        ? "rigid body"
                                        : fmt::format("vibration mode {}", crossover.limited_by.mode);
     figure.marks.push_back(

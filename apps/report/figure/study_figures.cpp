@@ -157,7 +157,7 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
   std::size_t group = 0;
   for (const auto& [kind, points] : rows) {
     const std::string_view colour = group_colours[std::min(group++, std::size(group_colours) - 1)];
-    add(mechanism_of(static_cast<StiffnessStatus>(kind.first), kind.second), points,
+    add(oscillator_of(static_cast<StiffnessStatus>(kind.first), kind.second), points,
         fmt::format("pt 7 ps 0.3 lc rgb '{}'", colour));
   }
   if (study.worst) add("the worst unit", row_of(study.worst->values), ring_marker(ink));

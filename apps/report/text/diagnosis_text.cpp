@@ -39,10 +39,10 @@ std::string line(std::string_view label, std::string_view content) {
   return labelled(fmt::format("  {}", label), content, cause_indent);
 }
 
-std::string mechanism_text(const std::optional<Mechanism>& mechanism) {
-  if (!mechanism) return "";
-  return mechanism->kind == Mechanism::Kind::rigid_body ? " (rigid body)"
-                                                        : fmt::format(" (vibration mode {})", mechanism->mode);
+std::string oscillator_text(const std::optional<Oscillator>& oscillator) {
+  if (!oscillator) return "";
+  return oscillator->kind == Oscillator::Kind::rigid_body ? " (rigid body)"
+                                                          : fmt::format(" (vibration mode {})", oscillator->mode);
 }
 
 std::string value_text(const DiagnosisChange& change, double value, Motion motion) {
@@ -196,7 +196,7 @@ std::string diagnosis_text(const Device& device, const Diagnosis& diagnosis) {
     const OscillationCandidate& cause = diagnosis.candidates.front();
     text +=
         line("cause", fmt::format("{}{}{}: {}", diagnosis.cause ? "" : "none fits; the nearest is ",
-                                  cause_text(cause.cause), mechanism_text(cause.limited_by), why_text(cause, units)));
+                                  cause_text(cause.cause), oscillator_text(cause.limited_by), why_text(cause, units)));
   } else {
     text += line("cause", "none fits: nothing that is modelled here oscillates there with this wall");
   }

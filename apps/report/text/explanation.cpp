@@ -113,27 +113,27 @@ double lag_of_filters(const DeviceParameters& device, double w) {
 
 std::string display_name(const Device& device) { return device.name().empty() ? "(unnamed device)" : device.name(); }
 
-std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism) {
-  if (mechanism.kind == Mechanism::Kind::rigid_body) {
+std::string oscillator_name(const Analysis& analysis, const Oscillator& oscillator) {
+  if (oscillator.kind == Oscillator::Kind::rigid_body) {
     if (!analysis.suspended_rigid_body) return "the rigid body";
     return fmt::format("the rigid body on its springs ({})",
                        quantity(hertz(analysis.suspended_rigid_body->frequency), "Hz"));
   }
-  const auto index = static_cast<std::size_t>(mechanism.mode) - 1;
-  if (index >= analysis.modes.size()) return fmt::format("vibration mode {}", mechanism.mode);
+  const auto index = static_cast<std::size_t>(oscillator.mode) - 1;
+  if (index >= analysis.modes.size()) return fmt::format("vibration mode {}", oscillator.mode);
   const Mode& mode = analysis.modes[index];
-  return fmt::format("vibration mode {} ({}, damping ratio {})", mechanism.mode, quantity(hertz(mode.frequency), "Hz"),
+  return fmt::format("vibration mode {} ({}, damping ratio {})", oscillator.mode, quantity(hertz(mode.frequency), "Hz"),
                      number(mode.damping_ratio));
 }
 
-std::string what_turns_unstable(const Device& analysed, const std::string& mechanism, double frequency) {
+std::string what_turns_unstable(const Device& analysed, const std::string& oscillator, double frequency) {
   if (frequency == 0.0) {
-    return mechanism +
+    return oscillator +
            ": a constant force moves the sensed position the other way, and a stiffer wall overcomes what holds it";
   }
   const DeviceParameters& device = analysed.parameters();
   std::vector<std::string> causes = {
-      mechanism, fmt::format("the sampling delay of T/2 = {}", quantity(device.loop.sampling_period / 2.0, "s"))};
+      oscillator, fmt::format("the sampling delay of T/2 = {}", quantity(device.loop.sampling_period / 2.0, "s"))};
   if (device.loop.delay > 0.0) causes.push_back(fmt::format("the added delay of {}", quantity(device.loop.delay, "s")));
   if (device.actuator.time_constant > 0.0) {
     causes.push_back(fmt::format("the actuator's lag of {}", quantity(device.actuator.time_constant, "s")));
@@ -153,7 +153,7 @@ std::string what_turns_unstable(const Device& analysed, const std::string& mecha
 std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
   const auto& limit = analysed.analysis.critical.limit;
   if (!limit) return std::nullopt;
-  return what_turns_unstable(analysed.device, mechanism_name(analysed.analysis, limit->limited_by), limit->frequency);
+  return what_turns_unstable(analysed.device, oscillator_name(analysed.analysis, limit->limited_by), limit->frequency);
 }
 
 AnalysedDevice with_nobody_holding(const AnalysedDevice& analysed) {

@@ -15,14 +15,14 @@ namespace zwidth::report {
 [[nodiscard]] std::string display_name(const Device& device);
 
 /// "the rigid body", "vibration mode 1 (37.1 Hz, damping ratio 0.03)".
-[[nodiscard]] std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism);
+[[nodiscard]] std::string oscillator_name(const Analysis& analysis, const Oscillator& oscillator);
 
 /// What limits the wall, with its cause: the mechanism and the delay that turns it unstable.
 /// Nothing unless the critical stiffness is finite.
 [[nodiscard]] std::optional<std::string> what_limits(const AnalysedDevice& analysed);
 
 /// The same of an oscillation at this frequency, rad/s, whose mechanism has this name.
-[[nodiscard]] std::string what_turns_unstable(const Device& device, const std::string& mechanism, double frequency);
+[[nodiscard]] std::string what_turns_unstable(const Device& device, const std::string& oscillator, double frequency);
 
 /// The device with nobody holding; without an [operator], as it is.
 [[nodiscard]] AnalysedDevice with_nobody_holding(const AnalysedDevice& analysed);

@@ -50,9 +50,10 @@ class LimitTable {
   [[nodiscard]] std::string damping(double value) const { return fmt::format("{} {}", number(value), units_.damping); }
 
   /// "then shakes at 6.143 Hz: the rigid body and the sampling delay of T/2 = 500 us"
-  [[nodiscard]] std::string then_what(const AnalysedDevice& held, const Mechanism& mechanism, double frequency) const {
+  [[nodiscard]] std::string then_what(const AnalysedDevice& held, const Oscillator& oscillator,
+                                      double frequency) const {
     const double nyquist = std::numbers::pi / analysed_.device.loop().sampling_period;
-    const std::string cause = what_turns_unstable(held.device, mechanism_name(held.analysis, mechanism), frequency);
+    const std::string cause = what_turns_unstable(held.device, oscillator_name(held.analysis, oscillator), frequency);
     if (frequency == 0.0) return "then drifts away: " + cause;
     return fmt::format("then shakes at {}{}: {}", quantity(hertz(frequency), "Hz"),
                        frequency < nyquist ? "" : " (Nyquist)", cause);

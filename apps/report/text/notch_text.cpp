@@ -108,7 +108,7 @@ class NotchWriter {
   [[nodiscard]] std::vector<std::string> column(const Analysis& analysis) const {
     const CriticalStiffness& critical = analysis.critical;
     return {quantity(critical.stiffness, units_.stiffness),
-            critical.limit ? mechanism_name(analysis, critical.limit->limited_by) : "-",
+            critical.limit ? oscillator_name(analysis, critical.limit->limited_by) : "-",
             critical.limit ? quantity(hertz(critical.limit->frequency), "Hz") : "-",
             analysis.any_user ? quantity(analysis.any_user->stiffness, units_.stiffness) : "-",
             analysis.wall ? margins(analysis) : "-"};

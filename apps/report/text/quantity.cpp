@@ -18,13 +18,13 @@ std::string limit_value_text(double limit, std::string_view unit) {
   return std::isfinite(limit) ? quantity(limit, unit) : "unbounded";
 }
 
-std::string short_name(const Mechanism& mechanism) {
-  return mechanism.kind == Mechanism::Kind::rigid_body ? "rigid body" : fmt::format("mode {}", mechanism.mode);
+std::string short_name(const Oscillator& oscillator) {
+  return oscillator.kind == Oscillator::Kind::rigid_body ? "rigid body" : fmt::format("mode {}", oscillator.mode);
 }
 
-std::string long_name(const Mechanism& mechanism) {
-  return mechanism.kind == Mechanism::Kind::rigid_body ? "the rigid body"
-                                                       : fmt::format("vibration mode {}", mechanism.mode);
+std::string long_name(const Oscillator& oscillator) {
+  return oscillator.kind == Oscillator::Kind::rigid_body ? "the rigid body"
+                                                         : fmt::format("vibration mode {}", oscillator.mode);
 }
 
 std::string parameter_text(const std::string& key, double value, Motion motion) {

@@ -24,9 +24,9 @@ using zwidth::units_of;
 [[nodiscard]] std::string limit_value_text(double limit, std::string_view unit);
 
 /// "rigid body", "mode 1".
-[[nodiscard]] std::string short_name(const Mechanism& mechanism);
+[[nodiscard]] std::string short_name(const Oscillator& oscillator);
 /// "the rigid body", "vibration mode 1".
-[[nodiscard]] std::string long_name(const Mechanism& mechanism);
+[[nodiscard]] std::string long_name(const Oscillator& oscillator);
 
 /// A parameter's value with its unit: "0.3 kg", "250 µs".
 [[nodiscard]] std::string parameter_text(const std::string& key, double value, Motion motion);

@@ -69,7 +69,7 @@ class RegionWriter {
   [[nodiscard]] std::string where(const BoundaryPoint& point) const {
     if (!point.limited_by) return {};
     return fmt::format("; beyond it oscillates at {}, limited by {}", crossover_frequency_text(*point.frequency),
-                       mechanism_name(named_, *point.limited_by));
+                       oscillator_name(named_, *point.limited_by));
   }
 
   [[nodiscard]] std::string answer_lines() const {

@@ -51,7 +51,7 @@ struct BatchStiffness {
 
   [[nodiscard]] std::size_t size() const { return stiffness.size(); }  ///< how many devices
   /// What limits the i-th device; nothing unless its status is finite.
-  [[nodiscard]] std::optional<Mechanism> limited_by(std::size_t i) const;
+  [[nodiscard]] std::optional<Oscillator> limited_by(std::size_t i) const;
   /// Trust in the i-th device's answer: the base device's, its computation's, and the absolute stability limit's.
   [[nodiscard]] Trust trust_of(std::size_t i) const;
   /// Why the i-th device has no answer; empty where it has one, or is refused for its trust.

@@ -17,7 +17,7 @@ struct CriticalStiffnessOfOne {
   StiffnessStatus status = StiffnessStatus::refused;  ///< whether there is a limit
   double stiffness = 0.0;                             ///< as in CriticalStiffness; NaN where refused
   double frequency = 0.0;                             ///< rad/s, of the limiting crossover; NaN unless finite
-  std::optional<Mechanism> limited_by;                ///< absent unless finite
+  std::optional<Oscillator> limited_by;               ///< absent unless finite
   Trust trust = {};                                   ///< of this device's answer
   std::string failure = {};  ///< the values make no device, or the computation failed; empty: neither
 };

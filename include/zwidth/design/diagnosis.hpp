@@ -56,7 +56,7 @@ struct OscillationCandidate {
   double frequency = 0.0;                             ///< rad/s, where it would oscillate, nearest to the one observed
   std::optional<double> stiffness;                    ///< K from which on it may; absent of a damper alone
   std::optional<double> amplitude;                    ///< of the sensed position; of quantisation and friction
-  std::optional<Mechanism> limited_by;                ///< of a linear crossover
+  std::optional<Oscillator> limited_by;               ///< of a linear crossover
   Finding why;                                        ///< why it fits or not
   std::optional<OtherwiseNeeded> otherwise = {};      ///< absent where it fits, and where no factor makes it fit
   std::optional<double> damping = {};                 ///< of a damper alone: B from which on it may

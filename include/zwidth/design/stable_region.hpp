@@ -18,10 +18,10 @@ enum class BoundaryKind {
 
 /// A point of the boundary.
 struct BoundaryPoint {
-  double stiffness = 0.0;               ///< K
-  double damping = 0.0;                 ///< B
-  std::optional<double> frequency;      ///< rad/s in [0, pi/T]; absent on K = 0 and B = 0
-  std::optional<Mechanism> limited_by;  ///< the modal term of largest magnitude there; absent on K = 0 and B = 0
+  double stiffness = 0.0;                ///< K
+  double damping = 0.0;                  ///< B
+  std::optional<double> frequency;       ///< rad/s in [0, pi/T]; absent on K = 0 and B = 0
+  std::optional<Oscillator> limited_by;  ///< the modal term of largest magnitude there; absent on K = 0 and B = 0
 };
 
 /// A stretch of boundary of one kind; straight between points unless `oscillation`, or `nyquist` of two rates.

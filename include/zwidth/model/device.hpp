@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "zwidth/model/coordinates.hpp"
@@ -166,6 +167,10 @@ class Device {
   [[nodiscard]] std::size_t degrees_of_freedom() const noexcept {
     return parameters_.coordinates ? parameters_.coordinates->size() : parameters_.bodies.size();
   }
+
+  /// This device with another value of one number, by its key as in `--set` (zwidth/model/parameter.hpp): SI units.
+  /// A mechanism is put to its pose again. Throws Error (invalid_argument) for an unknown key, and where no device results.
+  [[nodiscard]] Device with(std::string_view key, double value) const;
 
   /// Index of the body of that name; throws Error (no_such_body).
   [[nodiscard]] std::size_t body_index(const std::string& name) const;

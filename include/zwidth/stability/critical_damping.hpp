@@ -14,7 +14,7 @@ namespace zwidth {
 struct DampingCrossover {
   double frequency = 0.0;  ///< rad/s, as Crossover::frequency
   double damping = 0.0;    ///< B > 0
-  Mechanism limited_by;    ///< what oscillates there
+  Oscillator limited_by;   ///< what oscillates there
   int poles_leaving = 0;   ///< as B rises, as Crossover::poles_leaving
 };
 

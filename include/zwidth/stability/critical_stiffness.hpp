@@ -8,9 +8,9 @@
 
 namespace zwidth {
 
-/// What a crossover belongs to: the modal term of largest magnitude at its frequency.
-struct Mechanism {
-  /// What oscillates.
+/// What oscillates at a crossover: the modal term of largest magnitude at its frequency.
+struct Oscillator {
+  /// Rigid body or vibration.
   enum class Kind { rigid_body, vibration_mode };
   Kind kind = Kind::rigid_body;  ///< of this one
   int mode = 0;                  ///< number of the vibration mode, from 1; 0 for the rigid body
@@ -21,7 +21,7 @@ struct Crossover {
   /// rad/s, in (0, pi/T]; exactly pi/T at Nyquist; 0 where a real pole passes z = 1 (negative static response)
   double frequency = 0.0;
   double stiffness = 0.0;  ///< K > 0
-  Mechanism limited_by;    ///< what oscillates there
+  Oscillator limited_by;   ///< what oscillates there
   /// Poles that leave the unit circle as K rises through this crossover: +2 or -2 (+1, -1 at Nyquist),
   /// 0 where they touch it without crossing.
   int poles_leaving = 0;

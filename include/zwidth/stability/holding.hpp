@@ -19,11 +19,11 @@ enum class Holder : std::uint8_t { nobody, user, any_user };
 struct HolderLimit {
   /// K_CR; 0 where soft walls are unstable, infinite where none is, NaN where refused.
   double critical_stiffness = std::numeric_limits<double>::quiet_NaN();
-  std::optional<double> frequency = {};              ///< rad/s, where the loop oscillates there; absent unless finite
-  std::optional<Mechanism> limited_by = {};          ///< what oscillates; absent for any passive user
-  std::optional<double> critical_damping = {};       ///< the largest B at K = 0; infinite where none is too large
-  std::optional<double> damping_frequency = {};      ///< rad/s, where the loop oscillates at that B
-  std::optional<Mechanism> damping_limited_by = {};  ///< what oscillates there
+  std::optional<double> frequency = {};               ///< rad/s, where the loop oscillates there; absent unless finite
+  std::optional<Oscillator> limited_by = {};          ///< what oscillates; absent for any passive user
+  std::optional<double> critical_damping = {};        ///< the largest B at K = 0; infinite where none is too large
+  std::optional<double> damping_frequency = {};       ///< rad/s, where the loop oscillates at that B
+  std::optional<Oscillator> damping_limited_by = {};  ///< what oscillates there
 };
 
 /// The limits with nobody holding, with the file's user and with any passive user.

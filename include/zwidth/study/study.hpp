@@ -65,7 +65,7 @@ struct StiffnessHistogram {
 /// Units that miss the specification in one way.
 struct FailureCluster {
   StiffnessStatus status = StiffnessStatus::finite;  ///< that they have in common
-  std::optional<Mechanism> limited_by;               ///< what limits K_CR; nothing unless finite
+  std::optional<Oscillator> limited_by;              ///< what limits K_CR; nothing unless finite
   std::uint64_t count = 0;                           ///< how many
   double share = 0.0;                                ///< of all failures
   std::optional<double> lowest_frequency;            ///< rad/s, of their oscillation

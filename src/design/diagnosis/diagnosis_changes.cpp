@@ -103,7 +103,7 @@ class Changes {
     }
     damp();
     damp_on_drive();
-    if (cause_.limited_by && cause_.limited_by->kind == Mechanism::Kind::vibration_mode) stop_mode();
+    if (cause_.limited_by && cause_.limited_by->kind == Oscillator::Kind::vibration_mode) stop_mode();
     stiffen_cables();
     for (std::size_t i = 0; i < std::min(now.links.size(), most_links); ++i) {
       add({.kind = Kind::stiffer_link,

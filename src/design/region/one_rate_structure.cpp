@@ -9,7 +9,7 @@
 
 #include "design/region/boundary_crossings.hpp"
 #include "infinity.hpp"
-#include "stability/limit/mechanism_at.hpp"
+#include "stability/limit/oscillator_at.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
@@ -280,12 +280,12 @@ BoundaryPoint OneRateStructure::stiffest_between(const BoundaryPoint& first, con
                                                              high, std::numeric_limits<double>::digits / 2, steps)
                            .first;
   const WallPoint wall = curve_.at(angle);
-  return {wall.stiffness, wall.damping, angle / period(), mechanism_at(curve_.plant(), angle)};
+  return {wall.stiffness, wall.damping, angle / period(), oscillator_at(curve_.plant(), angle)};
 }
 
 BoundaryPoint OneRateStructure::seen_at(const WallPoint& wall, double angle) const {
   const double frequency = angle >= std::numbers::pi ? std::numbers::pi / period() : angle / period();
-  return {wall.stiffness, wall.damping, frequency, mechanism_at(curve_.plant(), angle)};
+  return {wall.stiffness, wall.damping, frequency, oscillator_at(curve_.plant(), angle)};
 }
 
 // Whether these cells are the same at this B: between the same pieces of boundary, or to rounding at the same K.

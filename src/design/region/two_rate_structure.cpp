@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "infinity.hpp"
-#include "stability/limit/mechanism_at.hpp"
+#include "stability/limit/oscillator_at.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
@@ -154,7 +154,7 @@ Node TwoRateStructure::node_of(const BoundaryPoint& point) const {
 BoundaryPoint TwoRateStructure::seen_at(const WallPoint& wall, double angle) const {
   const double frequency = angle > 0.0 ? curve_.frequency({angle, wall}) : 0.0;
   return {wall.stiffness, wall.damping, frequency,
-          mechanism_at(curve_.modes(), std::min(frequency * curve_.spring_period(), std::numbers::pi))};
+          oscillator_at(curve_.modes(), std::min(frequency * curve_.spring_period(), std::numbers::pi))};
 }
 
 }  // namespace zwidth::internal

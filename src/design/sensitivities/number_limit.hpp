@@ -16,7 +16,7 @@ struct NumberLimit {
   struct Crossing {
     double frequency = 0.0;  // rad/s
     double value = 0.0;      // of the number
-    Mechanism limited_by;
+    Oscillator limited_by;
   };
   double value = 0.0;  // infinite where nothing bounds it, 0 where there is none, NaN where refused
   std::optional<Crossing> at;

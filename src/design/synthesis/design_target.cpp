@@ -224,7 +224,7 @@ class Search {
     using enum FindingCode;
     if (std::abs(excess(limit)) > reached * options_.stiffness) return {.code = limit_jumps_across_target};
     if (options_.goal == StiffnessGoal::absolute_stability_limit) return {.code = any_user_limit_at_target};
-    if (there.at->limited_by.kind == Mechanism::Kind::rigid_body) return {.code = rigid_body_limit_at_target};
+    if (there.at->limited_by.kind == Oscillator::Kind::rigid_body) return {.code = rigid_body_limit_at_target};
     return {.code = mode_limit_at_target, .evidence = {{"mode", static_cast<double>(there.at->limited_by.mode)}}};
   }
 

@@ -8,7 +8,7 @@
 #include "require_argument.hpp"
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
-#include "stability/limit/mechanism_at.hpp"
+#include "stability/limit/oscillator_at.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
 #include "zwidth/model/damper_timing.hpp"
 
@@ -42,7 +42,7 @@ CriticalStiffness internal::critical_stiffness_of(const FilteredPlant& plant, co
   for (const GainCrossing& crossing : crossings.crossings) {
     result.crossovers.push_back(
         {crossing.angle >= std::numbers::pi ? std::numbers::pi / plant.period : crossing.angle / plant.period,
-         crossing.gain, mechanism_at(modes, crossing.angle), crossing.poles_leaving});
+         crossing.gain, oscillator_at(modes, crossing.angle), crossing.poles_leaving});
   }
   find_limit(result, crossings.initially_unstable);
   return result;

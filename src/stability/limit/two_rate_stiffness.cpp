@@ -10,7 +10,7 @@
 
 #include "stability/limit/gain_crossings.hpp"
 #include "stability/limit/guarded_stiffness.hpp"
-#include "stability/limit/mechanism_at.hpp"
+#include "stability/limit/oscillator_at.hpp"
 #include "stability/limit/stiffness_scan.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -57,7 +57,7 @@ CriticalStiffness with_damper_outside(const TwoRateDevice& loop, const Scheduled
   for (const ScannedCrossing& each : found.crossings) {
     const double frequency = as_it_runs.frequency_of(each.pole_minus_one, each.stiffness);
     const double angle = std::min(frequency * loop.spring().period, std::numbers::pi);
-    result.crossovers.push_back({frequency, each.stiffness, mechanism_at(modes, angle), each.poles_leaving});
+    result.crossovers.push_back({frequency, each.stiffness, oscillator_at(modes, angle), each.poles_leaving});
   }
   std::ranges::sort(result.crossovers, {}, &Crossover::frequency);
   find_limit(result, found.initially_unstable);

@@ -6,6 +6,6 @@
 namespace zwidth::internal {
 
 // The modal term of largest magnitude at that angle, the lag's term shared out to the modes it stems from.
-Mechanism mechanism_at(const SampledPlant& plant, double angle);
+Oscillator oscillator_at(const SampledPlant& plant, double angle);
 
 }  // namespace zwidth::internal

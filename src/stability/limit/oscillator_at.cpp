@@ -1,11 +1,11 @@
-#include "stability/limit/mechanism_at.hpp"
+#include "stability/limit/oscillator_at.hpp"
 
 #include <algorithm>
 #include <complex>
 
 namespace zwidth::internal {
 
-Mechanism mechanism_at(const SampledPlant& plant, double angle) {
+Oscillator oscillator_at(const SampledPlant& plant, double angle) {
   std::complex<double> lag = 0.0;
   int modes = 0;
   const SampledTerm* tracking = nullptr;
@@ -20,7 +20,7 @@ Mechanism mechanism_at(const SampledPlant& plant, double angle) {
     std::copy_n(term.tracking_numerator, 3, part.numerator);
     return response(part, angle);
   };
-  Mechanism mechanism;
+  Oscillator oscillator;
   double largest = -1.0;
   for (int mode = 0; mode <= modes; ++mode) {
     std::complex<double> sum = 0.0;
@@ -29,10 +29,10 @@ Mechanism mechanism_at(const SampledPlant& plant, double angle) {
     }
     if (std::abs(sum) > largest) {
       largest = std::abs(sum);
-      mechanism = {mode == 0 ? Mechanism::Kind::rigid_body : Mechanism::Kind::vibration_mode, mode};
+      oscillator = {mode == 0 ? Oscillator::Kind::rigid_body : Oscillator::Kind::vibration_mode, mode};
     }
   }
-  return mechanism;
+  return oscillator;
 }
 
 }  // namespace zwidth::internal
