@@ -64,6 +64,26 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix, double rank_tol
   return qr.householderQ() * first;
 }
 
+Eigen::MatrixXd orthonormal_complement(const Eigen::MatrixXd& matrix, double rank_tolerance) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+  qr.setThreshold(rank_tolerance);
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(matrix.rows(), matrix.rows());
+  return qr.householderQ() * all.rightCols(matrix.rows() - qr.rank());
+}
+
+Eigen::Index rank(const Eigen::MatrixXd& matrix, double rank_tolerance) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+  qr.setThreshold(rank_tolerance);
+  return qr.rank();
+}
+
+Eigen::MatrixXd shortest_solutions(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right, double rank_tolerance) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(rank_tolerance);
+  decomposition.compute(matrix);
+  return decomposition.solve(right);
+}
+
 Eigen::MatrixXd basis_above(const Eigen::MatrixXd& matrix, double least) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
   Eigen::Index rank = 0;

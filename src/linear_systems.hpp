@@ -7,6 +7,9 @@ namespace zwidth::internal {
 // Functions, so that each of Eigen's solvers is compiled once: they take a compiler two to five seconds wherever they
 // are used.
 
+/// Relative to the largest pivot: what rounding leaves of columns that depend on others.
+inline constexpr double smallest_pivot = 4e-15;
+
 /// x of M x = b by LU factors with partial pivoting. M is regular.
 Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
@@ -44,6 +47,15 @@ Eigen::MatrixXd outside_span(const Eigen::MatrixXd& columns, const Eigen::Matrix
 
 /// Orthonormal columns that span the matrix's, of which the rank counts the pivots above `rank_tolerance` of the largest.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix, double rank_tolerance);
+
+/// Orthonormal columns that span all that the matrix's do not, with the same rank.
+Eigen::MatrixXd orthonormal_complement(const Eigen::MatrixXd& matrix, double rank_tolerance);
+
+/// How many pivots of the columns are above `rank_tolerance` of the largest.
+Eigen::Index rank(const Eigen::MatrixXd& matrix, double rank_tolerance);
+
+/// X of least |M X - B|, the shortest where M lacks rank, by a complete orthogonal decomposition; the same rank.
+Eigen::MatrixXd shortest_solutions(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right, double rank_tolerance);
 
 /// Orthonormal columns that span those of the matrix whose pivots are above `least`.
 Eigen::MatrixXd basis_above(const Eigen::MatrixXd& matrix, double least);

@@ -1,8 +1,8 @@
-#include <Eigen/QR>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "linear_systems.hpp"
 #include "mechanism/transmissions.hpp"
 #include "model/mechanism_coordinates.hpp"
 #include "zwidth/mechanism.hpp"
@@ -28,10 +28,7 @@ Eigen::VectorXd through_cables(const Eigen::VectorXd& along, const Eigen::Matrix
   all << cables, rows;
   if (rank_of(all) < rank_of(cables) + rows.rows()) refuse_normal(ProblemCode::motor_or_encoder_depends, normal);
   const Eigen::MatrixXd columns = all.rowwise().normalized().transpose();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(dependent_below);
-  solver.compute(columns);
-  const Eigen::VectorXd shares = solver.solve(along);
+  const Eigen::VectorXd shares = internal::shortest_solutions(columns, along, dependent_below);
   const Eigen::VectorXd of_rows = shares.tail(rows.rows());
   const bool is_along = (columns * shares - along).norm() <= dependent_below * along.norm();
   if (!is_along || !(of_rows.norm() > no_weight_below * shares.norm())) refuse_normal(not_determined, normal);
@@ -149,10 +146,7 @@ Device device_along(const MechanismAtPose& mechanism, const Eigen::Vector3d& nor
   parameters.loop.sensed = point(coordinates.points, "encoders", sensed);
   parameters.loop.actuated = point(coordinates.points, "motors", actuated);
   // Along n where that is no direction in which the tip can move: of its part p that is, p c'/(p p') senses along n as c.
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> moves;
-  moves.setThreshold(tip_stands_below);
-  moves.compute(mechanism.tip.transpose());
-  const Eigen::Vector3d part = moves.solve(along);
+  const Eigen::Vector3d part = internal::shortest_solutions(mechanism.tip.transpose(), along, tip_stands_below);
   coordinates.tip = {moved_tip(mechanism),
                      row_by_row(part * sensed.transpose() / part.squaredNorm()),
                      row_by_row(part * actuated.transpose() / part.squaredNorm()),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "linear_systems.hpp"
 #include "mechanism/mechanism_text.hpp"
 #include "mechanism/mujoco_parts.hpp"
 #include "mechanism/trial_process.hpp"
@@ -143,10 +143,7 @@ class Posed {
   [[nodiscard]] Eigen::MatrixXd free_motions() const {
     const Rows loops = Eigen::Map<const Rows>(data_->efc_J, data_->ne, model_->nv);
     if (loops.rows() == 0) return Eigen::MatrixXd::Identity(model_->nv, model_->nv);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(loops.transpose());
-    qr.setThreshold(dependent_loops_below);
-    const Eigen::MatrixXd q = qr.householderQ();
-    return q.rightCols(model_->nv - qr.rank());
+    return orthonormal_complement(loops.transpose(), dependent_loops_below);
   }
 
   [[nodiscard]] MechanismAtPose whole(const MechanismFile& file) const {
@@ -296,7 +293,7 @@ class Posed {
         if (is_given_[static_cast<std::size_t>(joint)]) slopes.col(joint).setZero();
       }
       open = loops > 0 ? off.head(loops).cwiseAbs().maxCoeff() : 0.0;
-      const Eigen::VectorXd move = slopes.completeOrthogonalDecomposition().solve(off);
+      const Eigen::VectorXd move = shortest_solutions(slopes, off, smallest_pivot);
       if (!(move.cwiseAbs().maxCoeff() > settled)) break;
       Eigen::Map<Eigen::VectorXd>(data_->qpos, n) -= move;
     }

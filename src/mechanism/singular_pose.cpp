@@ -1,6 +1,6 @@
 #include "mechanism/singular_pose.hpp"
 
-#include <Eigen/QR>
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -11,11 +11,7 @@ constexpr double rounding_below = 1e-9;  // of J: no joint turns it by less
 
 // Orthonormal rows.
 Eigen::MatrixXd row_space(const Eigen::MatrixXd& tip) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(tip_stands_below);
-  qr.compute(tip.transpose());
-  const Eigen::MatrixXd basis = qr.householderQ();
-  return basis.leftCols(qr.rank()).transpose();
+  return orthonormal_basis(tip.transpose(), tip_stands_below).transpose();
 }
 
 // What every coordinate moves: the same of each pose, whatever coordinates its loops leave.
@@ -27,7 +23,7 @@ Eigen::MatrixXd seen_motions(const MechanismAtPose& at) {
 
 // J of another pose in this one's coordinates.
 Eigen::MatrixXd tip_in_coordinates_of(const MechanismAtPose& at, const MechanismAtPose& other) {
-  return other.tip * seen_motions(other).colPivHouseholderQr().solve(seen_motions(at));
+  return other.tip * least_squares_of_columns(seen_motions(other), seen_motions(at));
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include "mechanism/tip_reach.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "linear_systems.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -104,7 +103,7 @@ class Reach {
     }
     Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(rows.rows(), size());
     ones.bottomRows(size()).setIdentity();
-    there.slope = mechanism.tip * rows.completeOrthogonalDecomposition().solve(ones);
+    there.slope = mechanism.tip * shortest_solutions(rows, ones, smallest_pivot);
     there.in_range = is_within_ranges(model_.joints(), mechanism.joints);
     return there;
   } catch (const Error&) {
@@ -124,7 +123,7 @@ class Reach {
     Eigen::MatrixXd normal = slope.transpose() * slope;
     const double size_of_slope = normal.diagonal().maxCoeff();
     normal.diagonal().array() += damping * (size_of_slope > 0.0 ? size_of_slope : 1.0);
-    return normal.ldlt().solve(slope.transpose() * there.off);
+    return solve_symmetric(normal, slope.transpose() * there.off);
   }
 
   const MechanismModel& model_;

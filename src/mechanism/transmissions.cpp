@@ -1,8 +1,9 @@
 #include "mechanism/transmissions.hpp"
 
-#include <Eigen/QR>
 #include <utility>
 #include <vector>
+
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -36,10 +37,7 @@ void add_coordinate(MechanismAtPose& mechanism, double inertia) {
 }  // namespace
 
 Eigen::Index rank_of(const Eigen::MatrixXd& rows) {
-  if (rows.rows() == 0) return 0;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.rowwise().normalized().transpose());
-  qr.setThreshold(dependent_below);
-  return qr.rank();
+  return rows.rows() == 0 ? 0 : rank(rows.rowwise().normalized().transpose(), dependent_below);
 }
 
 void add_transmission(MechanismAtPose& mechanism, Eigen::Index joint, const Transmission& motor, bool is_read) {

@@ -1,6 +1,5 @@
 #include "stability/tip/grasp_discs.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,6 +31,7 @@ std::complex<Real> reciprocal(std::complex<Real> value) {
   return std::conj(value) / std::norm(value);
 }
 
+// Products of few rows and columns are lazy: the blocked one takes the compiler seconds for each kind of number.
 template <typename Real>
 using ComplexMatrix = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -94,7 +94,7 @@ OwnForms<Real> own_forms(const TipCoordinates& of, const Eigen::MatrixXd& tip, c
   const auto w = static_cast<Real>(frequency);
   ComplexMatrix<Real> rows = of.stiffness.cast<Complex>();
   const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& f = dampers.cast<Real>();
-  rows += Complex(0, w) * (f.transpose() * f).template cast<Complex>();
+  rows += Complex(0, w) * f.transpose().lazyProduct(f).template cast<Complex>();
   rows.diagonal().array() -= w * w;
   ComplexMatrix<Real> g(tip.cols(), with_plant ? 2 * m : m);
   g.leftCols(m) = tip.transpose().cast<Complex>();
@@ -103,12 +103,12 @@ OwnForms<Real> own_forms(const TipCoordinates& of, const Eigen::MatrixXd& tip, c
   const ComplexMatrix<Real> held = g.leftCols(m);
   OwnForms<Real> forms;
   forms.plant.setZero();
-  if (with_plant) forms.plant.topLeftCorner(m, m) = of.sensed.cast<Complex>() * g.rightCols(m);
+  if (with_plant) forms.plant.topLeftCorner(m, m) = of.sensed.cast<Complex>().lazyProduct(g.rightCols(m));
   // Columns: L^-1 h_s^H, L^-1 h_a.
   Eigen::Matrix<Complex, 3, 6> both = Eigen::Matrix<Complex, 3, 6>::Zero();
-  both.block(0, 0, m, m) = (of.sensed.cast<Complex>() * held).adjoint();
-  both.block(0, 3, m, m) = (of.pushed.cast<Complex>() * held).transpose();
-  ComplexMatrix<Real> damped = std::sqrt(static_cast<Real>(2)) * w * (dampers.cast<Complex>() * held);
+  both.block(0, 0, m, m) = of.sensed.cast<Complex>().lazyProduct(held).adjoint();
+  both.block(0, 3, m, m) = of.pushed.cast<Complex>().lazyProduct(held).transpose();
+  ComplexMatrix<Real> damped = std::sqrt(static_cast<Real>(2)) * w * dampers.cast<Complex>().lazyProduct(held);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Real own = damped.col(i).norm();
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -126,9 +126,9 @@ OwnForms<Real> own_forms(const TipCoordinates& of, const Eigen::MatrixXd& tip, c
   }
   const Eigen::Matrix<Complex, 3, 3> left = both.template leftCols<3>();
   const Eigen::Matrix<Complex, 3, 3> right = both.template rightCols<3>();
-  forms.shift = left.adjoint() * right;
-  forms.left = left.adjoint() * left;
-  forms.right = right.adjoint() * right;
+  forms.shift = left.adjoint().lazyProduct(right);
+  forms.left = left.adjoint().lazyProduct(left);
+  forms.right = right.adjoint().lazyProduct(right);
   return forms;
 }
 
@@ -142,8 +142,7 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
       delay_(loop.loop.delay),
       drive_(drive_path_of(loop)) {
   // A grasp in one basis of the tip's motions is one in any other: in an orthonormal one near a singular pose no row is small.
-  const Eigen::HouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
-  basis_ = (tip.householderQ() * Eigen::MatrixXd::Identity(of_.tip.cols(), of_.tip.rows())).transpose();
+  basis_ = orthonormal_basis(of_.tip.transpose(), 0.0).transpose();
   const auto [dampings, motions] = symmetric_eigen(of_.damping);
   const double none = rounded_damping * std::max(dampings.maxCoeff(), 0.0);
   dampers_ = (dampings.array() > none).select(dampings.array(), 0.0).sqrt().matrix().asDiagonal() * motions.transpose();
@@ -201,9 +200,7 @@ void GraspDiscs::add_low(Sample& sample) const {
 
 // Columns: an orthonormal basis of the motions in which the tip stands still.
 Eigen::MatrixXd GraspDiscs::still_motions() const {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> tip(of_.tip.transpose());
-  const Eigen::MatrixXd q = tip.householderQ();
-  return q.rightCols(of_.tip.cols() - tip.rank());
+  return orthonormal_complement(of_.tip.transpose(), smallest_pivot);
 }
 
 std::vector<ComplexNumber> GraspDiscs::still_poles() const {
@@ -238,12 +235,10 @@ std::vector<ComplexNumber> GraspDiscs::lossless_points() const {
   companion.bottomLeftCorner(n, n) = -leading * still.transpose() * stiffness * sprung;
   companion.bottomRightCorner(n, n) = -leading * (mixed + mixed.transpose() - still.transpose() * damping * still);
   // Each still motion that no spring holds leaves one point at rest, which rounding moves by the square root of itself.
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> held(stiffness * still);
-  held.setThreshold(no_spring_below);
   const Eigen::VectorXcd found = eigenvalues(companion);
   std::vector<ComplexNumber> squares(found.begin(), found.end());
   std::ranges::sort(squares, {}, [](const ComplexNumber& each) { return std::abs(each); });
-  const Eigen::Index at_rest = stiffness.isZero(0.0) ? n : n - held.rank();
+  const Eigen::Index at_rest = stiffness.isZero(0.0) ? n : n - rank(stiffness * still, no_spring_below);
   squares.erase(squares.begin(), squares.begin() + at_rest);
   for (const ComplexNumber& square : squares) {
     const ComplexNumber root = std::sqrt(square);
