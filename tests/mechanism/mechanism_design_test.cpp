@@ -25,6 +25,7 @@
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/simulation/relay_prediction.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
+#include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/grasp_limit.hpp"
 #include "zwidth/study/study_run.hpp"
@@ -389,6 +390,41 @@ TEST(MechanismDesign, a_study_file_takes_the_units_of_joints_and_motors) {
   EXPECT_EQ(parameters[0].distribution.upper, 1.2);
   EXPECT_EQ(parameters[1].distribution.centre, 400.0);
   EXPECT_NEAR(parameters[1].distribution.deviation, 20.0, 1e-12);
+}
+
+// Three joints, two directions, and a corner too slow for the sampling rate: the limit for any user is not known, so no wall is
+// proposed, and none is called harmless.
+TEST(MechanismDesign, no_wall_rests_on_a_limit_that_is_not_known) {
+  const auto arm_sampled_at = [](double period) {
+    std::string bodies;
+    const auto add_joint = [&](const std::string& name, double damping) {
+      bodies += "<body pos='" + std::string(name == "a" ? "0" : "0.15") + " 0 0'><joint name='" + name +
+                "' axis='0 0 1' damping='" + std::to_string(damping) +
+                "'/><inertial pos='0.07 0 0' mass='0.2' diaginertia='1e-6 5e-4 5e-4'/>";
+    };
+    add_joint("a", 2e-3);
+    add_joint("b", 2e-4);
+    add_joint("c", 1e-3);
+    DeviceParameters parameters;
+    parameters.mechanism.emplace();
+    parameters.mechanism->mechanism.text =
+        "<mujoco><compiler angle='radian'/><worldbody>" + bodies +
+        "<site name='tip' pos='0.1 0 0'/></body></body></body></worldbody><actuator><motor joint='a'/><motor "
+        "joint='b'/>"
+        "<motor joint='c'/></actuator></mujoco>";
+    parameters.mechanism->mechanism.tip = "tip";
+    parameters.mechanism->mechanism.pose = {{"a", 0.3}, {"b", 0.8}, {"c", 0.7}};
+    parameters.mechanism->normal = {1.0, 0.0, 0.0};
+    parameters.loop.sampling_period = period;
+    return device_of_mechanism(parameters);
+  };
+  EXPECT_EQ(recommend_wall(arm_sampled_at(1e-3), {.alternatives = false}).status, WallRecommendation::Status::found);
+  const Device fast = arm_sampled_at(1e-7);
+  EXPECT_FALSE(analyze(fast).any_user);
+  const WallRecommendation none = recommend_wall(fast, {.alternatives = false});
+  EXPECT_EQ(none.status, WallRecommendation::Status::none);
+  ASSERT_TRUE(none.reason);
+  EXPECT_EQ(none.reason->code, FindingCode::any_grasp_not_known);
 }
 
 }  // namespace

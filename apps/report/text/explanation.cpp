@@ -212,12 +212,17 @@ static bool is_lower_bound(const Analysis& analysis) {
 
 std::optional<std::string> absolute_stability_note(const AnalysedDevice& analysed) {
   if (!analysed.analysis.any_user) {
+    const auto is_not_known = [](const Remark& each) {
+      return each.finding && each.finding->code == FindingCode::any_grasp_not_known;
+    };
+    if (std::ranges::any_of(analysed.analysis.remarks, is_not_known)) return "not known: no number is given";
     if (parameters_of(analysed).bodies.size() <= most_bodies_for_absolute_stability) return std::nullopt;
     return fmt::format("not computed above {} bodies", most_bodies_for_absolute_stability);
   }
   const AbsoluteStabilityLimit& limit = *analysed.analysis.any_user;
   if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
-  if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
+  if (std::isnan(limit.stiffness)) return "no number is given";
+  if (std::isinf(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
   const std::string_view unit = device_units(analysed).stiffness;
   std::string stiffness = (is_lower_bound(analysed.analysis) ? "at least " : "") + quantity(limit.stiffness, unit);
   if (limit.interval) {

@@ -55,7 +55,7 @@ class TwoRateRecommendation {
     WallRecommendation result;
     remark_on(result);
     std::optional<TwoRateWall> best = searched();
-    if (best && !std::isfinite(best->stiffest.stiffness)) {
+    if (best && std::isinf(best->stiffest.stiffness)) {
       result.status = WallRecommendation::Status::unbounded;
       result.reason = Finding{.code = FindingCode::no_stiffness_too_much};
       return result;

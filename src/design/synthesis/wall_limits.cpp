@@ -80,8 +80,11 @@ WallLimits::WallLimits(const Device& device, const RecommendationOptions& option
 
 double WallLimits::limit(VirtualDamper damper) {
   tell(options_.progress, 0.0);
-  return users_ ? users_->limit(damper, options_.progress).stiffness
-                : critical_stiffness(plants_.front(), damper).stiffness;
+  const double limit = users_ ? users_->limit(damper, options_.progress).stiffness
+                              : critical_stiffness(plants_.front(), damper).stiffness;
+  if (!std::isnan(limit)) return limit;
+  misses_a_limit_ = true;
+  return 0.0;
 }
 
 bool WallLimits::keeps(double stiffness, VirtualDamper damper) {

@@ -37,8 +37,11 @@ class WallLimits {
   // Whether the loop keeps its margins with nobody and with the file's user, and every user the gain margin.
   [[nodiscard]] bool keeps(double stiffness, VirtualDamper damper);
 
-  // The end of the stable stiffnesses from 0 on, with every user (where there is such a limit).
+  // The end of the stable stiffnesses from 0 on, with every user (where there is such a limit); 0 where it is not known.
   [[nodiscard]] double limit(VirtualDamper damper);
+
+  // Whether a limit that was asked for is not known.
+  [[nodiscard]] bool misses_a_limit() const { return misses_a_limit_; }
 
   // Least damping ratio of the contact (contact_damping_ratio()); 1 where there is none.
   [[nodiscard]] double contact_damping(double stiffness, VirtualDamper damper) const;
@@ -54,6 +57,7 @@ class WallLimits {
   std::vector<FilteredPlant> plants_;  // with the file's user, and with nobody holding where there is one
   DiscreteStateSpace system_;
   std::unique_ptr<AbsoluteStabilitySearch> users_;
+  bool misses_a_limit_ = false;
 };
 
 }  // namespace zwidth::internal

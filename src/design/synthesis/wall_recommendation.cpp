@@ -62,7 +62,7 @@ class Recommendation {
     remark_on_bounds(result);
     stages_.next(0.4);
     std::optional<Candidate> best = best_without_notch();
-    if (best && !std::isfinite(best->stiffest.stiffness)) {
+    if (best && std::isinf(best->stiffest.stiffness)) {
       result.status = WallRecommendation::Status::unbounded;
       result.reason = Finding{.code = FindingCode::no_stiffness_too_much};
       return result;
@@ -288,6 +288,7 @@ class Recommendation {
 
   [[nodiscard]] Finding why_none() {
     using enum FindingCode;
+    if (limits_.misses_a_limit()) return {.code = any_grasp_not_known};
     if (limits_.has_users() && limits_.limit({}) == 0.0) return {.code = every_wall_destabilised};
     if (!limits_.has_users() && critical_stiffness(filtered_plant(device_)).status == StiffnessStatus::none_stable) {
       return {.code = no_wall_stable_with_any_damper};
