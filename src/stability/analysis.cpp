@@ -321,7 +321,9 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
   const char* asked = options.worst_user ? "worst_user" : options.family ? "family" : nullptr;
   if (asked == nullptr) return std::nullopt;
   if (!device.has_bodies()) {
-    return option_problem(asked, {.code = ProblemCode::no_body_to_hold});
+    const bool is_mechanism = device.is_mechanical();
+    return option_problem(asked,
+                          {.code = is_mechanism ? ProblemCode::coordinates_not_known : ProblemCode::no_body_to_hold});
   }
   if (has_damper_loop(device.loop())) return option_problem(asked, {.code = ProblemCode::damper_loop_not_known});
   if (options.worst_user && device.bodies().size() > most_bodies_for_absolute_stability) {

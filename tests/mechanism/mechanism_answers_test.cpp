@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,12 @@ TEST(MechanismAnswers, ARegionEndsAtTheCriticalStiffness) {
   ASSERT_TRUE(found.region.most_damped);
   ASSERT_TRUE(found.region.stiffest);
   EXPECT_GT(found.region.stiffest->stiffness, 318.9);  // a damper helps
+}
+
+TEST(MechanismAnswers, AWorstUserIsAskedOfBodiesAlone) {
+  const std::optional<OptionProblem> problem = find_problem(AnalysisOptions{.worst_user = true}, arm(0.0));
+  ASSERT_TRUE(problem && problem->problem);
+  EXPECT_EQ(problem->problem->code, ProblemCode::coordinates_not_known);
 }
 
 // A damper leaves limits that are finite within 0.1 rad a sample alone: 13 467.576 N/m at B = 85.255..., where nobody has 2 % more. A
