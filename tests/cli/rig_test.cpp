@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -291,7 +292,7 @@ TEST_F(Rig, ATerminalShowsWhatTheLoopDoes) {
       "--stiffness 20 --real-time --duration 3 --set loop.sampling_period=0.02 --flight-record f.csv";
   const Outcome seen = run("export TERM=xterm NO_COLOR=1; script -qec '" + wall + "' /dev/null");
   EXPECT_THAT(seen.output, HasSubstr("\r\x1b[K"));
-  EXPECT_THAT(seen.output, HasSubstr(" s  K 20 B 0  F "));
+  EXPECT_THAT(seen.output, HasSubstr(" s  K 20 N/m  B 0 N s/m  F "));
   EXPECT_THAT(seen.output, HasSubstr("worst "));
   EXPECT_THAT(seen.output, ::testing::Not(HasSubstr("\x1b[3")));
   std::size_t lines = 0;
@@ -299,6 +300,33 @@ TEST_F(Rig, ATerminalShowsWhatTheLoopDoes) {
   EXPECT_LE(lines, 32U);
   const Outcome logged = run(wall);
   EXPECT_THAT(logged.errors, ::testing::Not(HasSubstr("\x1b")));
+}
+
+// It was cut in the middle, and its numbers lost their units.
+TEST_F(Rig, ANarrowTerminalShowsFewerNumbersEachWithItsUnit) {
+  const std::string wall =
+      "zwidth rig wall " + lhifam +
+      "--stiffness 20 --real-time --duration 1 --set loop.sampling_period=0.02 --flight-record f.csv";
+  const auto longest_line = [&](int columns) {
+    const Outcome seen =
+        run(fmt::format("export TERM=xterm NO_COLOR=1; script -qec 'stty cols {}; {}' /dev/null", columns, wall));
+    std::string longest;
+    for (std::size_t at = 0; (at = seen.output.find("\x1b[K", at)) != std::string::npos;) {
+      at += 3;
+      const std::size_t end = seen.output.find('\r', at);
+      if (end == std::string::npos || seen.output.compare(end, 2, "\r\x1b") != 0) break;  // the answer
+      if (end - at > longest.size()) longest = seen.output.substr(at, end - at);
+    }
+    return longest;
+  };
+  const std::string wide = longest_line(80);
+  EXPECT_LE(wide.size(), 82U) << "micro has two bytes";
+  EXPECT_THAT(wide, HasSubstr(" s  K 20 N/m"));
+  const std::string narrow = longest_line(40);
+  EXPECT_LE(narrow.size(), 41U);
+  EXPECT_THAT(narrow, ::testing::ContainsRegex("F +-?[0-9.]+ .?.?N  x +-?[0-9.]+ .?.?m"));
+  EXPECT_THAT(narrow, ::testing::Not(HasSubstr("worst")));
+  EXPECT_THAT(longest_line(20), ::testing::ContainsRegex("^F +-?[0-9.]+ .?.?N"));
 }
 
 TEST_F(Rig, TheFlightRecordIsReadByTheOtherCommands) {
