@@ -47,13 +47,17 @@ void check_simplefoc(std::string_view bytes) {
 }
 
 void check_vesc(std::string_view bytes) {
-  for (std::string_view rest = bytes; !rest.empty();) {  // as the driver takes packets out of what has come
-    const std::size_t size = vesc_packet_size(rest);
-    if (size > rest.size()) std::abort();
-    if (size == 0) break;
-    if (const auto payload = vesc_payload(rest.substr(0, size))) (void)vesc_values(*payload);
-    rest.remove_prefix(size);
+  for (const std::size_t most : {vesc_short_payload, vesc_long_payload}) {
+    for (std::string_view rest = bytes; !rest.empty();) {  // as the driver takes packets out of what has come
+      const std::size_t size = vesc_packet_size(rest, most);
+      if (size > rest.size()) std::abort();
+      if (size == 0) break;
+      if (const auto payload = vesc_payload(rest.substr(0, size))) (void)vesc_values(*payload);
+      rest.remove_prefix(size);
+    }
   }
+  (void)vesc_version(bytes);
+  (void)vesc_settings(bytes);
   (void)vesc_values(bytes);
   if (bytes.empty()) return;
   const std::string packet(vesc_packet(bytes.substr(0, 100)).view());

@@ -9,6 +9,7 @@
 #include "cli/option_refusal.hpp"
 #include "cli/subcommand.hpp"
 #include "rig/open_driver.hpp"
+#include "zwidth/words/drive_problem_text.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -147,7 +148,7 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
     return;
   }
   if (const auto problem = rig::find_driver_name_problem(arguments.driver)) {
-    throw BadInput("--driver", fmt::format("{}: {}", arguments.driver, *problem));
+    throw BadInput("--driver", fmt::format("{}: {}", arguments.driver, text(*problem)));
   }
   if (arguments.damper_on_drive) {
     constexpr std::pair<std::string_view, std::string_view> options[] = {{"damper_on_drive", "--damper-on-drive"}};

@@ -32,6 +32,11 @@ void Document::table(const TextTable& table) {
   if (table.rows.size() > 1) content_ += is_page() ? html_table(table) : layout(table);
 }
 
+void Document::rows(std::span<const LabelledText> rows) {
+  if (rows.empty()) return;
+  content_ += is_page() ? html_rows(rows) : lines_of(rows);
+}
+
 void Document::figure(std::string_view name, std::string_view caption,
                       const std::function<std::optional<std::string>()>& draw) {
   if (!is_page()) return;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ class Document {
   void list(const std::vector<std::string>& items);
   /// Headings alone are empty.
   void table(const TextTable& table);
+  /// A label and its text a line.
+  void rows(std::span<const LabelledText> rows);
   /// On a page alone: what `draw` returns as SVG, with ids of `name`.
   void figure(std::string_view name, std::string_view caption, const std::function<std::optional<std::string>()>& draw);
   /// Text or markup of the medium, as it stands.

@@ -43,6 +43,14 @@ static void to_json(Json& json, const LimitTrial& trial) {
           {"oscillation", trial.ring}};
 }
 
+static void to_json(Json& json, const DriveSettings& drive) {
+  json = {{"firmware", drive.firmware.empty() ? Json(nullptr) : Json(drive.firmware)},
+          {"least_force", drive.least_force},
+          {"tracking_bandwidth_rad_s", drive.tracking_bandwidth},
+          {"position_lag_s", drive.position_lag},
+          {"mode_after_watchdog", drive.mode_after_watchdog}};
+}
+
 namespace {
 
 Json session_json(const RigSession& session) {
@@ -54,7 +62,8 @@ Json session_json(const RigSession& session) {
           {"stop", session.stop},
           {"stopped_at_s", session.stop == StopReason::none ? Json(nullptr) : Json(session.stopped_at)},
           {"nudge", session.nudge},
-          {"drive_force_limit", session.drive_force_limit},
+          {"drive_force_limit", session.drive.force_limit},
+          {"drive", session.drive},
           {"limits",
            {{"force", limits.force},
             {"position", limits.position},

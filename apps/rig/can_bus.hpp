@@ -62,11 +62,6 @@ struct CanAdapter {
   std::optional<int> baud = {};  ///< of a serial port; absent: a SocketCAN interface
 };
 
-inline constexpr std::string_view can_adapter_names =
-    "a serial port with an SLCAN adapter or an fdcanusb, /dev/ttyACM0 or with its speed /dev/ttyUSB0@115200, or a "
-    "SocketCAN "
-    "interface, can0";
-
 /// What a name of an adapter stands for; nothing where it names none.
 [[nodiscard]] std::optional<CanAdapter> can_adapter(std::string_view name);
 

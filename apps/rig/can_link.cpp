@@ -37,22 +37,22 @@ void require_fast_bus(const DriverFacts& facts, const SerialLink& link, const Ca
   const double line = facts.byte_rate ? facts.bytes_per_cycle / *facts.byte_rate : 0.0;
   const double needed = (facts.bus_time_per_cycle + line) / serial_share_of_cycle;
   if (needed <= link.sampling_period) return;
-  std::string faster;
+  std::vector<Evidence> evidence{{"rate", rates.nominal},
+                                 {"carried_hz", std::floor(1.0 / needed)},
+                                 {"wanted_hz", 1.0 / link.sampling_period},
+                                 {"period", std::ceil(1e4 * needed) * 1e-4}};
   for (const double rate : usual_rates) {
     const double then = (facts.bus_time_per_cycle * rates.nominal / rate + line) / serial_share_of_cycle;
     if (rates.data > 0.0 || then > link.sampling_period) continue;
-    faster = fmt::format("set the drive and driver.baud to {:.0f} or more, or ", rate);
+    evidence.push_back({"sufficient_rate", rate});
     break;
   }
-  throw DriverFailed(fmt::format(
-      "the line is too slow: the frames of a cycle at {:.0f} bit/s leave {:.0f} Hz at most, the loop runs at "
-      "{:g} Hz; {}loop.sampling_period to {:g} s or more",
-      rates.nominal, std::floor(1.0 / needed), 1.0 / link.sampling_period, faster, std::ceil(1e4 * needed) * 1e-4));
+  throw DriverFailed(DriveProblemCode::bus_too_slow, std::move(evidence));
 }
 
 CanAdapter adapter_of(const SerialLink& link) {
   const auto adapter = can_adapter(link.port);
-  if (!adapter) throw DriverFailed(fmt::format("names no port or interface; {}", can_adapter_names));
+  if (!adapter) throw DriverFailed(DriveProblemCode::no_adapter_named);
   return *adapter;
 }
 

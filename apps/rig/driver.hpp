@@ -5,30 +5,37 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "zwidth/drive_problem.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/rig/session.hpp"
 
 namespace zwidth::rig {
 
-/// A drive that cannot be reached, or that may not be used as it is: one line, with the remedy.
+/// A drive that cannot be reached, or that may not be used as it is: what() is one line, with the remedy.
 struct DriverFailed : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit DriverFailed(DriveProblem found);
+  /// The same, in parts.
+  explicit DriverFailed(DriveProblemCode code, std::vector<Evidence> evidence = {}, std::vector<Subject> subjects = {});
+  DriveProblem problem;  ///< what is wrong
 };
 
 struct DriverFacts {
   std::string name;
-  bool is_simulated = false;               ///< what it measures is what the device's file says
-  bool lock_step = false;                  ///< its time moves one period with each command: there is no clock to keep
-  bool is_zeroed = false;                  ///< its positions count from where the wall begins; else from the first one
-  std::optional<double> watchdog = {};     ///< s, of the firmware; absent: it has none
-  double bytes_per_cycle = 0.0;            ///< on a serial line: question, answer and force
-  double force_bytes = 0.0;                ///< of them the force's, which leave after command() has returned
-  std::optional<double> byte_rate = {};    ///< bytes/s that the line carries; absent: no serial line
-  double bus_time_per_cycle = 0.0;         ///< s, that the same takes on a CAN bus behind the line
-  double force_bus_time = 0.0;             ///< s, of it the force's
-  std::optional<double> force_limit = {};  ///< N or N m, of the drive itself; absent: it tells none
-  bool estimates_velocity = false;         ///< its damper's velocity is that of an estimator which no analysis knows
+  bool is_simulated = false;             ///< what it measures is what the device's file says
+  bool lock_step = false;                ///< its time moves one period with each command: there is no clock to keep
+  bool is_zeroed = false;                ///< its positions count from where the wall begins; else from the first one
+  std::optional<double> watchdog = {};   ///< s, of the firmware; absent: it has none
+  double bytes_per_cycle = 0.0;          ///< on a serial line: question, answer and force
+  double force_bytes = 0.0;              ///< of them the force's, which leave after command() has returned
+  std::optional<double> byte_rate = {};  ///< bytes/s that the line carries; absent: no serial line
+  double bus_time_per_cycle = 0.0;       ///< s, that the same takes on a CAN bus behind the line
+  double force_bus_time = 0.0;           ///< s, of it the force's
+  bool estimates_velocity = false;       ///< its damper's velocity is that of an estimator which no analysis knows
+  DriveSettings settings = {};           ///< what it tells of itself
 };
 
 /// Why no damper can run on the drive of the driver of that name: it closes none beside the forces that it is sent.
@@ -56,9 +63,9 @@ class Driver {
   virtual void arm() = 0;
   /// The position now, m or rad; nothing where none came in time.
   [[nodiscard]] virtual std::optional<double> measure() noexcept = 0;
-  /// Why there is no position, where the drive itself said so: it stands on a fault, or has let go. Empty: it did not
+  /// Why there is no position, where the drive itself said so: it stands on a fault, or has let go. Absent: it did not
   /// say. When the loop does not run.
-  [[nodiscard]] virtual std::string trouble() const { return {}; }
+  [[nodiscard]] virtual std::optional<DriveProblem> trouble() const { return {}; }
   /// Force from now on, N or N m; 0 after disarm().
   void command(double force) noexcept { send(is_disarmed() ? 0.0 : force); }
   /// Zero force, for good, and the drive idle.

@@ -36,7 +36,9 @@ DriverFacts facts_of(const SerialLink& link) {
           .byte_rate = serial_rate(1.0, baud)};
 }
 
-std::string fault_text(unsigned state) { return fmt::format("the microcontroller stands on fault {}", state); }
+DriveProblem fault_of(unsigned state) {
+  return {DriveProblemCode::microcontroller_fault, {{"fault", static_cast<double>(state)}}};
+}
 
 }  // namespace
 
@@ -83,30 +85,23 @@ MicrocontrollerDriver::MicrocontrollerDriver(const SerialLink& link)
     }
     require_usable(*found, link.sampling_period);
     facts_.watchdog = found->watchdog;
-    facts_.force_limit = found->force_limit;
+    facts_.settings.force_limit = found->force_limit;
     return;
   }
-  throw DriverFailed(
-      "the microcontroller does not answer; check port and power, that its sketch is built around zwidth_serial.h, and "
-      "that driver.baud is the sketch's");
+  throw DriverFailed(DriveProblemCode::silent_microcontroller);
 }
 
 void MicrocontrollerDriver::require_usable(const MicrocontrollerDescription& found, double sampling_period) const {
   if (found.version != known_version) {
-    throw DriverFailed(
-        fmt::format("the sketch speaks version {} of the protocol; {} is known: build it with the "
-                    "zwidth_serial.h of this program",
-                    found.version, known_version));
+    throw DriverFailed(DriveProblemCode::sketch_version, {{"version", static_cast<double>(found.version)},
+                                                          {"known", static_cast<double>(known_version)}});
   }
-  if (!(found.force_limit > 0.0)) {
-    throw DriverFailed("the sketch's force limit is none; give zwidth_serial_begin() more than 0 N or N m");
-  }
-  if (found.state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_text(found.state));
+  if (!(found.force_limit > 0.0)) throw DriverFailed(DriveProblemCode::sketch_force_limit);
+  if (found.state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_of(found.state));
   const double shortest = facts_.lock_step ? 0.0 : cycles_within_watchdog * sampling_period;
   if (found.watchdog >= shortest && found.watchdog <= longest_watchdog) return;
-  throw DriverFailed(
-      fmt::format("the sketch's watchdog lets go after {:g} s without a force; {:g} s, two sampling periods, to {:g} s",
-                  found.watchdog, shortest, longest_watchdog));
+  throw DriverFailed(DriveProblemCode::sketch_watchdog,
+                     {{"watchdog", found.watchdog}, {"least", shortest}, {"most", longest_watchdog}});
 }
 
 template <typename Decode>
@@ -116,7 +111,7 @@ auto MicrocontrollerDriver::ask_until_answered(MicrocontrollerCommand command, D
     if (const auto found = answer(command, decode, setup_patience)) return *found;
     sleep_until(begin + setup_patience);  // a port that is gone answers at once
   }
-  throw DriverFailed("the microcontroller does not answer any more");
+  throw DriverFailed(DriveProblemCode::silent_now);
 }
 
 MicrocontrollerDescription MicrocontrollerDriver::description() {
@@ -125,8 +120,8 @@ MicrocontrollerDescription MicrocontrollerDriver::description() {
 
 void MicrocontrollerDriver::arm() {
   const auto found = ask_until_answered(MicrocontrollerCommand::hold, microcontroller_answer);
-  if (found.state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_text(found.state));
-  if (found.state != MicrocontrollerState::holding) throw DriverFailed("the microcontroller takes no force");
+  if (found.state >= MicrocontrollerState::first_fault) throw DriverFailed(fault_of(found.state));
+  if (found.state != MicrocontrollerState::holding) throw DriverFailed(DriveProblemCode::microcontroller_idle);
   is_armed_ = true;
 }
 
@@ -141,11 +136,12 @@ std::optional<double> MicrocontrollerDriver::measure() noexcept {
   return sign_ * found->position;
 }
 
-std::string MicrocontrollerDriver::trouble() const {
-  if (trouble_ == MicrocontrollerState::holding) return "";
-  if (trouble_ >= MicrocontrollerState::first_fault) return fault_text(trouble_);
-  if (trouble_ == MicrocontrollerState::let_go) return "the microcontroller says that its watchdog has let go";
-  return "the microcontroller says that no host holds it: it has started anew, or was released";
+std::optional<DriveProblem> MicrocontrollerDriver::trouble() const {
+  if (trouble_ == MicrocontrollerState::holding) return std::nullopt;
+  if (trouble_ >= MicrocontrollerState::first_fault) return fault_of(trouble_);
+  const bool is_watchdog = trouble_ == MicrocontrollerState::let_go;
+  return DriveProblem{is_watchdog ? DriveProblemCode::microcontroller_let_go
+                                  : DriveProblemCode::microcontroller_not_held};
 }
 
 void MicrocontrollerDriver::send(double force) noexcept {

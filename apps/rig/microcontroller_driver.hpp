@@ -29,7 +29,7 @@ class MicrocontrollerDriver : public Driver {
   [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
   void arm() override;
   [[nodiscard]] std::optional<double> measure() noexcept override;
-  [[nodiscard]] std::string trouble() const override;
+  [[nodiscard]] std::optional<DriveProblem> trouble() const override;
   [[nodiscard]] std::optional<bool> proves_watchdog() override;
 
  protected:

@@ -1,6 +1,7 @@
 #include "rig/moteus_driver.hpp"
 
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "rig/can_link.hpp"
@@ -27,6 +28,12 @@ constexpr double bytes_per_cycle = 27 + 8 + 37 + 57 + 8;
 constexpr double force_bytes = 57;
 constexpr double bytes_of_damper = 32;  // of a torque beside it: no position, velocity 0, and a limit
 
+constexpr std::string_view first_with_uart = "0.1.14 (April 2026)";
+constexpr unsigned first_with_cutoff = 0x00010c;
+constexpr int setup_tries = 2;  // an answer may be lost
+constexpr double cutoff_over_bandwidth = 2.48;
+constexpr double position_sources = 3.0;
+
 constexpr int largest_id = 127;
 constexpr int fault_mode = 1;
 constexpr int position_mode = 10;
@@ -35,7 +42,11 @@ constexpr int timeout_mode = 11;
 /// What the port alone would not tell, before it is opened.
 const std::string& checked_port(const SerialLink& link) {
   const int id = link.drive.id.value_or(1);
-  if (id < 1 || id > largest_id) throw DriverFailed(fmt::format("driver.id is {}; a moteus has 1 to 127", id));
+  if (id < 1 || id > largest_id) {
+    throw DriverFailed(DriveProblemCode::id_out_of_range,
+                       {{"id", static_cast<double>(id)}, {"least", 1.0}, {"most", static_cast<double>(largest_id)}},
+                       {{"drive", "moteus"}});
+  }
   return link.port;
 }
 
@@ -81,7 +92,54 @@ MoteusDriver::MoteusDriver(const SerialLink& link)
         refusal_patience);
     if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
   }
-  if (const int found = mode(); found == fault_mode) throw DriverFailed(trouble_text(Trouble::fault, found));
+  if (const int found = mode(); found == fault_mode) throw DriverFailed(problem_of(Trouble::fault, found));
+  read_firmware();
+}
+
+DriveProblem MoteusDriver::unanswered() const {
+  DriveProblem problem = SerialDriver::unanswered();
+  if (!can_rates_) problem.subjects.push_back({"firmware", std::string(first_with_uart)});
+  return problem;
+}
+
+std::optional<double> MoteusDriver::configured(std::string_view name) {
+  tell(line(moteus_tunnel(id_, fmt::format("conf get {}\n", name))).view());
+  const auto understood = [&](std::string_view frame) -> std::optional<std::string> {
+    const auto answer = moteus_answer(frame, has_checksums_);
+    return answer ? moteus_tunnel_reply(*answer, id_) : std::nullopt;
+  };
+  std::optional<std::string> text;
+  for (int i = 0; i < setup_tries && !text; ++i) text = ask(line(moteus_tunnel_question(id_)).view(), understood);
+  return text ? as_number(*text) : std::nullopt;
+}
+
+void MoteusDriver::read_firmware() {
+  const auto understood = [&](std::string_view frame) -> std::optional<std::string> {
+    const auto answer = moteus_answer(frame, has_checksums_);
+    const auto reply = answer ? moteus_reply(*answer, id_) : std::nullopt;
+    return reply && reply->firmware ? std::optional(fmt::format("{}", *reply->firmware)) : std::nullopt;
+  };
+  std::optional<std::string> text;
+  for (int i = 0; i < setup_tries && !text; ++i) text = ask(line(moteus_version_question(id_)).view(), understood);
+  if (text) {
+    const auto version = static_cast<unsigned>(as_number(*text).value_or(0.0));
+    settings().firmware = fmt::format("{}.{}.{}", version >> 16U, version >> 8U & 0xffU, version & 0xffU);
+    read_position_filter(version);
+  }
+  const auto after = configured("servo.timeout_mode");
+  if (!after) return;
+  settings().mode_after_watchdog = static_cast<int>(*after);
+  if (settings().mode_after_watchdog != position_mode) return;
+  throw DriverFailed(DriveProblemCode::moteus_holds, {{"id", static_cast<double>(id_)}, {"mode", *after}});
+}
+
+void MoteusDriver::read_position_filter(unsigned version) {
+  const auto source = configured("motor_position.output.source");
+  if (!source || !(*source >= 0.0 && *source < position_sources)) return;
+  const auto hertz = configured(fmt::format("motor_position.sources.{:.0f}.pll_filter_hz", *source));
+  // By 3 dB of (2 w s + w²)/(s + w)² since 0.1.12, by w itself before.
+  const double ratio = version >= first_with_cutoff ? cutoff_over_bandwidth : 1.0;
+  if (hertz && *hertz >= 0.0) settings().tracking_bandwidth = 2.0 * std::numbers::pi * *hertz / ratio;
 }
 
 int MoteusDriver::mode() {
@@ -115,7 +173,8 @@ void MoteusDriver::tell_damper() {
   for (const DriveNumber& each : damper()->numbers) {
     const std::string answer = said_to(fmt::format("conf set {} {:.6g}\n", each.name, each.value));
     if (answer != "OK") {
-      throw DriverFailed(fmt::format("moteus {} does not take {}: it says \"{}\"", id_, each.name, answer));
+      throw DriverFailed(DriveProblemCode::moteus_refuses_number, {{"id", static_cast<double>(id_)}},
+                         {{"name", std::string(each.name)}, {"said", answer}});
     }
     require_taken(each.name, each.value, said_to(fmt::format("conf get {}\n", each.name)));
   }
@@ -135,8 +194,8 @@ void MoteusDriver::arm() {
     sleep_until(clock_now() + pause);
     pause *= 2;  // an answer that is late passes for that of the next question, until a pause lets all of them in
   } while (clock_now() < until);
-  throw DriverFailed(fmt::format(
-      "moteus {} does not go into its position mode but stays in mode {}; calibrate it first", id_, mode()));
+  throw DriverFailed(DriveProblemCode::moteus_other_mode,
+                     {{"id", static_cast<double>(id_)}, {"mode", static_cast<double>(mode())}});
 }
 
 std::optional<bool> MoteusDriver::proves_watchdog() {
@@ -165,12 +224,10 @@ SerialDriver::Heard MoteusDriver::hear(std::string_view frame) noexcept {
   return {Meaning::position, *reply->position};
 }
 
-std::string MoteusDriver::trouble_text(Trouble trouble, long code) const {
-  if (trouble == Trouble::fault) {
-    return fmt::format("moteus {} stands on a fault; find its cause with tview, then stop it (d stop)", id_);
-  }
-  return fmt::format("moteus {} has let go: it is in mode {}{}", id_, code,
-                     code == timeout_mode ? ", its watchdog's; the loop is too slow, or the line too busy" : "");
+DriveProblem MoteusDriver::problem_of(Trouble trouble, long code) const {
+  const Evidence id{"id", static_cast<double>(id_)};
+  if (trouble == Trouble::fault) return {DriveProblemCode::moteus_fault, {id}};
+  return {DriveProblemCode::moteus_let_go, {id, {"mode", static_cast<double>(code)}}};
 }
 
 SerialFrame MoteusDriver::question() noexcept { return line(moteus_question(id_)); }

@@ -16,7 +16,7 @@ namespace zwidth::rig {
 /// out: mode and position are read together, and a position in any other mode than that of torque is none, until it is disarmed.
 class MoteusDriver : public SerialDriver {
  public:
-  /// Throws DriverFailed where the drive does not answer, or stands on a fault.
+  /// Throws DriverFailed where the drive does not answer, stands on a fault, or would hold its position once its watchdog has let go.
   explicit MoteusDriver(const SerialLink& link);
 
   void close_damper(const Device& device, std::optional<double> force_limit) override;
@@ -28,7 +28,8 @@ class MoteusDriver : public SerialDriver {
   [[nodiscard]] SerialFrame question() noexcept override;
   [[nodiscard]] SerialFrame mark() const noexcept override;
   [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
-  [[nodiscard]] std::string trouble_text(Trouble trouble, long code) const override;
+  [[nodiscard]] DriveProblem problem_of(Trouble trouble, long code) const override;
+  [[nodiscard]] DriveProblem unanswered() const override;
   void send_idle() noexcept override;
 
  private:
@@ -37,6 +38,10 @@ class MoteusDriver : public SerialDriver {
   }
   [[nodiscard]] int mode();
   [[nodiscard]] std::string said_to(const std::string& text);
+  /// The number that it has under that name; nothing where it does not know the name.
+  [[nodiscard]] std::optional<double> configured(std::string_view name);
+  void read_firmware();
+  void read_position_filter(unsigned version);
   void tell_damper();
 
   int id_;

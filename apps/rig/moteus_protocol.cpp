@@ -18,6 +18,7 @@ constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 constexpr unsigned mode_register = 0x00;
 constexpr unsigned position_register = 0x01;
 constexpr unsigned fault_register = 0x0f;
+constexpr unsigned version_register = 0x101;
 
 unsigned crc_of(std::string_view text) noexcept {
   unsigned crc = 0;
@@ -47,6 +48,16 @@ class Reader {
     return value;
   }
 
+  /// Seven bits a byte, the lowest first: the number of a register has one byte or two.
+  [[nodiscard]] std::optional<std::uint32_t> take_varuint() noexcept {
+    constexpr std::uint32_t more = 0x80;
+    const auto low = take(1);
+    if (!low || *low < more) return low;
+    const auto high = take(1);
+    if (!high || *high >= more) return std::nullopt;
+    return (*low & ~more) | *high << 7U;
+  }
+
  private:
   std::span<const unsigned char> rest_;
 };
@@ -73,10 +84,11 @@ double value_of(std::uint32_t bits, Type type) noexcept {
 }
 
 void keep(MoteusReply& reply, unsigned which, double value, Type type) noexcept {
-  constexpr double largest = 1e6;
+  constexpr double largest = 0xffffff;
   const auto whole = [&] { return value >= -largest && value <= largest ? static_cast<int>(value) : -1; };
   if (which == mode_register) reply.mode = whole();
   if (which == fault_register) reply.fault = whole();
+  if (which == version_register) reply.firmware = whole();
   if (which == position_register) {
     reply.position = type == Type::real ? value : value * turns_per_step.at(static_cast<std::size_t>(type));
   }
@@ -92,7 +104,7 @@ std::optional<MoteusReply> decoded(Reader bytes) noexcept {
     if ((kind & 0xf0U) != reply_kind) return std::nullopt;
     const auto type = static_cast<Type>((kind >> 2U) & 3U);
     auto count = (kind & 3U) != 0 ? std::optional<std::uint32_t>(kind & 3U) : bytes.take(1);
-    const auto first = bytes.take(1);  // both below 128: one byte
+    const auto first = bytes.take_varuint();
     if (!count || !first) return std::nullopt;
     for (std::uint32_t i = 0; i < *count; ++i) {
       const auto bits = bytes.take(sizes.at(static_cast<std::size_t>(type)));
@@ -176,6 +188,12 @@ SerialFrame moteus_question(int id) noexcept {
 SerialFrame moteus_mark(int id) noexcept {
   SerialFrame frame;
   frame.print("can send 80{:02x} 11{:02x}", id, fault_register);
+  return frame;
+}
+
+SerialFrame moteus_version_question(int id) noexcept {
+  SerialFrame frame;
+  frame.print("can send 80{:02x} 19{:02x}{:02x}", id, (version_register & 0x7fU) | 0x80U, version_register >> 7U);
   return frame;
 }
 

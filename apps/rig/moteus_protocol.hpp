@@ -10,9 +10,11 @@ namespace zwidth::rig {
 
 /// Registers that a reply of moteus held; the rest are skipped.
 struct MoteusReply {
-  std::optional<int> mode;         ///< 10: position, 11: its watchdog has let go, 1: fault
+  std::optional<int>
+      mode;  ///< 0: stopped, 1: fault, 10: position, 11: its watchdog has let go, 12: zero velocity, 15: brake
   std::optional<double> position;  ///< turns of the output
   std::optional<int> fault;
+  std::optional<int> firmware;  ///< version: major, minor and micro, a byte each
 };
 
 /// A line with its end; with a checksum " *XX", the CRC-8 (polynomial 0x97, start 0) of all that stands before the star.
@@ -24,6 +26,8 @@ struct MoteusReply {
 [[nodiscard]] SerialFrame moteus_question(int id) noexcept;
 /// The same of the fault alone, which no other question asks for.
 [[nodiscard]] SerialFrame moteus_mark(int id) noexcept;
+/// The same of the firmware's version, as int32.
+[[nodiscard]] SerialFrame moteus_version_question(int id) noexcept;
 /// The same of position mode without gains: the torque alone, N m at the output, for as long as the watchdog, s.
 [[nodiscard]] SerialFrame moteus_torque(int id, double torque, double watchdog) noexcept;
 /// The same beside the drive's own damper: at no position and velocity 0, both gains whole, of which that of position is 0;

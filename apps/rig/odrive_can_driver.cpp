@@ -23,6 +23,8 @@ constexpr std::int64_t arming_patience = 3'000'000'000;
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 2;
 
+constexpr double default_bandwidth = 1000.0;  // rad/s, encoder.config.bandwidth, which CANSimple does not tell
+
 constexpr unsigned idle = 1;
 constexpr unsigned closed_loop = 8;
 constexpr std::uint32_t watchdog_of_5 = 1U << 11;
@@ -33,7 +35,9 @@ CanBitRates rates_of(const SerialLink& link) { return can_rates(link, can_bitrat
 DriverFacts facts_of(const SerialLink& link) {
   const int node = link.drive.id.value_or(0);
   if (node > largest_node) {
-    throw DriverFailed(fmt::format("driver.id is {}; 0 to {}, the axis's node id", node, largest_node));
+    throw DriverFailed(DriveProblemCode::id_out_of_range,
+                       {{"id", static_cast<double>(node)}, {"least", 0.0}, {"most", static_cast<double>(largest_node)}},
+                       {{"drive", "odrive-can"}});
   }
   const CanCycle cycle{{odrive_question(node, OdriveMessage::encoder_estimates).shape(), {8}},
                        {odrive_input_torque(node, 0.0).shape()},
@@ -47,23 +51,15 @@ OdriveCanDriver::OdriveCanDriver(const SerialLink& link)
     : SerialDriver(facts_of(link), link, [&] { return std::make_unique<CanLinePort>(bus_of(link, rates_of(link))); }),
       node_(link.drive.id.value_or(0)) {
   const auto first = listen(heartbeat_patience, false).heartbeat;
-  if (!first) {
-    throw DriverFailed(
-        fmt::format("no heartbeat of node {} is heard; check adapter, power, wiring and termination, that driver.id is "
-                    "the axis's node id, "
-                    "that driver.baud is the bus's bit rate (can.config.baud_rate), and that heartbeat_rate_ms (0.6: "
-                    "heartbeat_msg_rate_ms) is 100 or less",
-                    node_));
-  }
-  if (listen(unasked_patience, true).has_unasked) {
-    throw DriverFailed(
-        "the drive sends its position or supply voltage unasked, which would pass for answers; set "
-        "axis0.config.can.encoder_rate_ms and bus_vi_rate_ms (0.6: encoder_msg_rate_ms, bus_voltage_msg_rate_ms) to 0");
-  }
+  if (!first) throw DriverFailed(DriveProblemCode::no_heartbeat, {{"node", static_cast<double>(node_)}});
+  if (listen(unasked_patience, true).has_unasked) throw DriverFailed(DriveProblemCode::sends_unasked);
   is_6_ = is_version_6();
   if ((first->error & ~(is_6_ ? watchdog_of_6 : watchdog_of_5)) != 0) {
-    throw DriverFailed(trouble_text(Trouble::fault, static_cast<long>(first->error)));
+    throw DriverFailed(problem_of(Trouble::fault, static_cast<long>(first->error)));
   }
+  settings().firmware = is_6_ ? "0.6" : "0.5";
+  settings().tracking_bandwidth = default_bandwidth;
+  settings().is_filter_assumed = true;
   (void)ask_until_answered(question().view(), [&](std::string_view frame) -> std::optional<std::string> {
     return hear(frame).meaning == Meaning::position ? std::optional<std::string>("") : std::nullopt;
   });
@@ -120,9 +116,8 @@ void OdriveCanDriver::arm() {
   while (!last || last->state != closed_loop || last->error != 0) {
     if (clock_now() > until) {
       throw DriverFailed(
-          fmt::format("node {} does not go into closed-loop control, error {:#x}; calibrate motor and encoder first "
-                      "(odrivetool, dump_errors)",
-                      node_, last ? last->error : 0));
+          DriveProblemCode::odrive_not_closed_loop,
+          {{"node", static_cast<double>(node_)}, {"error", last ? static_cast<double>(last->error) : 0.0}});
     }
     if (last && (last->error & watchdog) != 0) request_closed_loop();  // it bit while an answer was under way
     tell(torque_frame(0.0).view());
@@ -175,11 +170,15 @@ SerialDriver::Heard OdriveCanDriver::hear(std::string_view line) noexcept {
   return {Meaning::position, odrive_position(*frame)};
 }
 
-std::string OdriveCanDriver::trouble_text(Trouble trouble, long code) const {
-  if (trouble != Trouble::fault) return fmt::format("node {} has let go: it is in state {}", node_, code);
+DriveProblem OdriveCanDriver::problem_of(Trouble trouble, long code) const {
+  const Evidence node{"node", static_cast<double>(node_)};
+  if (trouble != Trouble::fault) {
+    return {DriveProblemCode::odrive_let_go, {node, {"state", static_cast<double>(code)}}};
+  }
+  DriveProblem problem{DriveProblemCode::odrive_fault, {node, {"error", static_cast<double>(code)}}};
   const auto watchdog = static_cast<long>(is_6_ ? watchdog_of_6 : watchdog_of_5);
-  return fmt::format("node {} stands on error {:#x}{}; find its cause with odrivetool (dump_errors), then clear it",
-                     node_, code, (code & watchdog) != 0 ? ", its watchdog's among them" : "");
+  if ((code & watchdog) != 0) problem.evidence.push_back({"watchdog", 1.0});
+  return problem;
 }
 
 SerialFrame OdriveCanDriver::question() noexcept {

@@ -44,7 +44,10 @@ double watchdog_of(const SerialLink& link) {
 /// What the port alone would not tell, before it is opened.
 const std::string& checked_port(const SerialLink& link) {
   const int axis = link.drive.id.value_or(0);
-  if (axis > 1) throw DriverFailed(fmt::format("driver.id is {}; an ODrive has the axes 0 and 1", axis));
+  if (axis > 1) {
+    throw DriverFailed(DriveProblemCode::id_out_of_range,
+                       {{"id", static_cast<double>(axis)}, {"least", 0.0}, {"most", 1.0}}, {{"drive", "odrive"}});
+  }
   return link.port;
 }
 
@@ -61,9 +64,10 @@ OdriveDriver::OdriveDriver(const SerialLink& link)
       watchdog_(watchdog_of(link)) {
   read_firmware();
   if (const long found = error(); (found & ~watchdog_expired_) != 0) {
-    throw DriverFailed(trouble_text(Trouble::fault, found));
+    throw DriverFailed(problem_of(Trouble::fault, found));
   }
   read_limits();
+  settings().tracking_bandwidth = first_number_of({"encoder.config.bandwidth", "config.encoder_bandwidth"});
 }
 
 OdriveDriver::~OdriveDriver() {
@@ -141,8 +145,8 @@ void OdriveDriver::read_limits() {
 std::string OdriveDriver::property(std::string_view name) {
   const std::string text = said_of(name);
   if (!as_number(text)) {
-    throw DriverFailed(
-        fmt::format("the drive answers \"{}\" to axis{}.{}; is its firmware 0.5 or 0.6?", text, axis_, name));
+    throw DriverFailed(DriveProblemCode::odrive_property, {{"axis", static_cast<double>(axis_)}},
+                       {{"said", text}, {"name", std::string(name)}});
   }
   return text;
 }
@@ -189,10 +193,8 @@ void OdriveDriver::arm() {
   while (property("current_state") != closed_loop) {
     const long found = error();
     if (clock_now() > until) {
-      throw DriverFailed(
-          fmt::format("axis {} does not go into closed-loop control, error {:#x}; calibrate motor and "
-                      "encoder first (odrivetool, dump_errors)",
-                      axis_, found));
+      throw DriverFailed(DriveProblemCode::odrive_not_closed_loop,
+                         {{"axis", static_cast<double>(axis_)}, {"error", static_cast<double>(found)}});
     }
     if ((found & watchdog_expired_) != 0) request_closed_loop();  // it bit while an answer was under way
     tell(torque_frame(0.0).view());
@@ -229,9 +231,11 @@ SerialDriver::Heard OdriveDriver::hear(std::string_view frame) noexcept {
   return {Meaning::other};
 }
 
-std::string OdriveDriver::trouble_text(Trouble /*trouble*/, long code) const {
-  return fmt::format("axis {} stands on error {:#x}{}; find its cause with odrivetool (dump_errors), then clear it",
-                     axis_, code, (code & watchdog_expired_) != 0 ? ", its watchdog's among them" : "");
+DriveProblem OdriveDriver::problem_of(Trouble /*trouble*/, long code) const {
+  DriveProblem problem{DriveProblemCode::odrive_fault,
+                       {{"axis", static_cast<double>(axis_)}, {"error", static_cast<double>(code)}}};
+  if ((code & watchdog_expired_) != 0) problem.evidence.push_back({"watchdog", 1.0});
+  return problem;
 }
 
 SerialFrame OdriveDriver::question() noexcept {

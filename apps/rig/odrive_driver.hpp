@@ -34,7 +34,7 @@ class OdriveDriver : public SerialDriver {
   [[nodiscard]] SerialFrame question() noexcept override;
   [[nodiscard]] SerialFrame mark() const noexcept override;
   [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
-  [[nodiscard]] std::string trouble_text(Trouble trouble, long code) const override;
+  [[nodiscard]] DriveProblem problem_of(Trouble trouble, long code) const override;
   void send_idle() noexcept override;
 
  private:

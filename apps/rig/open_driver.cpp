@@ -1,7 +1,5 @@
 #include "rig/open_driver.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -46,24 +44,24 @@ std::unique_ptr<Driver> open_udp(const std::string& address, const Device& devic
   return std::make_unique<UdpDriver>(address, device.loop().sampling_period);
 }
 
-std::optional<std::string> find_port_problem(std::string_view port) {
+std::optional<DriveProblem> find_port_problem(std::string_view port) {
   if (!port.empty()) return std::nullopt;
-  return "names no port; a serial port, such as /dev/ttyUSB0";
+  return DriveProblem{DriveProblemCode::no_port_named};
 }
 
-std::optional<std::string> find_adapter_problem(std::string_view name) {
+std::optional<DriveProblem> find_adapter_problem(std::string_view name) {
   if (can_adapter(name)) return std::nullopt;
-  return fmt::format("names no port or interface; {}", can_adapter_names);
+  return DriveProblem{DriveProblemCode::no_adapter_named};
 }
 
-std::optional<std::string> find_udp_problem(std::string_view address) {
+std::optional<DriveProblem> find_udp_problem(std::string_view address) {
   const auto found = udp_address(address);
   return found ? std::nullopt : std::optional(found.error());
 }
 
 struct Kind {
   std::string_view prefix;
-  std::optional<std::string> (*find_problem)(std::string_view where);
+  std::optional<DriveProblem> (*find_problem)(std::string_view where);
   std::unique_ptr<Driver> (*open)(const std::string& where, const Device& device);
   bool closes_damper = false;
 };
@@ -84,12 +82,16 @@ const Kind* kind_of(std::string_view name) {
   return found == kinds.end() ? nullptr : found;
 }
 
+DriveProblem unknown_driver() {
+  return {DriveProblemCode::unknown_driver, {}, {{"drivers", std::string(driver_names)}}};
+}
+
 }  // namespace
 
-std::optional<std::string> find_driver_name_problem(std::string_view name) {
+std::optional<DriveProblem> find_driver_name_problem(std::string_view name) {
   if (name == "simulated") return std::nullopt;
   const Kind* kind = kind_of(name);
-  if (kind == nullptr) return fmt::format("is none; {}", driver_names);
+  if (kind == nullptr) return unknown_driver();
   return kind->find_problem(name.substr(kind->prefix.size()));
 }
 
@@ -103,7 +105,7 @@ std::unique_ptr<Driver> open_driver(const std::string& name, const Device& devic
                                     const SimulatedDriverOptions& simulated) {
   if (name == "simulated") return std::make_unique<SimulatedDriver>(device, simulated.start, simulated.real_time);
   if (const Kind* kind = kind_of(name)) return kind->open(name.substr(kind->prefix.size()), device);
-  throw DriverFailed(fmt::format("is none; {}", driver_names));
+  throw DriverFailed(unknown_driver());
 }
 
 }  // namespace zwidth::rig

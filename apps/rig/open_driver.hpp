@@ -22,8 +22,8 @@ inline constexpr std::string_view driver_names =
     "simulated, odrive:PORT, simplefoc:PORT, moteus:PORT, vesc:PORT, serial:PORT, udp:HOST:PORT, odrive-can:ADAPTER, "
     "moteus-can:ADAPTER, vesc-can:ADAPTER";
 
-/// What is wrong with a name for a driver, and what is allowed, as far as the name alone tells.
-[[nodiscard]] std::optional<std::string> find_driver_name_problem(std::string_view name);
+/// What is wrong with a name for a driver, as far as the name alone tells.
+[[nodiscard]] std::optional<DriveProblem> find_driver_name_problem(std::string_view name);
 
 /// Why no damper can run on the drive of that driver, as far as the name tells.
 [[nodiscard]] std::optional<OptionProblem> find_damper_problem(std::string_view name);

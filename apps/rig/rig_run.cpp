@@ -160,6 +160,7 @@ RigSession RigRun::end() {
   halt();
   RigSession session;
   session.driver = driver_.facts().name;
+  session.began = std::chrono::duration<double>(began_.time_since_epoch()).count();
   session.lock_step = driver_.facts().lock_step;
   session.sampling_period = period_;
   session.limits = limits_;
@@ -167,7 +168,7 @@ RigSession RigRun::end() {
   session.stop = loop_.stopped();
   session.stopped_at = loop_.stopped_at();
   session.timing = loop_.timing();
-  session.drive_force_limit = driver_.facts().force_limit;
+  session.drive = driver_.facts().settings;
   session.remarks = remarks_;
   std::ranges::move(thread_remarks_, std::back_inserter(session.remarks));
   if (session.stop == StopReason::lost_link) session.trouble = driver_.trouble();

@@ -57,6 +57,7 @@ class RigRun {
   Driver& driver_;
   SafetyLimits limits_;
   double period_;
+  std::chrono::system_clock::time_point began_ = std::chrono::system_clock::now();
   RigLoop loop_;
   Watcher watcher_;
   std::chrono::steady_clock::time_point told_;

@@ -25,10 +25,9 @@ int baud_of(const SerialLink& link, int otherwise) { return link.drive.baud.valu
 DriverFacts checked(DriverFacts facts, const SerialLink& link) {
   facts.lock_step = link.lock_step;
   if (!link.lock_step && facts.watchdog && *facts.watchdog < cycles_within_watchdog * link.sampling_period) {
-    throw DriverFailed(
-        fmt::format("the firmware lets go after {} s without a force, the loop sends one every {} s; "
-                    "set loop.sampling_period to {} s or less",
-                    *facts.watchdog, link.sampling_period, *facts.watchdog / cycles_within_watchdog));
+    throw DriverFailed(DriveProblemCode::watchdog_below_cycle, {{"watchdog", *facts.watchdog},
+                                                                {"period", link.sampling_period},
+                                                                {"most", *facts.watchdog / cycles_within_watchdog}});
   }
   return facts;
 }
@@ -37,7 +36,7 @@ DriverFacts checked(DriverFacts facts, const SerialLink& link) {
 
 void require_fast_line(double bytes_per_cycle, double baud, double sampling_period) {
   if (const auto problem = find_problem(SerialLoad{bytes_per_cycle, baud, sampling_period})) {
-    throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
+    throw DriverFailed(DriveProblemCode::line_too_slow, problem->problem.value_or(Problem{}).evidence);
   }
 }
 
@@ -115,22 +114,9 @@ std::optional<double> SerialDriver::measure() noexcept {
   return heard->turns * drive_.position_per_turn();
 }
 
-std::string SerialDriver::trouble() const {
-  return last_.trouble == Trouble::none ? std::string() : trouble_text(last_.trouble, last_.code);
-}
-
-std::string SerialDriver::trouble_text(Trouble trouble, long code) const {
-  switch (trouble) {
-    case Trouble::none:
-      return {};
-    case Trouble::fault:
-      return fmt::format("the drive stands on fault {}", code);
-    case Trouble::let_go:
-      return "the drive has let go";
-    case Trouble::lost_count:
-      return "the motor turned too far from one cycle to the next for its turns to be counted";
-  }
-  return {};
+std::optional<DriveProblem> SerialDriver::trouble() const {
+  if (last_.trouble == Trouble::none) return std::nullopt;
+  return problem_of(last_.trouble, last_.code);
 }
 
 std::optional<std::string> SerialDriver::ask(std::string_view frame, const Understood& understood,
@@ -157,11 +143,11 @@ std::string SerialDriver::ask_until_answered(std::string_view frame, const Under
     }
     sleep_until(begin + setup_patience);  // a port that is gone answers at once
   }
-  throw DriverFailed(
-      is_can_
-          ? "the drive does not answer; check adapter, power, wiring and termination, that driver.id is the drive's on "
-            "the bus, and that driver.baud is the bus's bit rate"
-          : "the drive does not answer; check port, power, wiring, and that driver.baud is the drive's");
+  throw DriverFailed(unanswered());
+}
+
+DriveProblem SerialDriver::unanswered() const {
+  return {is_can_ ? DriveProblemCode::silent_on_bus : DriveProblemCode::silent};
 }
 
 void SerialDriver::set_damper(const Device& device, DriveFirmware firmware, std::optional<double> force_limit) {
@@ -175,8 +161,8 @@ void SerialDriver::set_damper(const Device& device, DriveFirmware firmware, std:
 void SerialDriver::require_taken(std::string_view name, double told, std::string_view said) {
   const auto number = as_number(said);
   if (number && std::abs(*number - told) <= printed_step + printed_share * std::abs(told)) return;
-  throw DriverFailed(
-      fmt::format("the drive has {} at {} instead of {:.6g}: it closes another damper", name, said, told));
+  throw DriverFailed(DriveProblemCode::damper_number_not_taken, {{"told", told}},
+                     {{"name", std::string(name)}, {"said", std::string(said)}});
 }
 
 void SerialDriver::add_force_bytes(double bytes, double bus_time) {
@@ -191,17 +177,15 @@ void SerialDriver::add_force_bytes(double bytes, double bus_time) {
   const double line = facts_.byte_rate ? facts_.bytes_per_cycle / *facts_.byte_rate : 0.0;
   const double needed = (line + facts_.bus_time_per_cycle) / serial_share_of_cycle;
   if (needed <= sampling_period_) return;
-  throw DriverFailed(fmt::format("the line is too slow for the damper's frames; loop.sampling_period to {:g} s or more",
-                                 std::ceil(1e4 * needed) * 1e-4));
+  throw DriverFailed(DriveProblemCode::too_slow_for_damper, {{"period", std::ceil(1e4 * needed) * 1e-4}});
 }
 
 void SerialDriver::set_torque_limit(double torque) noexcept {
-  facts_.force_limit = torque / std::abs(drive_.torque_per_force());
+  facts_.settings.force_limit = torque / std::abs(drive_.torque_per_force());
 }
 
 void SerialDriver::tell(std::string_view frame) {
-  if (!port_->write(frame))
-    throw DriverFailed("the port takes no more bytes: the drive does not read, or is unplugged");
+  if (!port_->write(frame)) throw DriverFailed(DriveProblemCode::port_full);
 }
 
 }  // namespace zwidth::rig

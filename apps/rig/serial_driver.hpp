@@ -53,7 +53,7 @@ class SerialDriver : public Driver {
   [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
   void allow_missed(unsigned cycles) noexcept override;
   [[nodiscard]] std::optional<double> measure() noexcept override;
-  [[nodiscard]] std::string trouble() const override;
+  [[nodiscard]] std::optional<DriveProblem> trouble() const override;
 
  protected:
   /// What a frame from the drive says.
@@ -80,8 +80,10 @@ class SerialDriver : public Driver {
   /// Asks for something else than any question, so that its answer (Meaning::mark) is known among theirs.
   [[nodiscard]] virtual SerialFrame mark() const noexcept = 0;
   [[nodiscard]] virtual SerialFrame torque_frame(double torque) const noexcept = 0;
-  /// What the drive's users know it by, and where its cause is found.
-  [[nodiscard]] virtual std::string trouble_text(Trouble trouble, long code) const;
+  /// The trouble by the drive's own numbers. Never asked for none, or for what hear() does not tell.
+  [[nodiscard]] virtual DriveProblem problem_of(Trouble trouble, long code) const = 0;
+  /// That it never answers.
+  [[nodiscard]] virtual DriveProblem unanswered() const;
 
   void send(double force) noexcept override { port_->write(torque_frame(force * drive_.torque_per_force()).view()); }
 
@@ -117,6 +119,7 @@ class SerialDriver : public Driver {
   [[nodiscard]] const MotorDrive& drive() const noexcept { return drive_; }
   /// Of the motor, N m: what the drive's own limits leave.
   void set_torque_limit(double torque) noexcept;
+  [[nodiscard]] DriveSettings& settings() noexcept { return facts_.settings; }
   void set_watchdog(std::optional<double> watchdog) noexcept { facts_.watchdog = watchdog; }
 
  private:

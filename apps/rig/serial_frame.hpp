@@ -33,7 +33,7 @@ class SerialFrame {
   [[nodiscard]] std::string_view view() const noexcept { return {bytes_.data(), size_}; }
 
  private:
-  std::array<char, 160> bytes_{};
+  std::array<char, 520> bytes_{};  // the settings of a VESC
   std::size_t size_ = 0;
 };
 

@@ -39,12 +39,13 @@ speed_t speed_of(int baud) {
   if (found != speeds.end()) return found->code;
   std::vector<int> all;
   for (const Speed& each : speeds) all.push_back(each.baud);
-  throw DriverFailed(fmt::format("driver.baud is {}; one of {}", baud, fmt::join(all, ", ")));
+  throw DriverFailed(DriveProblemCode::speed_unknown, {{"baud", static_cast<double>(baud)}},
+                     {{"known", fmt::format("{}", fmt::join(all, ", "))}});
 }
 
 void configure(int file, speed_t speed) {
   termios settings{};
-  if (tcgetattr(file, &settings) != 0) throw DriverFailed("is no serial port");
+  if (tcgetattr(file, &settings) != 0) throw DriverFailed(DriveProblemCode::not_a_serial_port);
   cfmakeraw(&settings);
   settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB | HUPCL);
   settings.c_cflag |= CLOCAL | CREAD;
@@ -53,8 +54,7 @@ void configure(int file, speed_t speed) {
   termios got{};
   if (cfsetspeed(&settings, speed) != 0 || tcsetattr(file, TCSANOW, &settings) != 0 || tcgetattr(file, &got) != 0 ||
       cfgetospeed(&got) != speed) {
-    throw DriverFailed(
-        fmt::format("does not take its speed: {}; set driver.baud to one that the port has", std::strerror(errno)));
+    throw DriverFailed(DriveProblemCode::speed_refused, {}, {{"reason", std::strerror(errno)}});
   }
   tcflush(file, TCIOFLUSH);
   serial_struct line{};  // an adapter that gathers bytes for 16 ms is asked not to, where its driver can be
@@ -68,20 +68,20 @@ void configure(int file, speed_t speed) {
 
 SerialPort::SerialPort(const std::string& path, int baud, char line_end) : line_end_(line_end) {
   const speed_t speed = speed_of(baud);
-  if (path.empty()) throw DriverFailed("names no port, such as /dev/ttyUSB0");
+  if (path.empty()) throw DriverFailed(DriveProblemCode::no_port_named);
   file_ = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file_ < 0) {
     const int error = errno;
-    const char* remedy = error == EACCES  ? "; add yourself to the port's group (dialout) and log in again"
-                         : error == EBUSY ? "; another program has it: close that, or the other rig"
-                                          : "";
-    throw DriverFailed(fmt::format("cannot be opened: {}{}", std::strerror(error), remedy));
+    throw DriverFailed(error == EACCES  ? DriveProblemCode::port_not_permitted
+                       : error == EBUSY ? DriveProblemCode::port_busy
+                                        : DriveProblemCode::port_not_opened,
+                       {}, {{"reason", std::strerror(error)}});
   }
   try {
-    if (isatty(file_) == 0) throw DriverFailed("is no serial port");
+    if (isatty(file_) == 0) throw DriverFailed(DriveProblemCode::not_a_serial_port);
     // Two ways: programs that know nothing of locks are kept off by the second, the superuser's by the first alone.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
-      throw DriverFailed("is held by another program, perhaps another rig; one at a time may drive a motor");
+      throw DriverFailed(DriveProblemCode::port_held);
     }
     (void)ioctl(file_, TIOCEXCL);
     configure(file_, speed);

@@ -48,6 +48,7 @@ SimplefocDriver::SimplefocDriver(const SerialLink& link)
   if (const auto most = as_number(setting(limit, limit)); most && *most > 0.0) {
     set_torque_limit(*most * torque_per_target_);
   }
+  settings().position_lag = as_number(setting("AF", "AF"));  // LPF_angle.Tf
 }
 
 std::string SimplefocDriver::setting(std::string_view command, std::string_view echo) {
@@ -64,16 +65,18 @@ std::string SimplefocDriver::setting(std::string_view command, std::string_view 
       tries_while_booting);
 }
 
+Subject SimplefocDriver::motor_name() const { return {"motor", motor_}; }
+
+DriveProblem SimplefocDriver::problem_of(Trouble /*trouble*/, long /*code*/) const {
+  return {DriveProblemCode::simplefoc_not_enabled, {}, {motor_name()}};  // a motor never says so
+}
+
 double SimplefocDriver::torque_per_target() {
   const std::string kind = setting("T", "T");
   if (kind == "volt") {
     const auto resistance = as_number(setting("R", "R"));
     if (!resistance || *resistance > 0.0) {
-      throw DriverFailed(
-          fmt::format("motor {} controls torque by volts and has a phase resistance: SimpleFOC 2.3 then "
-                      "takes amperes for a target, 2.4 volts; make the motor without a resistance, or "
-                      "control a current (motor.torque_controller)",
-                      motor_));
+      throw DriverFailed(DriveProblemCode::simplefoc_resistance, {}, {motor_name()});
     }
     is_by_volts_ = true;
     return constant(drive().torque_per_volt, "torque_per_volt", "volts");
@@ -81,10 +84,7 @@ double SimplefocDriver::torque_per_target() {
   if (kind == "dc curr" || kind == "foc curr" || kind == "est. curr") {
     return constant(drive().torque_constant, "torque_constant", "amperes");
   }
-  throw DriverFailed(
-      fmt::format("motor {} controls torque by \"{}\", which is not known; volt, dc curr or foc curr "
-                  "(motor.torque_controller)",
-                  motor_, kind));
+  throw DriverFailed(DriveProblemCode::simplefoc_torque, {}, {motor_name(), {"said", kind}});
 }
 
 void SimplefocDriver::close_damper(const Device& device, std::optional<double> force_limit) {
@@ -111,11 +111,12 @@ void SimplefocDriver::arm() {
   const std::string_view wanted = damper() ? "vel" : "torque";
   if (damper()) tell_damper();
   if (const std::string kind = setting(damper() ? "C1" : "C0", "C"); kind != wanted) {
-    throw DriverFailed(fmt::format("motor {} stays in motion control \"{}\" instead of {}", motor_, kind, wanted));
+    throw DriverFailed(DriveProblemCode::simplefoc_motion, {},
+                       {motor_name(), {"said", kind}, {"wanted", std::string(wanted)}});
   }
   tell(torque_frame(0.0).view());
   if (const std::string is_enabled = setting("E1", "E"); is_enabled != "1") {
-    throw DriverFailed(fmt::format("motor {} does not enable; does initFOC() of the sketch succeed?", motor_));
+    throw DriverFailed(DriveProblemCode::simplefoc_not_enabled, {}, {motor_name()});
   }
   forget_input();
 }

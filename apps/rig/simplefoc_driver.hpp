@@ -28,9 +28,11 @@ class SimplefocDriver : public SerialDriver {
   [[nodiscard]] SerialFrame question() noexcept override;
   [[nodiscard]] SerialFrame mark() const noexcept override;
   [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
+  [[nodiscard]] DriveProblem problem_of(Trouble trouble, long code) const override;
   void send_idle() noexcept override;
 
  private:
+  [[nodiscard]] Subject motor_name() const;
   /// What the motor answers to that command: "volt" to "T".
   [[nodiscard]] std::string setting(std::string_view command, std::string_view echo);
   [[nodiscard]] double torque_per_target();

@@ -41,8 +41,8 @@ char code_of(double rate, const std::array<std::pair<int, char>, size>& codes) {
   }
   std::vector<int> all;
   for (const auto& [each, code] : codes) all.push_back(each);
-  throw DriverFailed(fmt::format("driver.baud is {:.0f} bit/s, which SLCAN adapters do not have; one of {}", rate,
-                                 fmt::join(all, ", ")));
+  throw DriverFailed(DriveProblemCode::bit_rate_unknown, {{"rate", rate}},
+                     {{"known", fmt::format("{}", fmt::join(all, ", "))}});
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ bool SlcanBus::is_fdcanusb() {
 
 SlcanBus::Answer SlcanBus::told(std::string_view command) {
   input_.forget();
-  if (!port_.write(command)) throw DriverFailed("the adapter takes no bytes: it does not read, or is unplugged");
+  if (!port_.write(command)) throw DriverFailed(DriveProblemCode::adapter_full);
   const std::int64_t until = clock_now() + answer_patience;
   std::string said;
   while (input_.fill(port_, until)) {
@@ -98,7 +98,7 @@ void SlcanBus::open_fdcanusb(const CanBitRates& rates) {
   if (rates.nominal != fdcanusb_rate) {
     (void)told("can off\n");
     if (told(fmt::format("conf set can.bitrate {:.0f}\n", rates.nominal)) != Answer::taken) {
-      throw DriverFailed(fmt::format("the fdcanusb does not take {:.0f} bit/s", rates.nominal));
+      throw DriverFailed(DriveProblemCode::bit_rate_refused_fdcanusb, {{"rate", rates.nominal}});
     }
     has_changed_rate_ = true;
   }
@@ -106,17 +106,15 @@ void SlcanBus::open_fdcanusb(const CanBitRates& rates) {
 }
 
 void SlcanBus::open_slcan(const CanBitRates& rates) {
-  const auto require = [&](const std::string& command, std::string_view what) {
-    if (told(command) == Answer::refused) {
-      throw DriverFailed(fmt::format("the adapter refuses {}: {}", command.substr(0, command.size() - 1), what));
-    }
+  const auto require = [&](const std::string& command, DriveProblemCode otherwise) {
+    if (told(command) != Answer::refused) return;
+    throw DriverFailed(otherwise, {}, {{"command", command.substr(0, command.size() - 1)}});
   };
   const char nominal = code_of(rates.nominal, rates_of_slcan);
   const char data = rates.data > 0.0 ? code_of(rates.data, data_rates_of_slcan) : '\0';
-  require(fmt::format("S{}\r", nominal), "it does not have that bit rate");
-  if (data != '\0')
-    require(fmt::format("Y{}\r", data), "it has no CAN FD; take an fdcanusb, or an interface of SocketCAN");
-  require("O\r", "the channel does not open; unplug it and plug it in again");
+  require(fmt::format("S{}\r", nominal), DriveProblemCode::bit_rate_refused);
+  if (data != '\0') require(fmt::format("Y{}\r", data), DriveProblemCode::adapter_without_can_fd);
+  require("O\r", DriveProblemCode::channel_not_opened);
 }
 
 bool SlcanBus::send(const CanFrame& frame) noexcept {

@@ -20,9 +20,8 @@
 namespace zwidth::rig {
 namespace {
 
-DriverFailed failed(const std::string& interface, std::string_view remedy) {
-  return DriverFailed(
-      fmt::format("the CAN interface {} cannot be opened: {}{}", interface, std::strerror(errno), remedy));
+DriverFailed failed(DriveProblemCode code, const std::string& interface) {
+  return DriverFailed(code, {}, {{"interface", interface}, {"reason", std::strerror(errno)}});
 }
 
 /// Brings the socket to the interface, for frames of CAN FD too where `has_fd`.
@@ -34,32 +33,32 @@ void attach(int socket, const std::string& interface, bool has_fd) {
     std::copy(interface.begin(), interface.end(), request.ifr_name);
   }
   if (interface.size() >= sizeof(request.ifr_name) || ioctl(socket, SIOCGIFINDEX, &request) != 0) {
-    throw failed(interface, "; ip link shows those that there are. A serial port has a / in its name");
+    throw failed(DriveProblemCode::interface_unknown, interface);
   }
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = request.ifr_ifindex;
   if (ioctl(socket, SIOCGIFFLAGS, &request) != 0 || (request.ifr_flags & IFF_UP) == 0) {
     errno = ENETDOWN;
-    throw failed(interface, "; ip link set INTERFACE up type can bitrate RATE");
+    throw failed(DriveProblemCode::interface_down, interface);
   }
   const int on = 1;
   if (has_fd) {
     if (ioctl(socket, SIOCGIFMTU, &request) != 0 || request.ifr_mtu != CANFD_MTU ||
         setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on) != 0) {
       errno = EPROTONOSUPPORT;
-      throw failed(interface,
-                   "; it needs CAN FD: ip link set INTERFACE up type can bitrate 1000000 dbitrate 5000000 fd on");
+      throw failed(DriveProblemCode::interface_without_can_fd, interface);
     }
   }
-  if (bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) throw failed(interface, "");
+  if (bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+    throw failed(DriveProblemCode::interface_not_opened, interface);
 }
 
 }  // namespace
 
 SocketcanBus::SocketcanBus(const std::string& interface, bool has_fd)
     : socket_(socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)) {
-  if (socket_ < 0) throw failed(interface, "; this kernel has no SocketCAN (modprobe can_raw)");
+  if (socket_ < 0) throw failed(DriveProblemCode::no_socketcan, interface);
   try {
     attach(socket_, interface, has_fd);
   } catch (...) {

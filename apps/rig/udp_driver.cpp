@@ -38,7 +38,7 @@ int connected_socket(const std::string& text) {
   wanted.ai_flags = AI_NUMERICSERV;
   addrinfo* found = nullptr;
   if (const int failure = getaddrinfo(address->host.c_str(), address->port.c_str(), &wanted, &found); failure != 0) {
-    throw DriverFailed(fmt::format("no such address: {}", gai_strerror(failure)));
+    throw DriverFailed(DriveProblemCode::address_unknown, {}, {{"reason", gai_strerror(failure)}});
   }
   int connected = -1;
   for (const addrinfo* each = found; each != nullptr && connected < 0; each = each->ai_next) {
@@ -51,31 +51,30 @@ int connected_socket(const std::string& text) {
     }
   }
   freeaddrinfo(found);
-  if (connected < 0) throw DriverFailed(fmt::format("cannot be reached: {}", std::strerror(errno)));
+  if (connected < 0) throw DriverFailed(DriveProblemCode::address_not_reached, {}, {{"reason", std::strerror(errno)}});
   return connected;
 }
 
 }  // namespace
 
-tl::expected<UdpAddress, std::string> udp_address(std::string_view text) {
-  const auto wrong = [](std::string_view what) {
-    return tl::unexpected(fmt::format("{}; udp:HOST:PORT, of IPv6 udp:[HOST]:PORT", what));
-  };
+tl::expected<UdpAddress, DriveProblem> udp_address(std::string_view text) {
+  const auto wrong = [](DriveProblemCode code) { return tl::unexpected(DriveProblem{code}); };
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos || text.ends_with(']')) return wrong("has no port");
+  if (colon == std::string_view::npos || text.ends_with(']')) return wrong(DriveProblemCode::address_without_port);
   std::string_view host = text.substr(0, colon);
   const std::string_view port = text.substr(colon + 1);
   if (host.starts_with('[') && host.ends_with(']')) {
     host = host.substr(1, host.size() - 2);
   } else if (host.find_first_of(":[]") != std::string_view::npos) {
-    return wrong("an address of IPv6 stands in brackets");
+    return wrong(DriveProblemCode::address_without_brackets);
   }
-  if (host.empty()) return wrong("has no host");
-  if (port.empty()) return wrong("has no port");
+  if (host.empty()) return wrong(DriveProblemCode::address_without_host);
+  if (port.empty()) return wrong(DriveProblemCode::address_without_port);
   int number = 0;  // getaddrinfo() takes 99999 for 34463
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
   if (error != std::errc{} || end != port.data() + port.size() || number < 1 || number > most_port) {
-    return tl::unexpected(fmt::format("port {} is none; 1 to {}", port, most_port));
+    return tl::unexpected(DriveProblem{
+        DriveProblemCode::no_port_number, {{"most", static_cast<double>(most_port)}}, {{"port", std::string(port)}}});
   }
   return UdpAddress{std::string(host), std::string(port)};
 }
@@ -90,7 +89,7 @@ UdpDriver::UdpDriver(const std::string& address, double sampling_period, bool lo
     sleep_until(begin + first_patience / first_questions);  // a refused port answers at once
   }
   close(socket_);
-  throw DriverFailed("the drive does not answer; check address and port, and that no other rig holds it");
+  throw DriverFailed(DriveProblemCode::silent_udp);
 }
 
 UdpDriver::~UdpDriver() { close(socket_); }
@@ -134,7 +133,10 @@ std::optional<double> UdpDriver::measure() noexcept {
   return frame->position;
 }
 
-std::string UdpDriver::trouble() const { return has_let_go_ ? "the drive says that it has let go" : ""; }
+std::optional<DriveProblem> UdpDriver::trouble() const {
+  if (!has_let_go_) return std::nullopt;
+  return DriveProblem{DriveProblemCode::udp_let_go};
+}
 
 void UdpDriver::send(double force) noexcept {
   has_sent_ = true;
@@ -149,7 +151,7 @@ std::optional<bool> UdpDriver::proves_watchdog() {
   if (facts_.lock_step) return std::nullopt;
   const auto ask = [&](double force) {
     const auto frame = answer(force, first_patience);
-    if (!frame) throw DriverFailed("the drive does not answer any more");
+    if (!frame) throw DriverFailed(DriveProblemCode::silent_now);
     return *frame;
   };
   bool has_taken_hold = false;
@@ -160,7 +162,7 @@ std::optional<bool> UdpDriver::proves_watchdog() {
     sleep_until(clock_now() + silence);
     if (std::isnan(ask(question).force)) return true;
   }
-  if (!has_taken_hold) throw DriverFailed("the drive does not take a force: it says that it has let go");
+  if (!has_taken_hold) throw DriverFailed(DriveProblemCode::udp_takes_no_force);
   facts_.watchdog.reset();
   return false;
 }

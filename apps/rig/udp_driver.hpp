@@ -17,8 +17,8 @@ struct UdpAddress {
   std::string port;
 };
 
-/// "HOST:PORT", "[::1]:PORT" for an address of IPv6; or what is wrong with it, and what is allowed.
-[[nodiscard]] tl::expected<UdpAddress, std::string> udp_address(std::string_view text);
+/// "HOST:PORT", "[::1]:PORT" for an address of IPv6; or what is wrong with it.
+[[nodiscard]] tl::expected<UdpAddress, DriveProblem> udp_address(std::string_view text);
 
 /// A drive that speaks UdpFrame: one question and one force per cycle. Its watchdog lets go after 100 ms without a force.
 class UdpDriver : public Driver {
@@ -31,7 +31,7 @@ class UdpDriver : public Driver {
   [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
   void arm() override {}
   [[nodiscard]] std::optional<double> measure() noexcept override;
-  [[nodiscard]] std::string trouble() const override;
+  [[nodiscard]] std::optional<DriveProblem> trouble() const override;
   [[nodiscard]] std::optional<bool> proves_watchdog() override;
 
  protected:

@@ -11,6 +11,7 @@ namespace {
 constexpr unsigned char set_current_command = 6;
 constexpr unsigned set_current_frame = 1;
 constexpr unsigned fill_buffer = 5;
+constexpr unsigned fill_long_buffer = 6;
 constexpr unsigned process_buffer = 7;
 constexpr unsigned process_short_buffer = 8;
 constexpr unsigned char answer_me = 0;  // commands_send: to commands_process_packet(), whose answer comes back
@@ -55,14 +56,15 @@ SerialFrame VescCanPort::bytes_of(const CanFrame& frame) noexcept {
   if (command == process_short_buffer && data.size() > head && data[0] == id_) {
     return vesc_packet(text(data.subspan(head)).view());
   }
-  if (command == fill_buffer && data.size() > 1) {
-    const std::size_t offset = data[0];
+  const std::size_t before = command == fill_buffer ? 1 : 2;  // the offset
+  if ((command == fill_buffer || command == fill_long_buffer) && data.size() > before) {
+    const std::size_t offset = before == 1 ? data[0] : static_cast<std::size_t>(data[0]) << 8U | data[1];
     if (offset == 0) filled_ = 0;
-    if (offset != filled_ || offset + data.size() - 1 > payload_.size()) {
+    if (offset != filled_ || offset + data.size() - before > payload_.size()) {
       filled_ = 0;  // one was lost
       return {};
     }
-    for (const unsigned char each : data.subspan(1)) payload_.at(filled_++) = static_cast<char>(each);
+    for (const unsigned char each : data.subspan(before)) payload_.at(filled_++) = static_cast<char>(each);
   }
   if (command == process_buffer && data.size() == tail_bytes && data[0] == id_) {
     const std::size_t length = static_cast<std::size_t>(data[2]) << 8U | data[3];

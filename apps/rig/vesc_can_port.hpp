@@ -5,14 +5,15 @@
 #include <utility>
 
 #include "rig/can_port.hpp"
+#include "rig/vesc_protocol.hpp"
 
 namespace zwidth::rig {
 
 inline constexpr int vesc_can_host = 254;  ///< this program's id on the bus, to which a VESC answers
 
 /// A VESC's packets on a CAN bus, as VESCs hand them on to each other: a current as a command of its own, a payload of up to
-/// six bytes in one frame, a longer answer in frames of seven bytes and one with its length and CRC, which is checked where
-/// packets are.
+/// six bytes in one frame, a longer answer in frames of seven bytes (of six from the 256th on) and one with its length and
+/// CRC, which is checked where packets are.
 class VescCanPort : public CanPort {
  public:
   /// Of the VESC of that id.
@@ -26,7 +27,7 @@ class VescCanPort : public CanPort {
 
  private:
   unsigned id_;
-  std::array<char, 64> payload_{};
+  std::array<char, vesc_long_payload> payload_{};
   std::size_t filled_ = 0;  // of an answer that comes in several frames
 };
 

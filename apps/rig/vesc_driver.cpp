@@ -18,7 +18,9 @@ constexpr double silence = 1.2;                          // s, after which it mu
 constexpr std::int64_t arming_patience = 2'000'000'000;  // ns: a busy machine hands answers on late
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 3;
-constexpr double most_turns_per_cycle = 0.25;
+constexpr double most_share_per_cycle = 0.25;  // of the turns that its position is modulo
+constexpr int oldest_major = 6;                // whose answers tell whether it has let go
+constexpr int setup_tries = 2;                 // an answer may be lost
 
 // Question, answer, current.
 constexpr double bytes_per_cycle = 10 + 16 + 10;
@@ -38,7 +40,9 @@ int can_id_of(const SerialLink& link) {
   }
   if (*link.drive.id > largest_id) {
     throw DriverFailed(
-        fmt::format("driver.id is {}; 0 to {}, the next one is this program's", *link.drive.id, largest_id));
+        DriveProblemCode::id_out_of_range,
+        {{"id", static_cast<double>(*link.drive.id)}, {"least", 0.0}, {"most", static_cast<double>(largest_id)}},
+        {{"drive", "vesc-can"}});
   }
   return *link.drive.id;
 }
@@ -81,9 +85,43 @@ VescDriver::VescDriver(const SerialLink& link) : VescDriver(link, torque_constan
 
 VescDriver::VescDriver(const SerialLink& link, double torque_constant)
     : SerialDriver(facts_of(link), link, port_of(link)), torque_constant_(torque_constant) {
+  read_firmware();
   if (const int fault = values().fault; fault != 0) {
-    throw DriverFailed(trouble_text(Trouble::fault, fault));
+    throw DriverFailed(problem_of(Trouble::fault, fault));
   }
+}
+
+void VescDriver::read_firmware() {
+  const auto understood = [](std::string_view frame) -> std::optional<std::string> {
+    const auto payload = vesc_payload(frame);
+    return payload && vesc_version(*payload) ? std::optional<std::string>(*payload) : std::nullopt;
+  };
+  std::optional<std::string> payload;
+  for (int i = 0; i < setup_tries && !payload; ++i) payload = ask(vesc_version_question().view(), understood);
+  if (!payload) return;  // nor does it answer anything else, which values() says
+  const VescVersion version = vesc_version(*payload).value_or(VescVersion{});
+  settings().firmware = fmt::format("{}.{:02}", version.major, version.minor);
+  if (version.major < oldest_major) {
+    throw DriverFailed(DriveProblemCode::vesc_firmware, {}, {{"firmware", settings().firmware}});
+  }
+  read_settings();
+}
+
+void VescDriver::read_settings() {
+  const auto understood = [](std::string_view frame) -> std::optional<std::string> {
+    const auto payload = vesc_payload(frame);
+    return payload && has_vesc_settings(*payload) ? std::optional<std::string>(*payload) : std::nullopt;
+  };
+  std::optional<std::string> payload;
+  is_reading_settings_ = true;
+  for (int i = 0; i < setup_tries && !payload; ++i) payload = ask(vesc_settings_question().view(), understood);
+  is_reading_settings_ = false;
+  const auto found = payload ? vesc_settings(*payload) : std::nullopt;
+  settings().are_unknown = !found;
+  if (!found) return;
+  turns_modulo_ = found->angle_division;
+  settings().least_current = found->least_current;
+  settings().least_force = found->least_current * torque_constant_ / std::abs(drive().torque_per_force());
 }
 
 VescValues VescDriver::values() {
@@ -105,7 +143,7 @@ void VescDriver::arm() {
       return forget_input();
     }
   } while (clock_now() < until);
-  throw DriverFailed("the drive does not take a current: a fault, its kill switch, or another app holds the motor");
+  throw DriverFailed(DriveProblemCode::vesc_takes_no_current);
 }
 
 std::optional<bool> VescDriver::proves_watchdog() {
@@ -130,29 +168,20 @@ SerialDriver::Heard VescDriver::hear(std::string_view frame) noexcept {
   if (!found) return {Meaning::other};
   if (found->fault != 0) return {Meaning::broken, 0.0, Trouble::fault, found->fault};
   if (found->has_let_go) return {Meaning::broken, 0.0, Trouble::let_go};
-  const double turns = last_turns_ ? found->position + std::round(*last_turns_ - found->position) : found->position;
-  // Half a turn forwards looks like half a turn backwards: it stops well before, and for good.
-  if (last_turns_ && std::abs(turns - *last_turns_) > most_turns_per_cycle) has_lost_count_ = true;
+  double turns = turns_modulo_ * found->position;
+  if (last_turns_) turns += turns_modulo_ * std::round((*last_turns_ - turns) / turns_modulo_);
+  // Half of them forwards look like half of them backwards: it stops well before, and for good.
+  if (last_turns_ && std::abs(turns - *last_turns_) > most_share_per_cycle * turns_modulo_) has_lost_count_ = true;
   if (has_lost_count_) return {Meaning::broken, 0.0, Trouble::lost_count};
   last_turns_ = turns;
   return {Meaning::position, turns};
 }
 
-std::string VescDriver::trouble_text(Trouble trouble, long code) const {
-  switch (trouble) {
-    case Trouble::none:
-      return {};
-    case Trouble::fault:
-      return fmt::format("the drive stands on fault {}; VESC Tool tells its cause", code);
-    case Trouble::let_go:
-      return "the drive has let go: its timeout (App Settings) is too short for the loop, or its kill switch is on";
-    case Trouble::lost_count:
-      return fmt::format(
-          "the motor turned by more than {} of a turn from one cycle to the next, and a VESC tells its position modulo "
-          "a turn; move more slowly (--velocity-limit), or make loop.sampling_period shorter",
-          most_turns_per_cycle);
-  }
-  return {};
+DriveProblem VescDriver::problem_of(Trouble trouble, long code) const {
+  if (trouble == Trouble::fault) return {DriveProblemCode::vesc_fault, {{"fault", static_cast<double>(code)}}};
+  if (trouble == Trouble::let_go) return {DriveProblemCode::vesc_let_go};
+  return {DriveProblemCode::turns_not_counted,
+          {{"most", most_share_per_cycle * turns_modulo_}, {"modulo", turns_modulo_}}};
 }
 
 SerialFrame VescDriver::torque_frame(double torque) const noexcept { return vesc_current(torque / torque_constant_); }

@@ -258,6 +258,10 @@ enum class FindingCode : std::uint16_t {
   moves_under_no_force,         ///< under a force the position did not move so that its sign is known
   cycles_unanswered,            ///< cycles brought no position, and repeated the last force
   drive_limits_force,           ///< the drive limits the force below the rig's force limit
+  drive_drops_small_forces,     ///< the drive makes no current of a small force
+  drive_filters_position,       ///< the drive filters the position that it tells otherwise than the file says
+  drive_settings_unknown,       ///< of a firmware whose settings are not known
+  drive_after_watchdog,         ///< what the motor does once the drive's watchdog has let go
   memory_not_locked,            ///< the system refuses to lock memory
   no_real_time_priority,        ///< the system refuses real-time priority
   no_processor_of_its_own,      ///< the system refuses to bind the loop to a processor

@@ -1,6 +1,7 @@
 #include "zwidth/rig/session.hpp"
 
 #include "zwidth/quantity.hpp"
+#include "zwidth/words/drive_problem_text.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth {
@@ -33,8 +34,8 @@ std::optional<Finding> finding_of(const RigSession& session) {
     case StopReason::missed_cycles:
       return Finding{.code = missed_cycles};
     case StopReason::lost_link:
-      if (session.trouble.empty()) return Finding{.code = lost_link};
-      return Finding{.code = drive_in_trouble, .subjects = {{"trouble", session.trouble}}};
+      if (!session.trouble) return Finding{.code = lost_link};
+      return Finding{.code = drive_in_trouble, .subjects = {{"trouble", text(*session.trouble)}}};
     case StopReason::watchdog:
       return Finding{.code = watchdog_fired};
     case StopReason::oscillation:

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <string_view>
 #include <utility>
 
 #include "zwidth/quantity.hpp"
@@ -11,8 +11,10 @@
 namespace zwidth {
 namespace {
 
-constexpr double sure_deviations = 3.0;      // of a growth rate
-constexpr double harmless_error = 0.02;      // of a limit
+constexpr double sure_deviations = 3.0;  // of a growth rate
+constexpr double harmless_error = 0.02;  // of a limit
+constexpr double same_filter = 0.02;     // of a drive's filter of the position
+constexpr double quick_filter = 100.0;  // rad a period: up to Nyquist's frequency it takes a thousandth of the position
 constexpr double different_from_file = 0.1;  // of a limit, where its own interval does not decide
 
 Finding unanswered(const RigSession& session, const Device& device) {
@@ -41,7 +43,7 @@ void doubt_unanswered(const RigSession& session, const Device& device, Trust& tr
 }
 
 /// Both numbers, where the limit measured is none of the file's, with nobody or with its user.
-void compare(RigLimit& limit, Interval promised, const std::string& unit) {
+void compare(RigLimit& limit, Interval promised, std::string_view unit) {
   if (!limit.measured.stiffness) return;
   const double measured = *limit.measured.stiffness;
   const auto finding = [&](FindingCode code, double stiffness) {
@@ -55,6 +57,51 @@ void compare(RigLimit& limit, Interval promised, const std::string& unit) {
   } else if (std::isfinite(promised.lower) && measured < (1.0 - different_from_file) * promised.lower) {
     limit.remarks.push_back(warning(finding(FindingCode::measured_below_promise, promised.lower)));
     limit.remarks.back().finding->effect = {{"critical_stiffness", measured}};
+  }
+}
+
+/// What a drive's own filter of the position takes of a limit is predicted where the file says it.
+void remark_filter(RigSession& session, const DeviceParameters& file) {
+  const auto add = [&](Evidence of_drive, double of_file, const char* key) {
+    Finding finding{.code = FindingCode::drive_filters_position, .evidence = {of_drive}, .key = key};
+    if (of_file > 0.0) finding.evidence.push_back({"of_file", of_file});
+    if (session.drive.is_filter_assumed) finding.evidence.push_back({"assumed", 1.0});
+    session.remarks.push_back(warning(std::move(finding)));
+  };
+  const double bandwidth = session.drive.tracking_bandwidth.value_or(0.0);
+  const double of_file = file.sensor.tracking_bandwidth;
+  const bool is_felt = bandwidth > 0.0 && bandwidth * file.loop.sampling_period < quick_filter;
+  const bool is_stated = session.drive.is_filter_assumed && of_file > 0.0;
+  if (is_felt && !is_stated && std::abs(of_file - bandwidth) > same_filter * bandwidth) {
+    add({"bandwidth", bandwidth}, of_file, "sensor.tracking_bandwidth");
+  }
+  const double lag = session.drive.position_lag.value_or(0.0);
+  if (lag > 0.0 && file.actuator.time_constant < (1.0 - same_filter) * lag) {
+    add({"lag", lag}, file.actuator.time_constant, "actuator.time_constant");
+  }
+}
+
+void remark_drive(RigSession& session, const Device& device) {
+  const DriveSettings& drive = session.drive;
+  const std::string_view unit = units_of(device.parameters().motion).force;
+  if (drive.force_limit && session.limits.force && *drive.force_limit < *session.limits.force) {
+    session.remarks.push_back(warning(
+        {.code = FindingCode::drive_limits_force,
+         .evidence = {{"drive_limit", *drive.force_limit, unit}, {"force_limit", *session.limits.force, unit}}}));
+  }
+  if (drive.least_force.value_or(0.0) > 0.0) {
+    session.remarks.push_back(warning(
+        {.code = FindingCode::drive_drops_small_forces,
+         .evidence = {{"force", *drive.least_force, unit}, {"current", drive.least_current.value_or(0.0), "A"}}}));
+  }
+  remark_filter(session, device.parameters());
+  if (drive.are_unknown) {
+    session.remarks.push_back(
+        warning({.code = FindingCode::drive_settings_unknown, .subjects = {{"firmware", drive.firmware}}}));
+  }
+  if (drive.mode_after_watchdog) {
+    session.remarks.push_back(note({.code = FindingCode::drive_after_watchdog,
+                                    .evidence = {{"mode", static_cast<double>(*drive.mode_after_watchdog)}}}));
   }
 }
 
@@ -91,12 +138,7 @@ void remark(RigSession& session, const Device& device) {
     Finding finding = unanswered(session, device);
     session.remarks.push_back(is_harmless(finding) ? note(std::move(finding)) : warning(std::move(finding)));
   }
-  if (session.drive_force_limit && session.limits.force && *session.drive_force_limit < *session.limits.force) {
-    const std::string unit(units_of(device.parameters().motion).force);
-    session.remarks.push_back(warning({.code = FindingCode::drive_limits_force,
-                                       .evidence = {{"drive_limit", *session.drive_force_limit, unit},
-                                                    {"force_limit", *session.limits.force, unit}}}));
-  }
+  remark_drive(session, device);
 }
 
 void judge(RigLimit& limit, const Device& device) {
@@ -105,7 +147,7 @@ void judge(RigLimit& limit, const Device& device) {
   if (limit.predicted.trust.refused()) return;
   const double with_nobody = limit.limits.nobody.critical_stiffness;
   const double with_user = limit.limits.user ? limit.limits.user->critical_stiffness : with_nobody;
-  const std::string unit(units_of(device.parameters().motion).stiffness);
+  const std::string_view unit = units_of(device.parameters().motion).stiffness;
   const double promised = std::min(with_nobody, with_user);
   const Interval of_file{promised, std::max(with_nobody, with_user)};
   if (!limit.measured.at_most) return compare(limit, of_file, unit);

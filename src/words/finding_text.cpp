@@ -66,6 +66,7 @@ std::string value_text(const Evidence& evidence, std::string_view format) {
   }
   if (format == "exact") return fmt::format("{}", evidence.value);
   if (format == "n") return fmt::format("{:.0f}", evidence.value);
+  if (format == "x") return fmt::format("{:#x}", static_cast<long long>(evidence.value));
   if (format == "s") return evidence.value == 1.0 ? "" : "s";
   if (format == "time") return time_text(evidence.value);
   if (format == "percent") return percent(evidence.value);

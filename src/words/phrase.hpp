@@ -12,6 +12,7 @@ namespace zwidth::internal {
 //     {stiffness}         with its unit and prefix, quantity(); without a unit four digits, number(); a subject as it is
 //     {stiffness:.6g}     as fmt prints a double
 //     {rows:n}            a whole number
+//     {error:x}           the same in hexadecimal, with 0x
 //     {rows:s}            nothing for 1, else the "s" of a plural
 //     {after:time}        a time in s, ms or us
 //     {share:percent}     percent(), with its sign

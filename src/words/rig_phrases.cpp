@@ -50,6 +50,30 @@ std::span<const Phrase> rig_phrases() {
              "the drive itself limits the force to {drive_limit}, below the force limit of {force_limit}: beyond it "
              "walls are softer than they seem",
              "", "raise the limit in the drive, or lower the force limit"},
+      Phrase{drive_drops_small_forces, "drive_drops_small_forces", warning,
+             "the drive gives no force below {force}: it makes no current below {current} (cc_min_current)",
+             "oscillations smaller than that are not seen to grow, nor are walls felt at a light touch",
+             "set the drive's minimum current to less, or 0, and knock harder"},
+      Phrase{
+          drive_filters_position, "drive_filters_position", warning,
+          "{?bandwidth|the drive filters the position that it tells, {?assumed|unless that was changed }at "
+          "{bandwidth:.4g} rad/s}"
+          "{?lag|the drive filters the position that it tells, with a time constant of {lag:time}}"
+          "{?of_file|; its file says {of_file:.4g} {?bandwidth|rad/s}{?lag|s}}{!of_file|, of which its file says "
+          "nothing}",
+          "limits predicted without it are too high",
+          "{?bandwidth|set sensor.tracking_bandwidth to {bandwidth:.4g}}{?lag|set actuator.time_constant, which acts "
+          "in the loop as it does, to {lag:.3g} s or more}"},
+      Phrase{drive_settings_unknown, "drive_settings_unknown", warning,
+             "the settings of the drive's firmware {firmware} are not known here: its minimum current (cc_min_current) "
+             "and division of the angle (p_pid_ang_div) were not read",
+             "the position may be a part of the motor's, and small forces may be dropped",
+             "see in VESC Tool that the division is 1 and the minimum current small"},
+      Phrase{
+          drive_after_watchdog, "drive_after_watchdog", note,
+          "once its watchdog has let go the drive {?mode=0|switches the motor off}{?mode=12|brings the motor to rest "
+          "with its own gain of velocity}{?mode=15|shorts the motor}{!mode=0|{!mode=12|{!mode=15|goes on in mode "
+          "{mode:n}}}} (servo.timeout_mode)"},
       Phrase{memory_not_locked, "memory_not_locked", warning, "memory could not be locked: {error}", cycles_late,
              "raise the limit: ulimit -l unlimited, or memlock in limits.conf"},
       Phrase{no_real_time_priority, "no_real_time_priority", warning, "real-time priority is not allowed: {error}",

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -291,7 +292,7 @@ TEST_F(Rig, ATerminalShowsWhatTheLoopDoes) {
       "--stiffness 20 --real-time --duration 3 --set loop.sampling_period=0.02 --flight-record f.csv";
   const Outcome seen = run("export TERM=xterm NO_COLOR=1; script -qec '" + wall + "' /dev/null");
   EXPECT_THAT(seen.output, HasSubstr("\r\x1b[K"));
-  EXPECT_THAT(seen.output, HasSubstr(" s  K 20 B 0  F "));
+  EXPECT_THAT(seen.output, HasSubstr(" s  K 20 N/m  B 0 N s/m  F "));
   EXPECT_THAT(seen.output, HasSubstr("worst "));
   EXPECT_THAT(seen.output, ::testing::Not(HasSubstr("\x1b[3")));
   std::size_t lines = 0;
@@ -299,6 +300,33 @@ TEST_F(Rig, ATerminalShowsWhatTheLoopDoes) {
   EXPECT_LE(lines, 32U);
   const Outcome logged = run(wall);
   EXPECT_THAT(logged.errors, ::testing::Not(HasSubstr("\x1b")));
+}
+
+// It was cut in the middle, and its numbers lost their units.
+TEST_F(Rig, ANarrowTerminalShowsFewerNumbersEachWithItsUnit) {
+  const std::string wall =
+      "zwidth rig wall " + lhifam +
+      "--stiffness 20 --real-time --duration 1 --set loop.sampling_period=0.02 --flight-record f.csv";
+  const auto longest_line = [&](int columns) {
+    const Outcome seen =
+        run(fmt::format("export TERM=xterm NO_COLOR=1; script -qec 'stty cols {}; {}' /dev/null", columns, wall));
+    std::string longest;
+    for (std::size_t at = 0; (at = seen.output.find("\x1b[K", at)) != std::string::npos;) {
+      at += 3;
+      const std::size_t end = seen.output.find('\r', at);
+      if (end == std::string::npos || seen.output.compare(end, 2, "\r\x1b") != 0) break;  // the answer
+      if (end - at > longest.size()) longest = seen.output.substr(at, end - at);
+    }
+    return longest;
+  };
+  const std::string wide = longest_line(80);
+  EXPECT_LE(wide.size(), 82U) << "micro has two bytes";
+  EXPECT_THAT(wide, HasSubstr(" s  K 20 N/m"));
+  const std::string narrow = longest_line(40);
+  EXPECT_LE(narrow.size(), 41U);
+  EXPECT_THAT(narrow, ::testing::ContainsRegex("F +-?[0-9.]+ .?.?N  x +-?[0-9.]+ .?.?m"));
+  EXPECT_THAT(narrow, ::testing::Not(HasSubstr("worst")));
+  EXPECT_THAT(longest_line(20), ::testing::ContainsRegex("^F +-?[0-9.]+ .?.?N"));
 }
 
 TEST_F(Rig, TheFlightRecordIsReadByTheOtherCommands) {
@@ -354,7 +382,11 @@ TEST_F(Rig, TheReportShowsWhatWasMeasured) {
     for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++drawn;
     EXPECT_EQ(drawn, figures);
     EXPECT_THAT(page, HasSubstr("<h1>Rig " + action.substr(0, action.find(' '))));
-    EXPECT_THAT(page, ::testing::Not(HasSubstr("\n  - "))) << "items of a list, short ones too, are no columns";
+    EXPECT_THAT(page, ::testing::Not(HasSubstr("<pre"))) << "no lines of a terminal";
+    for (const char* label : {"date", "program", "driver", "force limit", "position limit", "velocity limit"}) {
+      EXPECT_THAT(page, HasSubstr(std::string("<th scope=\"row\">") + label + "</th>")) << label;
+    }
+    EXPECT_THAT(page, HasSubstr(">79500 N/m</td>")) << "a number of the device's file";
   }
 }
 
@@ -387,9 +419,8 @@ TEST_F(Rig, RelayGivesARowOfTable2) {
   EXPECT_EQ(relay["relay"]["trials"].size(), 1U);
   EXPECT_EQ(relay["table_2_row"]["trials"], 1);
   EXPECT_GT(relay["table_2_row"]["frequency_hz"], 0.0);
-  EXPECT_THAT(contents("relay.html"), HasSubstr("Relay experiment on the rig"));
-  EXPECT_THAT(contents("relay.html"), HasSubstr("<p>- The stiffest stable wall")) << "sentences are broken by the page";
-  EXPECT_THAT(contents("relay.html"), HasSubstr("\n  trial      Hz")) << "columns are not";
+  EXPECT_THAT(contents("relay.html"), HasSubstr("<li>The stiffest stable wall"));
+  EXPECT_THAT(contents("relay.html"), HasSubstr("<th class=\"n\">trial</th><th class=\"n\">Hz</th>"));
 }
 
 TEST_F(Rig, KeepsTheClockWhereAsked) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "rig/drive_failure.hpp"
 #include "rig/measured_as_predicted.hpp"
 #include "rig/microcontroller_driver.hpp"
 #include "rig/printing_process.hpp"
@@ -41,7 +42,7 @@ TEST(AvrPaddle, ClosesTheLoopAtOneKilohertz) {
   EXPECT_EQ(driver->facts().watchdog, paddle_watchdog);
   driver->arm();
   for (int i = 0; i < 500; ++i) {
-    ASSERT_TRUE(driver->measure()) << driver->trouble();
+    ASSERT_TRUE(driver->measure()) << testing::PrintToString(driver->trouble());
     driver->command(i % 2 == 0 ? 0.5 : -0.6);
   }
   double delay = 0.0;

@@ -1,5 +1,4 @@
 // Drives on CAN buses behind each kind of adapter, and what their firmware differs in.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "rig/drive_failure.hpp"
 #include "rig/drive_kinds.hpp"
 #include "rig/pty_emulator.hpp"
 #include "rig/rig_actions.hpp"
@@ -17,11 +17,15 @@
 namespace zwidth::rig {
 namespace {
 
+using enum DriveProblemCode;
 using test::CanAdapterFirmware;
+using test::code_of;
 using test::DriveKind;
+using test::failure_of;
+using test::number_of;
 using test::OdriveCanNode;
 using test::PtyEmulator;
-using testing::HasSubstr;
+using test::subject_of;
 using Adapter = CanAdapterFirmware::Kind;
 using Fault = PtyEmulator::Fault;
 
@@ -36,16 +40,6 @@ SerialLink link_to(const PtyEmulator& emulator, const Device& device, bool lock_
           .sampling_period = device.loop().sampling_period,
           .lock_step = lock_step,
           .is_can = true};
-}
-
-template <typename Work>
-std::string failure(const Work& work) {
-  try {
-    work();
-  } catch (const DriverFailed& problem) {
-    return problem.what();
-  }
-  return "";
 }
 
 /// A force goes out, and a position comes back.
@@ -89,7 +83,9 @@ TEST(CanAdapters, AnFdcanusbCarriesAMoteusAndALawicelHasNoCanFd) {
     expect_force(driver, emulator, *device.parameters().driver);
   }
   PtyEmulator emulator(behind<test::MoteusCanNode>(Adapter::lawicel), device);
-  EXPECT_THAT(failure([&] { MoteusDriver driver(link_to(emulator, device)); }), HasSubstr("it has no CAN FD"));
+  const auto refused = failure_of([&] { MoteusDriver driver(link_to(emulator, device)); });
+  EXPECT_EQ(code_of(refused), adapter_without_can_fd);
+  EXPECT_EQ(subject_of(refused, "command"), "Y5");
 }
 
 // An adapter that is not there (a board that says nothing) looks as one whose bus is not.
@@ -97,8 +93,8 @@ TEST(CanAdapters, TellWhereNothingIsHeard) {
   const Device device = test::belt_device();
   PtyEmulator emulator(behind<OdriveCanNode>(Adapter::canable), device);
   emulator.set_fault(Fault::silent);
-  EXPECT_THAT(failure([&] { OdriveCanDriver driver(link_to(emulator, device)); }),
-              HasSubstr("no heartbeat of node 0 is heard; check adapter"));
+  const auto refused = failure_of([&] { OdriveCanDriver driver(link_to(emulator, device)); });
+  EXPECT_EQ(refused, (DriveProblem{no_heartbeat, {{"node", 0.0}}}));
 }
 
 TEST(OdriveCanDriver, OfFirmware6HasAnotherWatchdog) {
@@ -116,9 +112,7 @@ TEST(OdriveCanDriver, RefusesPositionsThatNobodyAskedFor) {
   auto node = std::make_unique<OdriveCanNode>();
   node->encoder_rate = std::chrono::milliseconds(10);
   PtyEmulator emulator(std::make_unique<CanAdapterFirmware>(std::move(node)), device);
-  const std::string said = failure([&] { OdriveCanDriver driver(link_to(emulator, device)); });
-  EXPECT_THAT(said, HasSubstr("sends its position or supply voltage unasked"));
-  EXPECT_THAT(said, HasSubstr("encoder_rate_ms"));
+  EXPECT_EQ(code_of(failure_of([&] { OdriveCanDriver driver(link_to(emulator, device)); })), sends_unasked);
   EXPECT_EQ(emulator.motor().forces(), 0);
 }
 
@@ -126,8 +120,10 @@ TEST(OdriveCanDriver, StandsOnAnErrorBeforeAnyForce) {
   const Device device = test::belt_device();
   PtyEmulator emulator(behind<OdriveCanNode>(Adapter::canable), device);
   emulator.set_fault(Fault::failed_drive);
-  EXPECT_THAT(failure([&] { OdriveCanDriver driver(link_to(emulator, device)); }),
-              HasSubstr("node 0 stands on error 0x"));
+  const auto refused = failure_of([&] { OdriveCanDriver driver(link_to(emulator, device)); });
+  EXPECT_EQ(code_of(refused), odrive_fault);
+  EXPECT_EQ(number_of(refused, "node"), 0.0);
+  EXPECT_GT(number_of(refused, "error"), 0.0);
 }
 
 // The bits of its frame leave after the adapter has them, those of SLCAN's line after the system has: the emulated bus takes

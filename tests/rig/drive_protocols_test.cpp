@@ -70,6 +70,10 @@ TEST(MoteusProtocol, IsTheDocumentedOne) {
   EXPECT_FALSE(moteus_tunnel_reply("rcv 100 4101054f4b0d0a", 1)) << "half";
   const std::string longest = "conf set servo.pid_position.kd -1.23457e-05\n";
   EXPECT_TRUE(moteus_line(moteus_tunnel(127, longest).view(), true).view().ends_with("\n")) << "it fits";
+  // docs/protocol/can.md: 0x19 reads one int32, register 0x101 as varuint; its answer 1.1.0.
+  EXPECT_EQ(moteus_version_question(17).view(), "can send 8011 198102");
+  EXPECT_EQ(moteus_reply("rcv 100 29810200010100", 1).value().firmware, 0x010100);
+  EXPECT_FALSE(moteus_reply("rcv 100 298182", 1)) << "a register of three bytes";
   EXPECT_EQ(moteus_question(17).view(), "can send 8011 11001d01");
   EXPECT_EQ(moteus_mark(17).view(), "can send 8011 110f") << "one int8 from register 15";
   const auto flagged = moteus_reply("rcv 0100 21000A2D010000C03F505050 E B F r t12345 f0", 1);  // of an fdcanusb
@@ -119,6 +123,39 @@ TEST(VescProtocol, IsThatOfItsSources) {
   const std::string status("\x32\x00\x20\x00\x00\x00", 6);
   EXPECT_TRUE(is_vesc_mark(status));
   EXPECT_FALSE(vesc_values(status));
+}
+
+// confgenerator.c of 6.06 (signature 788332866): p_pid_ang_div at 367, cc_min_current at 379; packet.c.
+TEST(VescProtocol, TellsItsFirmwareAndItsSettings) {
+  EXPECT_EQ(hexadecimal(vesc_version_question().view()), "020100000003");
+  EXPECT_EQ(hexadecimal(vesc_settings_question().view()), "02010ee1ce03");
+  const auto version = vesc_version(std::string("\x00\x06\x05HW\x00", 6));
+  ASSERT_TRUE(version);
+  EXPECT_EQ(version->major, 6);
+  EXPECT_EQ(version->minor, 5);
+  std::string payload(1 + 483, '\0');
+  payload[0] = 14;
+  payload.replace(1, 4, "\x2e\xfd\x01\x42", 4);
+  payload.replace(1 + 367, 4, "\x40\x00\x00\x00", 4);  // 2
+  payload.replace(1 + 379, 4, "\x3d\x4c\xcc\xcd", 4);  // 0.05
+  const auto settings = vesc_settings(payload);
+  ASSERT_TRUE(settings);
+  EXPECT_EQ(settings->angle_division, 2.0);
+  EXPECT_FLOAT_EQ(static_cast<float>(settings->least_current), 0.05F);
+  EXPECT_FALSE(vesc_settings(payload.substr(0, 1 + 382))) << "half";
+  std::string other = payload;
+  other[4] = 0;
+  EXPECT_TRUE(has_vesc_settings(other));
+  EXPECT_FALSE(vesc_settings(other)) << "of another signature";
+  payload.replace(1 + 367, 4, "\x7f\xc0\x00\x00", 4);
+  EXPECT_FALSE(vesc_settings(payload)) << "no number";
+  // The end of a torn packet, and what follows, is no long one where none was asked for.
+  const std::string packet(vesc_packet(payload).view());
+  EXPECT_EQ(hexadecimal(packet).substr(0, 6), "0301e4") << "a length of two bytes";
+  EXPECT_EQ(vesc_packet_size(packet, vesc_long_payload), packet.size());
+  EXPECT_EQ(vesc_payload(packet), payload);
+  EXPECT_EQ(vesc_packet_size(packet), 1U);
+  EXPECT_EQ(vesc_packet_size(packet.substr(0, 300), vesc_long_payload), 0U);
 }
 
 TEST(VescProtocol, RefusesEveryFlippedBitAndHalfPackets) {

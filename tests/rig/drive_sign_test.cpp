@@ -214,10 +214,10 @@ TEST(LimitOfDrive, IsReadWhenItOpens) {
   const double travel = std::abs(device.parameters().driver->torque_per_force());
   PtyEmulator odrive(std::make_unique<test::OdriveFirmware>(), device);
   const OdriveDriver first({odrive.path(), *device.parameters().driver, 0.01, true});
-  EXPECT_NEAR(first.facts().force_limit.value(), 10.0 * 0.04 / travel, 1e-6);
+  EXPECT_NEAR(first.facts().settings.force_limit.value(), 10.0 * 0.04 / travel, 1e-6);
   PtyEmulator simplefoc(std::make_unique<test::SimplefocFirmware>(), device);
   const SimplefocDriver second({simplefoc.path(), *device.parameters().driver, 0.01, true});
-  EXPECT_NEAR(second.facts().force_limit.value(), 2.0 * 0.05 / travel, 1e-6);
+  EXPECT_NEAR(second.facts().settings.force_limit.value(), 2.0 * 0.05 / travel, 1e-6);
 }
 
 }  // namespace

@@ -163,12 +163,12 @@ TEST(LimitGrowth, UnansweredCyclesAreSaidWithWhatTheyDo) {
 TEST(LimitGrowth, ADriveThatLimitsForceBelowTheRigIsSaid) {
   RigSession session;
   session.limits.force = 20.0;
-  session.drive_force_limit = 8.0;
+  session.drive.force_limit = 8.0;
   remark(session, test::bench_device(1));
   ASSERT_EQ(session.remarks.size(), 1U);
   EXPECT_EQ(session.remarks.front().finding.value().code, FindingCode::drive_limits_force);
   session.remarks.clear();
-  session.drive_force_limit = 20.0;
+  session.drive.force_limit = 20.0;
   remark(session, test::bench_device(1));
   EXPECT_TRUE(session.remarks.empty());
 }

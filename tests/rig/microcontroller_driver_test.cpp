@@ -2,14 +2,14 @@
 // that it takes no force after its watchdog until it is held anew.
 #include "rig/microcontroller_driver.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <memory>
-#include <string>
+#include <optional>
 #include <utility>
 
+#include "rig/drive_failure.hpp"
 #include "rig/microcontroller_firmware.hpp"
 #include "rig/pty_emulator.hpp"
 #include "rig/rig_host.hpp"
@@ -18,23 +18,20 @@
 namespace zwidth::rig {
 namespace {
 
+using enum DriveProblemCode;
+using test::code_of;
 using test::MicrocontrollerFirmware;
+using test::number_of;
 using test::PtyEmulator;
-using testing::HasSubstr;
 
 class OnMicrocontroller : public testing::Test {
  protected:
   [[nodiscard]] SerialLink link(const PtyEmulator& emulator) const {
     return {.port = emulator.path(), .drive = {}, .sampling_period = device.loop().sampling_period};
   }
-  [[nodiscard]] std::string refusal(std::unique_ptr<MicrocontrollerFirmware> firmware) const {
+  [[nodiscard]] std::optional<DriveProblem> refusal(std::unique_ptr<MicrocontrollerFirmware> firmware) const {
     PtyEmulator emulator(std::move(firmware), device);
-    try {
-      const MicrocontrollerDriver driver(link(emulator));
-    } catch (const DriverFailed& problem) {
-      return problem.what();
-    }
-    return "";
+    return test::failure_of([&] { const MicrocontrollerDriver driver(link(emulator)); });
   }
   const Device device = test::belt_device(0.04);
 };
@@ -73,7 +70,7 @@ TEST_F(OnMicrocontroller, TakesNoForceAfterItsWatchdogUntilItIsHeldAnew) {
   driver.command(1.0);
   ASSERT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().times_let_go() == 1; }));
   EXPECT_FALSE(driver.measure());
-  EXPECT_THAT(driver.trouble(), HasSubstr("watchdog has let go"));
+  EXPECT_EQ(code_of(driver.trouble()), microcontroller_let_go);
   const int forces = emulator.motor().forces();
   driver.command(1.0);
   EXPECT_FALSE(driver.measure());
@@ -82,16 +79,16 @@ TEST_F(OnMicrocontroller, TakesNoForceAfterItsWatchdogUntilItIsHeldAnew) {
   EXPECT_EQ(emulator.motor().force(), 0.0);
   driver.disarm();
   EXPECT_TRUE(driver.measure()) << "the last cycles have a position";
-  EXPECT_EQ(driver.trouble(), "");
+  EXPECT_FALSE(driver.trouble());
 }
 
 TEST_F(OnMicrocontroller, RefusesASketchThatCannotCarryTheLoop) {
-  EXPECT_THAT(refusal(std::make_unique<MicrocontrollerFirmware>(50)),
-              HasSubstr("lets go after 0.05 s without a force; 0.08 s, two sampling periods, to 1 s"));
-  EXPECT_THAT(refusal(std::make_unique<MicrocontrollerFirmware>(2000)), HasSubstr("lets go after 2 s"));
+  EXPECT_EQ(refusal(std::make_unique<MicrocontrollerFirmware>(50)),
+            (DriveProblem{sketch_watchdog, {{"watchdog", 0.05}, {"least", 2 * 0.04}, {"most", 1.0}}}));
+  EXPECT_EQ(number_of(refusal(std::make_unique<MicrocontrollerFirmware>(2000)), "watchdog"), 2.0);
   auto failed = std::make_unique<MicrocontrollerFirmware>();
   failed->begin_with_fault();
-  EXPECT_THAT(refusal(std::move(failed)), HasSubstr("stands on fault 40"));
+  EXPECT_EQ(refusal(std::move(failed)), (DriveProblem{microcontroller_fault, {{"fault", 40.0}}}));
 }
 
 }  // namespace

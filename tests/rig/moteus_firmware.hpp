@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -26,6 +27,12 @@ class MoteusFirmware : public Firmware {
   /// `is_adapter`: an fdcanusb stands between (fw/can_manager.cc of f18c1d6): no checksums, flags behind what it receives.
   explicit MoteusFirmware(bool is_adapter = false) : is_adapter_(is_adapter) {}
 
+  /// Before it runs.
+  void set(const std::string& name, double value) { numbers_[name] = value; }
+  void set_version(int version) { version_ = version; }
+  /// Another host's command: 12, zero velocity, or 15, brake. For any thread; 0: none.
+  std::atomic<int> mode_of_other_host = 0;
+
   [[nodiscard]] int baud() const override { return 921600; }
 
   [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
@@ -43,6 +50,7 @@ class MoteusFirmware : public Firmware {
   }
 
   void tick(Clock::time_point now, bool is_enabled, EmulatedMotor& motor) override {
+    obey_other_host(motor);
     if (!is_enabled || mode_ != position || now - fed_ <= timeout_) return;
     mode_ = timed_out;
     motor.let_go();
@@ -131,9 +139,12 @@ class MoteusFirmware : public Firmware {
       const unsigned type = (kind >> 2U) & 3U;
       unsigned count = kind & 3U;
       if (count == 0) count = at < bytes.size() ? bytes[at++] : 0;
-      const unsigned first = at < bytes.size() ? bytes[at++] : 0;
+      unsigned first = at < bytes.size() ? bytes[at++] : 0;
+      if (first >= 0x80 && at < bytes.size()) first = (first & 0x7fU) | bytes[at++] << 7U;
       if ((kind & 0xf0U) == 0x10) {
-        reply += fmt::format("{:02x}{:02x}", 0x20U | (kind & 0x0fU), first);
+        reply += fmt::format("{:02x}", 0x20U | (kind & 0x0fU));
+        reply += first < 0x80 ? fmt::format("{:02x}", first)
+                              : fmt::format("{:02x}{:02x}", (first & 0x7fU) | 0x80U, first >> 7U);
         for (unsigned i = 0; i < count; ++i) reply += value(first + i, type, motor);
         continue;
       }
@@ -147,7 +158,16 @@ class MoteusFirmware : public Firmware {
       }
     }
     if (written.contains(0)) command(written, motor);
+    obey_other_host(motor);
     return reply;
+  }
+
+  /// Whose commands come at once after any other.
+  void obey_other_host(EmulatedMotor& motor) {
+    const int other = mode_of_other_host;
+    if (other == 0 || mode_ == other) return;
+    mode_ = other;
+    motor.let_go();
   }
 
   /// "conf set NAME VALUE", "conf get NAME"
@@ -192,6 +212,10 @@ class MoteusFirmware : public Firmware {
 
   [[nodiscard]] std::string value(unsigned which, unsigned type, EmulatedMotor& motor) const {
     const double number = which == 0 ? mode_ : which == 1 ? motor.turns() : 0.0;
+    if (which == 0x101 && type == 2) {
+      const auto version = static_cast<unsigned>(version_);
+      return fmt::format("{:02x}{:02x}{:02x}00", version & 0xffU, version >> 8U & 0xffU, version >> 16U & 0xffU);
+    }
     if (type == 0) return fmt::format("{:02x}", static_cast<unsigned>(static_cast<int>(number)) & 0xffU);
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(number));
     return fmt::format("{:02x}{:02x}{:02x}{:02x}", bits & 0xffU, (bits >> 8U) & 0xffU, (bits >> 16U) & 0xffU,
@@ -201,7 +225,11 @@ class MoteusFirmware : public Firmware {
   bool is_adapter_;
   std::map<std::string, double> numbers_{{"servo.pid_position.kp", 4.0},  // its defaults
                                          {"servo.pid_position.kd", 0.05},
-                                         {"servo.pid_position.ki", 1.0}};
+                                         {"servo.pid_position.ki", 1.0},
+                                         {"servo.timeout_mode", 12.0},
+                                         {"motor_position.output.source", 0.0},
+                                         {"motor_position.sources.0.pll_filter_hz", 0.0}};  // its motor's is the file's
+  int version_ = 0x010100;
   std::string told_;
   std::string said_;
   std::string line_;

@@ -30,11 +30,10 @@ class OdriveFirmware : public Firmware {
 
   explicit OdriveFirmware(Version version = Version::v0_5_6) : version_(version) {
     if (version_ != Version::v0_6) return;
-    const std::map<std::string, double> of_0_6{{"controller.config.vel_gain", 1.0 / 6.0},
-                                               {"controller.config.vel_integrator_gain", 1.0 / 3.0},
-                                               {"config.torque_soft_max", 1e9},
-                                               {"config.motor.current_soft_max", 10.0},
-                                               {"config.motor.torque_constant", 0.04}};
+    const std::map<std::string, double> of_0_6{
+        {"controller.config.vel_gain", 1.0 / 6.0}, {"controller.config.vel_integrator_gain", 1.0 / 3.0},
+        {"config.torque_soft_max", 1e9},           {"config.encoder_bandwidth", untold_bandwidth},
+        {"config.motor.current_soft_max", 10.0},   {"config.motor.torque_constant", 0.04}};
     numbers_ = of_0_6;
   }
 
@@ -82,6 +81,7 @@ class OdriveFirmware : public Firmware {
   static constexpr int idle = 1;
   static constexpr int closed_loop = 8;
   static constexpr double supply_voltage = 24.087744;
+  static constexpr double untold_bandwidth = 1e6;  // rad/s: its motor's position is that of the file; 1000 by default
 
   [[nodiscard]] long watchdog_expired() const { return version_ == Version::v0_6 ? 0x1000000 : 0x800; }
   [[nodiscard]] std::string error_name() const { return version_ == Version::v0_6 ? "active_errors" : "error"; }
@@ -195,6 +195,7 @@ class OdriveFirmware : public Firmware {
                                          {"controller.config.enable_torque_mode_vel_limit", 0.0},
                                          {"controller.config.vel_integrator_gain", 1.0 / 3.0},
                                          {"motor.config.torque_lim", 1e9},
+                                         {"encoder.config.bandwidth", untold_bandwidth},
                                          {"motor.config.current_lim", 10.0},
                                          {"motor.config.torque_constant", 0.04}};
   Version version_;

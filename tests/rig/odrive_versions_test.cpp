@@ -40,7 +40,7 @@ TEST_P(OdriveVersions, AreDrivenAndLeftAsTheyWere) {
   {
     const MotorDrive& motor = *device.parameters().driver;
     OdriveDriver driver({emulator.path(), motor, device.loop().sampling_period, true});
-    EXPECT_NEAR(driver.facts().force_limit.value(), 10.0 * 0.04 / std::abs(motor.torque_per_force()), 1e-6);
+    EXPECT_NEAR(driver.facts().settings.force_limit.value(), 10.0 * 0.04 / std::abs(motor.torque_per_force()), 1e-6);
     EXPECT_EQ(driver.proves_watchdog(), true);
     driver.arm();
     EXPECT_TRUE(drive.has_watchdog());
@@ -66,7 +66,8 @@ TEST_P(OdriveVersions, SayThatTheyFailed) {
   int answered = 0;
   for (; answered < 1000 && driver.measure(); ++answered) driver.command(0.0);
   EXPECT_LT(answered, 1000);
-  EXPECT_FALSE(driver.trouble().empty());
+  ASSERT_TRUE(driver.trouble());
+  EXPECT_EQ(driver.trouble()->code, DriveProblemCode::odrive_fault);
 }
 
 // (vel_limit - 0) vel_gain = 0.333 N m, less than 10 A allow.
@@ -77,7 +78,7 @@ TEST(OdriveLimits, TheVelocityLimitOfTorqueControlBoundsTheTorque) {
   PtyEmulator emulator(std::move(firmware), device);
   const MotorDrive& motor = *device.parameters().driver;
   const OdriveDriver driver({emulator.path(), motor, device.loop().sampling_period, true});
-  EXPECT_NEAR(driver.facts().force_limit.value() * std::abs(motor.torque_per_force()), 2.0 / 6.0, 1e-5);
+  EXPECT_NEAR(driver.facts().settings.force_limit.value() * std::abs(motor.torque_per_force()), 2.0 / 6.0, 1e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(From, OdriveVersions,

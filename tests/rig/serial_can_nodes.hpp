@@ -50,6 +50,9 @@ class MoteusCanNode : public CanNode {
 /// commands that its UART takes, too.
 class VescCanNode : public CanNode {
  public:
+  VescCanNode() = default;
+  explicit VescCanNode(const VescFirmware::Settings& settings) : firmware_(settings) {}
+
   static constexpr unsigned id = 23;
 
   [[nodiscard]] int bitrate() const override { return 500'000; }
@@ -65,7 +68,8 @@ class VescCanNode : public CanNode {
       case 8:  // CAN_PACKET_PROCESS_SHORT_BUFFER: who asks, what for, payload
         if (data.size() < 3 || data[1] != 0) return {};
         for (const std::string& packet : firmware_.receive(VescFirmware::packet(data.substr(2)), motor)) {
-          send_buffer(static_cast<unsigned char>(data[0]), packet.substr(2, packet.size() - 5),
+          const std::size_t head = packet[0] == 3 ? 3 : 2;
+          send_buffer(static_cast<unsigned char>(data[0]), packet.substr(head, packet.size() - head - 3),
                       packet.substr(packet.size() - 3, 2), frames);
         }
         return frames;
@@ -96,8 +100,13 @@ class VescCanNode : public CanNode {
       frames.push_back(frame_of(8U << 8U | to, head + payload));
       return;
     }
-    for (std::size_t at = 0; at < payload.size(); at += 7) {
+    std::size_t at = 0;
+    for (; at < payload.size() && at <= 255; at += 7) {
       frames.push_back(frame_of(5U << 8U | to, std::string(1, static_cast<char>(at)) + payload.substr(at, 7)));
+    }
+    for (; at < payload.size(); at += 6) {
+      const std::string offset{static_cast<char>(at >> 8U), static_cast<char>(at)};
+      frames.push_back(frame_of(6U << 8U | to, offset + payload.substr(at, 6)));
     }
     const std::string length{static_cast<char>(payload.size() >> 8U), static_cast<char>(payload.size())};
     frames.push_back(frame_of(7U << 8U | to, head + length + crc));

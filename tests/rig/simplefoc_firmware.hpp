@@ -24,6 +24,8 @@ class SimplefocFirmware : public Firmware {
                              std::chrono::milliseconds timeout = {})
       : torque_(std::move(torque)), phase_resistance_(phase_resistance), timeout_(timeout) {}
 
+  double angle_lag = 0.0;  ///< s, LPF_angle.Tf, which it tells; its motor's position is that of the file
+
   [[nodiscard]] int baud() const override { return 115200; }
 
   [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
@@ -102,6 +104,9 @@ class SimplefocFirmware : public Firmware {
         if (!is_sentinel(input[2])) found->second = std::atof(input + 2);
         return echo(std::string("V") + input[1]) + number(found->second);
       }
+      case 'A':
+        if (input[1] != 'F') return echo("A") + "err\r\n";
+        return echo("AF") + number(angle_lag);
       case 'L':
         if (input[1] != 'U' && input[1] != 'C') return echo(std::string_view(input, 2)) + "err\r\n";
         return echo(std::string_view(input, 2)) + number(input[1] == 'U' ? voltage_limit : current_limit);

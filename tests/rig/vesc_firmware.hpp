@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -11,9 +12,20 @@
 namespace zwidth::test {
 
 /// A VESC on its UART, as comm/packet.c and comm/commands.c of b9d287b3 have it: what is no packet is skipped byte by byte;
-/// every SET feeds the watchdog (timeout.c, here set to 100 ms), which looks every 10 ms.
+/// every SET feeds the watchdog (timeout.c, here set to 100 ms), which looks every 10 ms. Settings as confgenerator.c orders them.
 class VescFirmware : public Firmware {
  public:
+  /// Before it runs. A minimum current of 0.05 A, the firmware's default, is much on the belt of the tests.
+  struct Settings {
+    int major = 6;
+    int minor = 6;
+    std::uint32_t signature = 788332866;  // MCCONF_SIGNATURE of 6.06
+    double angle_division = 1.0;
+    double least_current = 0.0;
+  };
+  VescFirmware() = default;
+  explicit VescFirmware(const Settings& settings) : settings_(settings) {}
+
   [[nodiscard]] int baud() const override { return 115200; }
 
   [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
@@ -51,6 +63,7 @@ class VescFirmware : public Firmware {
   static std::string packet(const std::string& payload) {
     const unsigned crc = crc_of(payload);
     std::string packet{2, static_cast<char>(payload.size())};
+    if (payload.size() > 255) packet = {3, static_cast<char>(payload.size() >> 8U), static_cast<char>(payload.size())};
     packet += payload;
     packet += {static_cast<char>(crc >> 8U), static_cast<char>(crc), 3};
     return packet;
@@ -73,6 +86,11 @@ class VescFirmware : public Firmware {
     for (std::size_t i = 0; i < size; ++i) value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
     return value;
   }
+  static void place(std::string& bytes, std::size_t at, std::uint32_t value) {
+    std::string text;
+    append(text, value);
+    bytes.replace(at, text.size(), text);
+  }
   static void append(std::string& bytes, std::uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> static_cast<unsigned>(shift));
   }
@@ -82,22 +100,33 @@ class VescFirmware : public Firmware {
     if (command == 6 && payload.size() >= 5) {  // COMM_SET_CURRENT
       const double amperes = static_cast<std::int32_t>(big_endian(payload, 1, 4)) / 1000.0;
       fed_ = Clock::now();
-      if (fault_ == 0) motor.set_torque(amperes * motor.drive().torque_constant.value());
+      const bool is_cut = std::abs(amperes) < settings_.least_current;  // mcpwm_foc_set_current()
+      if (fault_ == 0) motor.set_torque(is_cut ? 0.0 : amperes * motor.drive().torque_constant.value());
+    } else if (command == 0) {  // COMM_FW_VERSION: with the board's name, its number and some flags
+      std::string reply{0, static_cast<char>(settings_.major), static_cast<char>(settings_.minor)};
+      answers.push_back(packet(reply + std::string("60_MK6\0", 7) + std::string(20, '\0')));
+    } else if (command == 14) {  // COMM_GET_MCCONF
+      std::string settings(483, '\0');
+      place(settings, 0, settings_.signature);
+      place(settings, 367, std::bit_cast<std::uint32_t>(static_cast<float>(settings_.angle_division)));
+      place(settings, 379, std::bit_cast<std::uint32_t>(static_cast<float>(settings_.least_current)));
+      answers.push_back(packet(std::string(1, 14) + settings));
     } else if (command == 50 && payload.size() >= 5) {  // COMM_GET_VALUES_SELECTIVE
       const std::uint32_t mask = big_endian(payload, 1, 4);
       std::string reply(1, 50);
       append(reply, mask);
       if ((mask >> 15U & 1U) != 0) reply += static_cast<char>(fault_);
       if ((mask >> 16U & 1U) != 0) {
-        const double turns = motor.turns();
+        const double turns = motor.turns() / settings_.angle_division;
         const double degrees = 360.0 * (turns - std::floor(turns));
         append(reply, static_cast<std::uint32_t>(static_cast<std::int32_t>(degrees * 1e6)));
       }
-      if ((mask >> 21U & 1U) != 0) reply += static_cast<char>(has_timeout_ ? 1 : 0);
+      if ((mask >> 21U & 1U) != 0 && settings_.major >= 6) reply += static_cast<char>(has_timeout_ ? 1 : 0);
       answers.push_back(packet(reply));
     }
   }
 
+  Settings settings_;
   std::string buffer_;
   int fault_ = 0;
   bool has_timeout_ = true;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstddef>
 #include <string>
 
 #include "report/text/markup.hpp"
@@ -34,6 +32,7 @@ th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align:
 th { border-bottom: 2px solid var(--rule); font-weight: 600; }
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 th.n { white-space: normal; }
+.rows th { border-bottom: 1px solid var(--line); white-space: nowrap; }
 .reasons td:last-child { min-width: 17rem; }
 figure { margin: 1.2rem 0; overflow-x: auto; }
 /* Letters of figures must stay legible on a phone: they scroll sideways there. On dark paper light and dark change
@@ -51,8 +50,6 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   h2, h3 { break-after: avoid; } .device { break-before: page; border: 0; } .wide { overflow: visible; } }
 @page { margin: 18mm; }
 )";
-
-constexpr std::size_t longest_line_of_columns = 100;  // what is longer is prose
 
 }  // namespace
 
@@ -78,31 +75,16 @@ std::string html_table(const TextTable& table) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string element(std::string_view tag, std::string_view text) {
-  return fmt::format("<{0}>{1}</{0}>\n", tag, html_text(text));
+std::string html_rows(std::span<const LabelledText> rows) {
+  std::string text = "<div class=\"wide\"><table class=\"rows\">\n<tbody>\n";
+  for (const LabelledText& each : rows) {
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_text(each.label), html_text(each.text));
+  }
+  return text + "</tbody></table></div>\n";
 }
 
-std::string html_lines(std::string_view text) {
-  std::string markup;
-  std::string columns;
-  const auto end_columns = [&] {
-    const std::size_t last = columns.find_last_not_of('\n');
-    if (last != std::string::npos) markup += fmt::format("<pre>{}</pre>\n", escape_markup(columns.substr(0, last + 1)));
-    columns.clear();
-  };
-  while (!text.empty()) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    const std::string_view words = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
-    if (line.size() > longest_line_of_columns || words.starts_with("- ")) {
-      end_columns();
-      markup += element("p", words);
-    } else {
-      (columns += line) += '\n';
-    }
-  }
-  end_columns();
-  return markup;
+std::string element(std::string_view tag, std::string_view text) {
+  return fmt::format("<{0}>{1}</{0}>\n", tag, html_text(text));
 }
 
 std::string html_figure(std::string_view svg, std::string_view name, std::string_view caption) {

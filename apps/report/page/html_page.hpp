@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,12 +14,11 @@ namespace zwidth::report {
 /// The table as HTML, its texts escaped.
 [[nodiscard]] std::string html_table(const TextTable& table);
 
+/// A label and its text a line, as a table without headings.
+[[nodiscard]] std::string html_rows(std::span<const LabelledText> rows);
+
 /// "<TAG>text</TAG>", with the text escaped.
 [[nodiscard]] std::string element(std::string_view tag, std::string_view text);
-
-/// Text as a terminal shows it: columns stay aligned, and scroll sideways where a page is narrow; longer lines, and
-/// items of a list, are paragraphs.
-[[nodiscard]] std::string html_lines(std::string_view text);
 
 /// A figure element around an SVG file, ids kept apart by `name`; `caption` is text.
 [[nodiscard]] std::string html_figure(std::string_view svg, std::string_view name, std::string_view caption);

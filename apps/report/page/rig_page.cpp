@@ -1,86 +1,158 @@
 #include "report/page/rig_page.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
+#include <functional>
 #include <string_view>
 
+#include "report/document.hpp"
 #include "report/figure/figures.hpp"
 #include "report/figure/identification_figure.hpp"
 #include "report/figure/record_figure.hpp"
 #include "report/page/html_page.hpp"
+#include "report/text/device_table.hpp"
+#include "report/text/frf_text.hpp"
+#include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/rig_text.hpp"
+#include "report/text/relay_text.hpp"
+#include "report/text/rig_rows.hpp"
+#include "report/text/trust_text.hpp"
 #include "results/frf_json.hpp"
+#include "zwidth/ranked_findings.hpp"
 
 namespace zwidth::report {
 namespace {
 
-template <typename Result>
-std::string page(std::string_view action, const Device& device, const Result& result, const std::string& figures = "") {
-  const std::string title = fmt::format("Rig {}: {}", action, device.name());
-  return html_page(title, element("h1", title) + html_lines(rig_text(device, result)) + figures);
+std::string date_text(double seconds) {
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(static_cast<std::time_t>(seconds)));
 }
 
-std::string response_figure(const Device& device, const RigMeasurement& measurement) {
-  if (!measurement.response) return "";
-  return html_figure(draw_frf(*measurement.response, results::frf_units(device), FigureFormat::svg), "response",
-                     "Measured from the commanded force to the position, with 95 % bands.");
+/// Without what stands ahead: what speaks against the answer.
+std::vector<std::string> remarks_of(const Trust& trust, const std::vector<Remark>& remarks) {
+  std::vector<std::string> items;
+  for (const RankedFinding& each : most_important(trust, remarks)) {
+    if (each.finding.severity < Finding::Severity::doubt) items.push_back(text(each.words));
+  }
+  return items;
+}
+
+void add_session(Document& document, const RigSession& session) {
+  std::vector<LabelledText> rows;
+  if (session.began > 0.0) rows.push_back({"date", date_text(session.began)});
+  rows.push_back({"program", fmt::format("zwidth {}", ZWIDTH_VERSION)});
+  for (const auto& more : {session_rows(session), safety_rows(session)})
+    rows.insert(rows.end(), more.begin(), more.end());
+  document.part("Session");
+  document.rows(rows);
+  document.table(latency_table(session.timing));
+}
+
+/// What every page of a rig has around what the action found.
+struct Found {
+  std::string_view action;
+  const Device& device;
+  const RigSession& session;
+  const Trust& trust;
+  std::vector<Remark> remarks = {};  ///< beside the session's
+};
+
+std::string page(const Found& found, const std::function<void(Document&)>& add_answer) {
+  const std::string title = fmt::format("Rig {}: {}", found.action, found.device.name());
+  Document document(Medium::page);
+  document.rows(stopped_rows(found.session));
+  document.paragraph(trust_note(found.trust));
+  add_answer(document);
+  std::vector<Remark> remarks = found.remarks;
+  remarks.insert(remarks.end(), found.session.remarks.begin(), found.session.remarks.end());
+  document.part("Remarks");
+  document.list(remarks_of(found.trust, remarks));
+  add_session(document, found.session);
+  document.part("The device as given");
+  document.table(device_table(found.device));
+  return html_page(title, element("h1", title) + std::move(document).str());
+}
+
+void add_response_figure(Document& document, const Device& device, const RigMeasurement& measurement) {
+  document.figure("response", "Measured from the commanded force to the position, with 95 % bands.",
+                  [&] { return draw_frf(*measurement.response, results::frf_units(device), FigureFormat::svg); });
 }
 
 }  // namespace
 
-std::string rig_page(const Device& device, const RigCheck& check) { return page("check", device, check); }
-
-std::string rig_page(const Device& device, const RigMeasurement& measurement) {
-  return page("measure", device, measurement, response_figure(device, measurement));
+std::string rig_page(const Device& device, const RigCheck& check) {
+  return page({"check", device, check.session, check.trust},
+              [&](Document& document) { document.rows(rig_rows(device, check)); });
 }
 
-std::string rig_page(const Device& device, const RigIdentification& found) {
-  std::string figures = response_figure(device, found.measurement);
-  if (found.identification) {
-    figures += html_figure(draw_identification(*found.identification, FigureFormat::svg), "fit",
-                           "The fitted device over what was measured.");
-  }
-  return page("identify", device, found, figures);
+std::string rig_page(const Device& device, const RigMeasurement& measurement) {
+  Found found{"measure", device, measurement.session, measurement.trust};
+  if (measurement.response) found.remarks = measurement.response->remarks;
+  return page(found, [&](Document& document) {
+    if (!measurement.response) return;
+    add_response(document, *measurement.response, results::frf_units(device));
+    document.part();
+    add_response_figure(document, device, measurement);
+  });
+}
+
+std::string rig_page(const Device& device, const RigIdentification& identified) {
+  Found found{"identify", device, identified.measurement.session, identified.trust};
+  if (identified.identification) found.remarks = identified.identification->remarks;
+  return page(found, [&](Document& document) {
+    if (identified.identification) add_identification(document, *identified.identification);
+    document.part();
+    if (identified.measurement.response) add_response_figure(document, device, identified.measurement);
+    if (!identified.identification) return;
+    document.figure("fit", "The fitted device over what was measured.",
+                    [&] { return draw_identification(*identified.identification, FigureFormat::svg); });
+  });
 }
 
 std::string rig_page(const Device& device, const RigRelay& found) {
-  std::string figures;
-  if (found.relay) {
-    figures = html_figure(draw_relay(*found.relay, FigureFormat::svg), "relay",
-                          "The end of the first trial that oscillates: force of the relay, and position.");
-  }
-  return page("relay", device, found, figures);
+  return page({"relay", device, found.session, found.trust}, [&](Document& document) {
+    if (!found.relay) return;
+    add_relay(document, *found.relay);
+    document.part();
+    document.figure("relay", "The end of the first trial that oscillates: force of the relay, and position.",
+                    [&] { return draw_relay(*found.relay, FigureFormat::svg); });
+  });
 }
 
 std::string rig_page(const Device& device, const RigWall& wall) {
-  std::string figures;
-  if (!wall.recording.channels.empty() && !wall.recording.channels[0].samples.empty()) {
+  return page({"wall", device, wall.session, wall.trust}, [&](Document& document) {
+    document.rows(rig_rows(device, wall));
+    if (wall.recording.channels.empty() || wall.recording.channels[0].samples.empty()) return;
     const Units units = units_of(device.parameters().motion);
-    figures =
-        html_figure(draw_record("Wall on the rig: " + device.name(),
-                                fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
-                                            quantity(wall.controller.damping, units.damping)),
-                                {.force = wall.recording.channels[0].samples,
-                                 .position = wall.recording.channels[1].samples,
-                                 .sampling_period = device.loop().sampling_period,
-                                 .motion = device.parameters().motion},
-                                FigureFormat::svg),
-                    "wall", "Force that was sent, and position as sensed, from the first cycle.");
-  }
-  return page("wall", device, wall, figures);
+    document.figure("wall", "Force that was sent, and position as sensed, from the first cycle.", [&] {
+      return draw_record("Wall on the rig: " + device.name(),
+                         fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
+                                     quantity(wall.controller.damping, units.damping)),
+                         {.force = wall.recording.channels[0].samples,
+                          .position = wall.recording.channels[1].samples,
+                          .sampling_period = device.loop().sampling_period,
+                          .motion = device.parameters().motion},
+                         FigureFormat::svg);
+    });
+  });
 }
 
 std::string rig_page(const Device& device, const RigLimit& limit) {
-  std::string figures;
-  const auto is_read = [](const LimitTrial& trial) { return trial.ring.has_value(); };
-  if (std::ranges::any_of(limit.measured.trials, is_read)) {
-    figures = html_figure(draw_limit_trials(device, limit, FigureFormat::svg), "limit",
-                          "Below the grey line the oscillation after a knock decays: the wall is stable. Where the "
-                          "growth passes through zero is the critical stiffness of the device on the rig.");
-  }
-  return page("limit", device, limit, figures);
+  return page({"limit", device, limit.session, limit.trust, limit.remarks}, [&](Document& document) {
+    document.rows(rig_rows(device, limit));
+    const auto is_read = [](const LimitTrial& trial) { return trial.ring.has_value(); };
+    if (std::ranges::any_of(limit.measured.trials, is_read)) {
+      document.figure("limit",
+                      "Below the grey line the oscillation after a knock decays: the wall is stable. Where the growth "
+                      "passes through zero is the critical stiffness of the device on the rig.",
+                      [&] { return draw_limit_trials(device, limit, FigureFormat::svg); });
+    }
+    const Units units = units_of(device.parameters().motion);
+    document.part(fmt::format("Trials, each after a knock of {}", quantity(limit.impulse, units.force)));
+    document.table(trial_table(limit.measured, units));
+  });
 }
 
 }  // namespace zwidth::report

@@ -6,8 +6,8 @@
 
 namespace zwidth::report {
 
-// One self-contained page of what an action on a rig found: rig_text() with the figures of what was measured. Throws
-// OutputFailed as gnuplot does.
+// One self-contained page of what an action on a rig found, with its figures, when and within which limits it ran, and the
+// device. Throws OutputFailed as gnuplot does.
 [[nodiscard]] std::string rig_page(const Device& device, const RigCheck& check);
 [[nodiscard]] std::string rig_page(const Device& device, const RigMeasurement& measurement);
 [[nodiscard]] std::string rig_page(const Device& device, const RigIdentification& identification);

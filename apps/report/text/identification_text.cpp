@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
@@ -32,28 +34,26 @@ std::string fit_quality(const ParameterFit& fit) {
   if (fit.model_error > 1e-4) {
     text += fmt::format("; {:.3g} % of the response unexplained beyond it", 100.0 * std::min(fit.model_error, 10.0));
   }
-  return wrap(text + ".", line_width, 0);
+  return text + ".";
 }
 
-std::string motion_quality(std::span<const FittedMotion> motions, Motion motion, ShownFindings shown) {
-  std::string text;
+std::vector<std::string> motion_quality(std::span<const FittedMotion> motions, Motion motion, ShownFindings shown) {
+  std::vector<std::string> items;
   for (const FittedMotion& each : motions.first(shown_of(motions.size(), most_beside, shown))) {
-    text += wrap(fmt::format("{}noise of {} per sample; {:.3g} % of the motion unexplained.",
-                             motions.size() > 1 ? each.source + ": " : "Motion: ",
-                             quantity(each.noise, units_of(motion).length), 100.0 * each.unexplained),
-                 line_width, 0);
+    items.push_back(fmt::format("{}noise of {} per sample; {:.3g} % of the motion unexplained.",
+                                motions.size() > 1 ? each.source + ": " : "Motion: ",
+                                quantity(each.noise, units_of(motion).length), 100.0 * each.unexplained));
   }
-  return text;
+  return items;
 }
 
-std::string correlations(std::span<const StrongCorrelation> strong, ShownFindings shown) {
-  std::string text;
+std::vector<std::string> correlations(std::span<const StrongCorrelation> strong, ShownFindings shown) {
+  std::vector<std::string> items;
   for (const StrongCorrelation& each : strong.first(shown_of(strong.size(), most_beside, shown))) {
-    text += wrap(
-        fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation),
-        line_width, 2);
+    items.push_back(
+        fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation));
   }
-  return text.empty() ? "" : "\n" + text;
+  return items;
 }
 
 /// "no damper", "the wall's damper of 5 N s/m closed": what a K_CR is given with.
@@ -94,8 +94,7 @@ bool matters(const RivalEstimate& rival, double limit) {
 }
 
 /// What else explains the records, and the critical stiffness over the range of each.
-std::string rivals_text(const Identification& identified, ShownFindings shown) {
-  if (identified.rivals.empty()) return "";
+TextTable rival_table(const Identification& identified, ShownFindings shown) {
   const double limit = identified.analysis.critical.stiffness;
   const Units units = units_of(identified.fit.device.parameters().motion);
   std::vector<RivalEstimate> listed = identified.rivals;
@@ -118,9 +117,16 @@ std::string rivals_text(const Identification& identified, ShownFindings shown) {
                           each.standard_deviation ? size(*each.standard_deviation) : "not determined",
                           end(&Interval::lower), end(&Interval::upper)});
   }
-  std::string text = listed.empty() ? "" : "\n" + layout(table);
-  if (const std::size_t rest = identified.rivals.size() - listed.size(); rest > 0) {
-    text += listed.empty()
+  return table;
+}
+
+std::string rivals_text(const Identification& identified, ShownFindings shown) {
+  if (identified.rivals.empty()) return "";
+  const TextTable table = rival_table(identified, shown);
+  const std::size_t listed = table.rows.size() - 1;
+  std::string text = listed == 0 ? "" : "\n" + layout(table);
+  if (const std::size_t rest = identified.rivals.size() - listed; rest > 0) {
+    text += listed == 0
                 ? wrap(fmt::format("None of the {} other explanations fitted with it moves the limit by {:g} %: "
                                    "--explain lists them.",
                                    rest, 100.0 * least_share_of_limit),
@@ -132,7 +138,7 @@ std::string rivals_text(const Identification& identified, ShownFindings shown) {
 
 /// "sound: critical stiffness 8.849 kN/m, 95 % from 8.7 kN/m to 9.01 kN/m (nobody holding, no damper)".
 std::string limit_line(const Identification& identified) {
-  if (identified.trust.refused()) return "refused: no critical stiffness\n";
+  if (identified.trust.refused()) return "refused: no critical stiffness";
   const Analysis& analysis = identified.analysis;
   const Motion motion = identified.fit.device.parameters().motion;
   const auto value = [&](double stiffness) { return limit_value_text(stiffness, units_of(motion).stiffness); };
@@ -141,9 +147,21 @@ std::string limit_line(const Identification& identified) {
   if (analysis.interval) {
     text += fmt::format(", 95 % from {} to {}", value(analysis.interval->lower), value(analysis.interval->upper));
   }
-  return wrap(fmt::format("{} ({}, {})", text, analysis.alone ? "the file's user holding" : "nobody holding",
-                          basis_text(identified.basis, motion)),
-              line_width, 0);
+  return fmt::format("{} ({}, {})", text, analysis.alone ? "the file's user holding" : "nobody holding",
+                     basis_text(identified.basis, motion));
+}
+
+/// What the limit is of.
+std::optional<std::string> limited_by(const Identification& identified) {
+  const auto limit = what_limits(AnalysedDevice{identified.fit.device, identified.analysis});
+  if (!limit || identified.trust.refused()) return std::nullopt;
+  return "Limited by " + *limit + ".";
+}
+
+std::string paragraphs(const std::vector<std::string>& items, std::size_t indent) {
+  std::string text;
+  for (const std::string& each : items) text += wrap(each, line_width, indent);
+  return text;
 }
 
 }  // namespace
@@ -152,16 +170,32 @@ std::string identification_text(const Identification& identified, ShownFindings 
   const ParameterFit& fit = identified.fit;
   const Motion motion = fit.device.parameters().motion;
   const FindingsText findings = findings_text(identified.trust, identified.remarks, shown);
-  std::string text = limit_line(identified);
+  std::string text = wrap(limit_line(identified), line_width, 0);
   text += fmt::format("{}, identified from {}", display_name(fit.device), identified.source);
   text += "\n" + findings.reasons + "\n";
-  text += layout(estimate_table(fit.estimates, motion)) + correlations(fit.correlations, shown);
+  text += layout(estimate_table(fit.estimates, motion));
+  if (const auto hardly = correlations(fit.correlations, shown); !hardly.empty()) text += "\n" + paragraphs(hardly, 2);
   text += rivals_text(identified, shown) + "\n";
-  if (const auto limit = what_limits(AnalysedDevice{fit.device, identified.analysis});
-      limit && !identified.trust.refused()) {
-    text += wrap("Limited by " + *limit + ".", line_width, 0);
+  if (const auto limit = limited_by(identified)) text += wrap(*limit, line_width, 0);
+  text += paragraphs(motion_quality(identified.motions, motion, shown), 0);
+  if (const std::string quality = fit_quality(fit); !quality.empty()) text += wrap(quality, line_width, 0);
+  return text + findings.remarks;
+}
+
+void add_identification(Document& document, const Identification& identified) {
+  const ParameterFit& fit = identified.fit;
+  const Motion motion = fit.device.parameters().motion;
+  document.paragraph(limit_line(identified));
+  document.paragraph(limited_by(identified));
+  document.part("The device as identified");
+  document.table(estimate_table(fit.estimates, motion));
+  document.list(correlations(fit.correlations, ShownFindings::all));
+  for (const std::string& each : motion_quality(identified.motions, motion, ShownFindings::all)) {
+    document.paragraph(each);
   }
-  return text + motion_quality(identified.motions, motion, shown) + fit_quality(fit) + findings.remarks;
+  document.paragraph(fit_quality(fit));
+  document.part("What else explains the record");
+  document.table(rival_table(identified, ShownFindings::all));
 }
 
 std::string identification_text(const RigidBodyIdentification& identified, ShownFindings shown) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "report/document.hpp"
 #include "report/text/findings_text.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
@@ -12,6 +13,9 @@ namespace zwidth::report {
 /// the wall, and the findings.
 [[nodiscard]] std::string identification_text(const Identification& identified,
                                               ShownFindings shown = ShownFindings::all);
+
+/// The same on a page, without the findings.
+void add_identification(Document& document, const Identification& identified);
 
 /// The numbers of a rigid body with their intervals, how they were found, and the findings.
 [[nodiscard]] std::string identification_text(const RigidBodyIdentification& identified,

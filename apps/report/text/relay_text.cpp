@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -38,17 +39,15 @@ std::string heading(const RelayResult& result) {
   return text + (note ? wrap("as a limit for walls: " + *note, line_width, 2) : "") + "\n";
 }
 
-std::string trial_table(const RelayResult& result) {
+TextTable trial_table(const RelayResult& result) {
   const Units units = units_of(result.motion);
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right},
                   {{"trial", "Hz", "K", "K (dB)", "amplitude", "steady from (s)", "by cycles (Hz)"}}};
-  std::string failures;
   for (std::size_t i = 0; i < result.trials.size(); ++i) {
     const RelayTrial& trial = result.trials[i];
     const std::string name = std::to_string(i + 1);
     if (!trial.result) {
       table.rows.push_back({name, "-", "-", "-", "-", "-", "-"});
-      failures += bulleted(fmt::format("trial {}: no oscillation: {}", name, text(trial.result.error().why)));
       continue;
     }
     const RelayReading& reading = *trial.result;
@@ -63,18 +62,35 @@ std::string trial_table(const RelayResult& result) {
                           quantity(mean->stiffness, units.stiffness), fmt::format("{:.2f}", decibels(mean->stiffness)),
                           quantity(mean->amplitude, units.length), "", ""});
   }
-  return layout(table) + failures;
+  return table;
+}
+
+/// Trials without an oscillation.
+std::vector<std::string> failures(const RelayResult& result) {
+  std::vector<std::string> items;
+  for (std::size_t i = 0; i < result.trials.size(); ++i) {
+    const auto& found = result.trials[i].result;
+    if (!found) items.push_back(fmt::format("trial {}: no oscillation: {}", i + 1, text(found.error().why)));
+  }
+  return items;
 }
 
 std::string spectra_note(const RelayResult& result) {
   for (const RelayTrial& trial : result.trials) {
     if (!trial.result) continue;
-    return wrap(fmt::format("Frequencies are lines of the spectra, {} Hz apart; \"by cycles\" counts the position's "
-                            "cycles instead.",
-                            number(hertz(trial.result->line_spacing))),
-                line_width, 2);
+    return fmt::format(
+        "Frequencies are lines of the spectra, {} Hz apart; \"by cycles\" counts the position's cycles "
+        "instead.",
+        number(hertz(trial.result->line_spacing)));
   }
   return "";
+}
+
+/// Else friction may hold what a wall of that stiffness does not.
+std::optional<std::string> limit_option(const RelayResult& result) {
+  if (!result.mean || !result.trust.sound()) return std::nullopt;
+  return fmt::format("for identify: --limit \"K={:.4g}, hz={:.4g}\"", result.mean->stiffness,
+                     hertz(result.mean->frequency));
 }
 
 /// `none`: what stands where there are no cycles.
@@ -119,11 +135,17 @@ void add_crossovers(TextTable& table, const CriticalStiffness& linear) {
   if (left_out > 0) table.rows.push_back({"", fmt::format("and {} more", left_out), "", ""});
 }
 
-std::string prediction_table(const RelayResult& result) {
-  if (!result.prediction) return "";
+constexpr const char* expected = "What theory expects";
+constexpr const char* of_expectations =
+    "First harmonics are an approximation. The exact oscillations have neither friction nor encoder nor force limit; "
+    "stable or not, all are listed. The continuous relay acts t_d + T/2 late.";
+
+/// Headings alone where nothing is predicted.
+TextTable prediction_table(const RelayResult& result) {
+  TextTable table{{Align::left, Align::right, Align::right, Align::right}, {{"", "Hz", "K (dB)", "amplitude"}}};
+  if (!result.prediction) return table;
   const RelayPrediction& prediction = *result.prediction;
   const std::string_view length = units_of(result.motion).length;
-  TextTable table{{Align::left, Align::right, Align::right, Align::right}, {{"", "Hz", "K (dB)", "amplitude"}}};
   add_crossovers(table, prediction.linear);
   const bool has_exact =
       !(result.device && damper_apart_text(*result.device, result.device->parameters().wall.damping));
@@ -133,11 +155,7 @@ std::string prediction_table(const RelayResult& result) {
              prediction.describing_function, has_exact ? "none" : "none known", length);
   add_cycles(table, "sampled relay, exact", prediction.sampled_relay, none, length);
   add_cycles(table, "continuous relay, exact", prediction.continuous_relay, none, length);
-  return "What theory expects\n" + layout(table) +
-         wrap(
-             "First harmonics are an approximation. The exact oscillations have neither friction nor encoder nor force "
-             "limit; stable or not, all are listed. The continuous relay acts t_d + T/2 late.",
-             line_width, 2);
+  return table;
 }
 
 /// A remark of some trials.
@@ -160,34 +178,61 @@ std::vector<SharedRemark> shared_remarks(const std::vector<RelayTrial>& trials) 
   return shared;
 }
 
-std::string remarks(const RelayResult& result) {
-  std::string text;
-  for (const Remark& remark : result.remarks) text += bulleted(remark_line(remark));
+std::vector<std::string> remarks(const RelayResult& result) {
+  std::vector<std::string> items;
+  for (const Remark& remark : result.remarks) items.push_back(remark_line(remark));
   for (const SharedRemark& remark : shared_remarks(result.trials)) {
     const bool is_of_all = remark.trials.size() == result.trials.size();
-    text +=
-        bulleted(is_of_all ? remark.text : fmt::format("trial {}: {}", fmt::join(remark.trials, ", "), remark.text));
+    items.push_back(is_of_all ? remark.text : fmt::format("trial {}: {}", fmt::join(remark.trials, ", "), remark.text));
   }
   const auto is_first = [&](const RelayTrial& each) { return each.position == result.trials.front().position; };
   if (result.trials.size() > 1 && std::ranges::all_of(result.trials, is_first)) {
-    text += bulleted("all trials are alike: without a start offset and friction nothing varies");
+    items.push_back("all trials are alike: without a start offset and friction nothing varies");
   }
-  return text.empty() ? "" : "\nTo know\n" + text;
+  return items;
+}
+
+std::vector<std::string> explanations(const RelayResult& result) {
+  std::vector<std::string> items;
+  for (const Finding& each : result.explanation) items.push_back(zwidth::text(each));
+  return items;
+}
+
+std::string bullets(const std::string& title, const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& each : items) text += bulleted(each);
+  return text.empty() ? "" : "\n" + title + "\n" + text;
 }
 
 }  // namespace
 
 std::string relay_text(const RelayResult& result) {
   if (result.trials.empty()) return heading(result);
-  std::string text = heading(result) + trial_table(result) + spectra_note(result);
-  if (result.mean && result.trust.sound()) {  // else friction may hold what a wall of that stiffness does not
-    text += fmt::format("  for identify: --limit \"K={:.4g}, hz={:.4g}\"\n", result.mean->stiffness,
-                        hertz(result.mean->frequency));
+  std::string text = heading(result) + layout(trial_table(result));
+  for (const std::string& each : failures(result)) text += bulleted(each);
+  if (const std::string note = spectra_note(result); !note.empty()) text += wrap(note, line_width, 2);
+  if (const auto option = limit_option(result)) text += fmt::format("  {}\n", *option);
+  if (result.prediction) {
+    text += fmt::format("\n{}\n", expected) + layout(prediction_table(result)) + wrap(of_expectations, line_width, 2);
   }
-  if (result.prediction) text += "\n" + prediction_table(result);
-  if (!result.explanation.empty()) text += "\nWhat it means\n";
-  for (const Finding& each : result.explanation) text += bulleted(zwidth::text(each));
-  return text + remarks(result);
+  return text + bullets("What it means", explanations(result)) + bullets("To know", remarks(result));
+}
+
+void add_relay(Document& document, const RelayResult& result) {
+  if (result.trials.empty()) return;
+  document.rows(std::vector<LabelledText>{{"relay", quantity(result.relay.amplitude, units_of(result.motion).force)},
+                                          {"sampling", quantity(1.0 / result.sampling_period, "Hz")}});
+  document.table(trial_table(result));
+  document.list(failures(result));
+  document.paragraph(spectra_note(result));
+  document.paragraph(limit_option(result));
+  document.part(expected);
+  document.table(prediction_table(result));
+  if (result.prediction) document.paragraph(of_expectations);
+  document.part("What it means");
+  document.list(explanations(result));
+  document.part("To know");
+  document.list(remarks(result));
 }
 
 }  // namespace zwidth::report

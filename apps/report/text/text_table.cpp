@@ -87,6 +87,12 @@ std::string broken(std::string_view text, std::size_t width, std::size_t indent)
   return wrapped;
 }
 
+std::string lines_of(std::span<const LabelledText> rows) {
+  std::string text;
+  for (const LabelledText& each : rows) text += labelled(each.label.empty() ? "" : "  " + each.label, each.text);
+  return text;
+}
+
 std::string shortened(std::string_view text, std::size_t width) {
   const std::size_t whole = length(text);
   if (whole <= width) return std::string(text);

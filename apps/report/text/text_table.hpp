@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,15 @@ inline constexpr std::size_t line_width = 100;  ///< of text to read
 
 /// wrap() to `line_width`, the label at the start of the first line.
 [[nodiscard]] std::string labelled(std::string_view label, std::string_view text, std::size_t indent = 22);
+
+/// What stands in one line of an answer: "K_CR measured", "8.85 kN/m at 6.14 Hz".
+struct LabelledText {
+  std::string label;  ///< empty: more of the one before
+  std::string text;
+};
+
+/// Each labelled(), after two spaces.
+[[nodiscard]] std::string lines_of(std::span<const LabelledText> rows);
 
 /// An item of a list: "  - text".
 [[nodiscard]] inline std::string bulleted(std::string_view text) { return labelled("  - ", text, 4); }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/drive_problem.hpp"
 #include "zwidth/finding.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/rig/force_guard.hpp"
@@ -41,10 +42,24 @@ struct LoopTiming {
   std::vector<DurationCount> delays;  ///< the same of all cycles, rising
 };
 
+/// What a drive says of itself. What is absent it does not tell.
+struct DriveSettings {
+  std::string firmware = {};                      ///< "6.05"; empty: it does not tell
+  std::optional<double> force_limit = {};         ///< N or N m, of the drive itself
+  std::optional<double> least_force = {};         ///< N or N m, below which it gives none
+  std::optional<double> least_current = {};       ///< A, the same
+  std::optional<double> tracking_bandwidth = {};  ///< rad/s, of the filter of its position (Sensor); 0: none
+  bool is_filter_assumed = false;                 ///< by its firmware's default: it does not tell
+  std::optional<double> position_lag = {};        ///< s, of a first-order filter of its position; 0: none
+  std::optional<int> mode_after_watchdog = {};    ///< a moteus', by its number
+  bool are_unknown = false;                       ///< it has settings of which nothing is known here
+};
+
 /// One session on a rig: what it ran on, how, and how it ended.
 struct RigSession {
   std::string driver;                       ///< "simulated", "udp:127.0.0.1:7000", ...
   Motion motion = Motion::linear;           ///< of the device
+  double began = 0.0;                       ///< s since 1970 in UTC; 0: not known
   bool lock_step = false;                   ///< the device's time moves with the cycles: as fast as they run
   double sampling_period = 0.0;             ///< s
   SafetyLimits limits;                      ///< beyond which the force went to zero
@@ -52,8 +67,8 @@ struct RigSession {
   StopReason stop = StopReason::none;       ///< none: the work came to its end
   double stopped_at = 0.0;                  ///< s from the start
   std::optional<Nudge> nudge;               ///< before any wall; absent: none was given
-  std::optional<double> drive_force_limit;  ///< N or N m, of the drive itself; absent: it tells none
-  std::string trouble;                      ///< why there was no position, where the drive itself said so; else empty
+  DriveSettings drive;                      ///< of the drive
+  std::optional<DriveProblem> trouble;      ///< why there was no position, where the drive itself said so
   LoopTiming timing;                        ///< of clock and drive
   std::vector<Remark> remarks;              ///< what is worth knowing beside it
 };
