@@ -24,6 +24,12 @@ export interface Axis {
   shared?: string // with the figures whose axis has that name: one cursor, one range
 }
 
+/** A line across, with what lies beyond it. */
+export interface Level {
+  y: number
+  label: string
+}
+
 /** A part of the x axis that is chosen by a drag; an end that is null is that of the axis. */
 export interface Selection {
   from: number | null

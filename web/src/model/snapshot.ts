@@ -16,6 +16,7 @@ export interface Settings {
   contact?: 'unilateral'
   duration?: string
   userForce?: string
+  approach?: string // speed
   relayAmplitude?: string
   oscillatesHz?: string
   target?: string
