@@ -90,6 +90,13 @@ export function fitLine(file: string, options: Options, device: string | null, c
   return device === null ? line : withDevice(`${line} --structure -`, device)
 }
 
+/** A study with its file made before it, in any folder. */
+export function studyLine(study: string, options: Options): string {
+  const name = 'study.toml'
+  const made = withDevice(`cat > ${name}`, study)
+  return `${made}\n${commandLine('study', { study: name, ...options })}`
+}
+
 /** The line, with a device for its standard input. */
 function withDevice(line: string, text: string): string {
   if (hasControls(text)) return `printf '${printfFormat(text)}' | ${line}`

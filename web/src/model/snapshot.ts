@@ -28,6 +28,10 @@ export interface Settings {
   phaseMarginDeg?: string
   ripple?: string
   goal?: string
+  studySpreads?: string // JSON of what varies
+  studyStiffness?: string
+  studyAnyUser?: string
+  studySamples?: string
   workspacePoses?: string
   workspaceNormals?: string
   workspaceStiffness?: string
