@@ -12,6 +12,7 @@ export type {
   Rival,
   Remark,
   Simulation,
+  Study,
   HolderLimit,
   Mechanism as LimitedBy,
   Trust,

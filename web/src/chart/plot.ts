@@ -21,6 +21,20 @@ export interface Axis {
   unit: string
   log?: boolean
   range?: [number, number]
+  shared?: string // with the figures whose axis has that name: one cursor, one range
+}
+
+/** A line across, with what lies beyond it. */
+export interface Level {
+  y: number
+  label: string
+}
+
+/** A part of the x axis that is chosen by a drag; an end that is null is that of the axis. */
+export interface Selection {
+  from: number | null
+  to: number | null
+  choose: (from: number, to: number) => void
 }
 
 /** A point that is dragged, or moved with the arrow keys. */

@@ -71,7 +71,34 @@ function unused(word: string, isFree: (each: string) => boolean): string {
 export function commandLine(command: string, options: Options = {}, text = workbench.toml): string {
   const words = command === 'recommend' ? ['design'] : [command]
   const all = command === 'recommend' ? { recommend: true, ...options } : options
-  const line = ['zwidth', ...words, '-', ...optionsText(all)].join(' ')
+  return withDevice(['zwidth', ...words, '-', ...optionsText(all)].join(' '), text)
+}
+
+/** Lines of a file, from 1: those above its table, and the first and last that are kept. */
+export interface Cut {
+  above: number
+  from: number
+  to: number
+}
+/** A fit of a recording, in its folder; `device`: the structure, where that is one. A cut is a file of its own beside it. */
+export function fitLine(file: string, options: Options, device: string | null, cut: Cut | null): string {
+  const inFolder = (name: string): string => quoted(name.startsWith('-') ? `./${name}` : name)
+  const used = cut ? file.replace(/(\.\w+)?$/, (end) => `_cut${end}`) : file
+  const lines = cut && (cut.above > 0 ? `1,${cut.above}p;` : '') + `${cut.from},${cut.to}p`
+  const made = cut ? `sed -n '${lines}' ${inFolder(file)} > ${inFolder(used)} && ` : ''
+  const line = `${made}${['zwidth identify', inFolder(used), ...optionsText(options)].join(' ')}`
+  return device === null ? line : withDevice(`${line} --structure -`, device)
+}
+
+/** A study with its file made before it, in any folder. */
+export function studyLine(study: string, options: Options): string {
+  const name = 'study.toml'
+  const made = withDevice(`cat > ${name}`, study)
+  return `${made}\n${commandLine('study', { study: name, ...options })}`
+}
+
+/** The line, with a device for its standard input. */
+function withDevice(line: string, text: string): string {
   if (hasControls(text)) return `printf '${printfFormat(text)}' | ${line}`
   const lines = new Set(text.split('\n'))
   const end = unused('END_OF_DEVICE', (each) => !lines.has(each))

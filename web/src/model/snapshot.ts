@@ -16,6 +16,7 @@ export interface Settings {
   contact?: 'unilateral'
   duration?: string
   userForce?: string
+  approach?: string // speed
   relayAmplitude?: string
   oscillatesHz?: string
   target?: string
@@ -27,6 +28,10 @@ export interface Settings {
   phaseMarginDeg?: string
   ripple?: string
   goal?: string
+  studySpreads?: string // JSON of what varies
+  studyStiffness?: string
+  studyAnyUser?: string
+  studySamples?: string
   workspacePoses?: string
   workspaceNormals?: string
   workspaceStiffness?: string

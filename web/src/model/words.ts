@@ -186,6 +186,7 @@ export const glossary: Record<string, string> = {
   'virtual damping': 'The damper that the controller computes from differences of sampled positions.',
   'force per count': 'By how much the force jumps when the encoder counts one step.',
   coherence: 'How much of the motion the force explains at a frequency: 1 all, 0 nothing.',
+  yield: 'The share of many units, each drawn by how its numbers vary, that reach the stiffness that every one must.',
   'relay experiment':
     'A switch in place of the wall makes the device oscillate by itself; the swing shows a stiffness, which is not always the limit.',
   sensitivity: 'What the limit gains or loses when the number grows by 10 %, all else as it is, by the slope here.',

@@ -16,6 +16,7 @@ export const tabNames = {
   change: 'Change',
   recording: 'Recording',
   compare: 'Compare',
+  study: 'Study',
   workspace: 'Workspace',
   file: 'File',
 }
@@ -32,6 +33,7 @@ export const panelNames: [id: string, title: string, tab: Tab][] = [
   ['sweep', 'Follow one number', 'change'],
   ['recording', 'From a recording to a device', 'recording'],
   ['compare', 'Pinned designs', 'compare'],
+  ['study', 'Many units of it', 'study'],
   ['workspace', 'Where in the workspace', 'workspace'],
   ['file', 'Device file and commands', 'file'],
 ]

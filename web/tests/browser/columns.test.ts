@@ -140,11 +140,7 @@ it('takes a file that is dropped anywhere', async () => {
   await drop('wheel.csv', 'time_s,torque_N_m,angle\n0,0,0\n0.001,1,0\n0.002,0,1e-6\n')
   await page.getByRole('button', { name: 'Fit', exact: true }).waitFor()
   await expect.poll(() => page.locator('#body-recording').innerText()).toContain('wheel.csv: text, 3 columns of 3 samples')
-  await expect
-    .poll(() =>
-      page.getByRole('button', { name: 'Fit', exact: true }).evaluate((each) => each.getBoundingClientRect().bottom < innerHeight),
-    )
-    .toBe(true)
+  await expect.poll(() => page.locator('#column-force').evaluate((each) => each.getBoundingClientRect().bottom < innerHeight)).toBe(true)
   expect([
     await page.getByLabel('Force (commanded)').inputValue(),
     await page.getByLabel('Position', { exact: true }).inputValue(),

@@ -6,15 +6,21 @@ import { askAll, openPage, place, project, settled, show, tabs, withWall } from 
 
 const here = place('devices/lhifam.toml')
 
+const unfold = async (page: Page): Promise<void> => {
+  const folded = page.getByRole('button', { name: 'Save Which stiffness is stable', exact: true })
+  if ((await folded.getAttribute('aria-expanded')) === 'false') await folded.click()
+}
 const saved = async (page: Page, label: string): Promise<Buffer> => {
+  if (label.includes('Which stiffness')) await unfold(page)
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: label, exact: true }).click()])
   return readFileSync(await download.path())
 }
 
 /** Every figure in sight, looked at; their names. */
 async function savesAll(page: Page): Promise<string[]> {
+  await unfold(page)
   const buttons = await page
-    .locator('.figure-tools button[aria-label^="Save"]')
+    .locator('.figure-tools button[aria-label^="Save"]:not([aria-expanded])')
     .evaluateAll((all) => all.filter((each) => each.checkVisibility()).map((each) => each.getAttribute('aria-label')!))
   const figures = buttons.flatMap((each) => /^Save (.*) as SVG$/.exec(each)?.[1] ?? [])
   // Every plot that is drawn has them.

@@ -187,7 +187,7 @@ it('says what is missing in an empty device file, and keeps the panels', async (
   await replaceText(page, () => '')
   await page.locator('.answer .problem', { hasText: 'The device file is empty' }).waitFor()
   await settled(page)
-  await expect.poll(() => page.locator('.panel').count()).toBe(11)
+  await expect.poll(() => page.locator('.panel').count()).toBe(12)
   await expect.poll(() => page.locator('.schematic').innerText()).toContain('no bodies')
   await page.locator('.answer .problem').getByRole('button', { name: 'New, open' }).click()
   await page.locator('.examples button').first().click()

@@ -141,7 +141,7 @@ export const nobody = (page: Page): Promise<string> => page.locator('[data-answe
 
 /** A tab of the page; of a narrow one the device is one, too. */
 export const show = async (page: Page, tab: string): Promise<void> => page.getByRole('tab', { name: tab, exact: true }).click()
-export const tabs = ['Wall', 'Time', 'Frequency', 'Change', 'Recording', 'Compare', 'File']
+export const tabs = ['Wall', 'Time', 'Frequency', 'Change', 'Recording', 'Compare', 'Study', 'File']
 /** Each tab in turn, once its panels have caught up. */
 export async function onEachTab(page: Page, look: (tab: string) => Promise<void>): Promise<void> {
   for (const tab of tabs) {

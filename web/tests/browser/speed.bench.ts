@@ -1,6 +1,6 @@
 // How fast the page is, in print: scripts/bench runs it.
 import { expect, it } from 'vitest'
-import { openPage, settled, show, withWall } from './program'
+import { openPage, row, settled, show, tabs, withWall } from './program'
 import { here, key, opened } from './slider'
 
 it.each([1280, 390])('how soon the first answer is on the screen, %i pixels wide', async (width) => {
@@ -96,4 +96,98 @@ it.each([
   await settled(page)
   expect(complaints).toEqual([])
   await context.close()
+})
+
+it.each(tabs)('how the page follows a drag of 10 s with the tab %s open', async (tab) => {
+  const { page, context, complaints } = await openPage(here, 1440)
+  await withWall(page)
+  await show(page, tab)
+  if (tab === 'Study') await page.getByRole('button', { name: 'Vary a number' }).click()
+  await row(page, key).scrollIntoViewIfNeeded()
+  await settled(page)
+  await page.evaluate(() => {
+    const log = { frames: [] as number[], asked: [] as [path: string, took: number, at: number][] }
+    Object.assign(window, { log })
+    const real = window.fetch
+    window.fetch = async (url, init) => {
+      const start = performance.now()
+      const response = await real(url, init)
+      const path = String(url).split('/').at(-1)!
+      void response
+        .clone()
+        .text()
+        .then(
+          () => requestAnimationFrame((now) => log.asked.push([path, now - start, now])),
+          () => {}, // given up
+        )
+      return response
+    }
+    let before = performance.now()
+    const frame = (now: number): void => {
+      log.frames.push(now - before)
+      before = now
+      requestAnimationFrame(frame)
+    }
+    requestAnimationFrame(frame)
+  })
+  const slider = (await row(page, key).locator('input[type="range"]').boundingBox())!
+  const [x, y] = [slider.x + slider.width / 2, slider.y + slider.height / 2]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  const begun = Date.now()
+  for (let i = 0; Date.now() - begun < 10_000; ++i) {
+    await page.mouse.move(x + 0.3 * slider.width * Math.sin(i / 40), y)
+    await page.waitForTimeout(8)
+  }
+  const { frames, asked } = await page.evaluate(
+    () => (window as unknown as { log: { frames: number[]; asked: [string, number, number][] } }).log,
+  )
+  await page.mouse.up()
+  const p95 = (values: number[]): string =>
+    values.length === 0 ? '–' : [...values].sort((a, b) => a - b)[Math.floor(0.95 * (values.length - 1))]!.toFixed(0)
+  const paths = [...new Set(asked.map(([path]) => path))].sort()
+  console.log(
+    `tab ${tab}: frame p95 ${p95(frames)} ms; ` +
+      paths
+        .map((path) => {
+          const of = asked.filter(([each]) => each === path)
+          const gaps = of.slice(1).map(([, , at], i) => at - of[i]![2])
+          return `${path} ${of.length} answers, p95 ${p95(of.map(([, took]) => took))} ms to the picture, one every ${p95(gaps)} ms`
+        })
+        .join('; '),
+  )
+  await settled(page)
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+/** Minutes; 0: not measured. */
+const heapMinutes = Number(process.env.ZWIDTH_HEAP_MINUTES ?? 0)
+it.runIf(heapMinutes > 0)('how much memory the page has after minutes of drags', { timeout: heapMinutes * 60_000 + 200_000 }, async () => {
+  const { page, end } = await opened()
+  const session = await page.context().newCDPSession(page)
+  await session.send('HeapProfiler.enable')
+  const heap = async (): Promise<number> => {
+    await session.send('HeapProfiler.collectGarbage')
+    return (await session.send('Runtime.getHeapUsage')).usedSize / 2 ** 20
+  }
+  const slider = (await row(page, key).locator('input[type="range"]').boundingBox())!
+  const y = slider.y + slider.height / 2
+  const found: string[] = []
+  const begun = Date.now()
+  for (let i = 0, next = 0; Date.now() - begun < heapMinutes * 60_000; ++i) {
+    await page.mouse.move(slider.x + slider.width / 2, y)
+    await page.mouse.down()
+    for (let k = 0; k < 100; ++k) {
+      await page.mouse.move(slider.x + slider.width * (0.5 + 0.3 * Math.sin(k / 8)), y)
+      await page.waitForTimeout(8)
+    }
+    await page.mouse.up()
+    await show(page, tabs[i % tabs.length]!)
+    if (Date.now() - begun < next) continue
+    next += 30_000
+    found.push((await heap()).toFixed(1))
+  }
+  console.log(`heap, MiB, every 30 s of drags over all tabs: ${found.join(', ')}`)
+  await end()
 })
