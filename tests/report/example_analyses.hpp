@@ -23,7 +23,7 @@ inline AnalysedDevice lhifam() {
   parameters.loop = {0, 0, 1, 1e-3, 0.0};
   parameters.sensor.resolution = 3.14e-6;
   const Oscillator rigid_body;
-  const Mechanism mode{Oscillator::Kind::vibration_mode, 1};
+  const Oscillator mode{Oscillator::Kind::vibration_mode, 1};
   Analysis analysis;
   analysis.critical.stiffness = 8848.70869499712;
   analysis.critical.limit = Crossover{38.5965268731856, 8848.70869499712, rigid_body, 2};
