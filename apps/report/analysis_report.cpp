@@ -12,6 +12,7 @@
 #include "report/document.hpp"
 #include "report/figure/device_bode_figure.hpp"
 #include "report/figure/figures.hpp"
+#include "report/page/answer_box.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/analysis_tables.hpp"
 #include "report/text/explanation.hpp"
@@ -37,35 +38,6 @@ std::string first_lines(const AnalysedDevice& analysed) {
   return text;
 }
 
-/// The stiffest spring that stays stable when the user lets go, too.
-std::string headline(const AnalysedDevice& analysed) {
-  const HoldingLimits& limits = analysed.analysis.limits;
-  const bool user_limits = limits.user && limits.user->critical_stiffness < limits.nobody.critical_stiffness;
-  const AnalysedDevice held = user_limits ? analysed : with_nobody_holding(analysed);
-  return element("p",
-                 fmt::format("Stiffest stable spring with {}", words_of(user_limits ? Holder::user : Holder::nobody))) +
-         fmt::format("<p class=\"value\">{}</p>\n", escape_markup(critical_stiffness_text(
-                                                        held.analysis.critical, analysed.device.parameters().motion)));
-}
-
-std::string limit_table(const AnalysedDevice& analysed) {
-  const std::vector<LimitRow> rows = limit_rows(analysed);
-  if (rows.empty()) return "";
-  TextTable table{{Align::left, Align::left, Align::left}, {{"wall", "who holds", "stable"}}};
-  for (const LimitRow& row : rows) {
-    table.rows.push_back({row.what, row.holder, row.hint.empty() ? row.answer : row.answer + "; " + row.hint});
-  }
-  return html_table(table);
-}
-
-std::string answer_box(const AnalysedDevice& analysed) {
-  std::string text = "<div class=\"answer\">\n";
-  text += element("p", trust_note(analysed.analysis.trust).value_or("sound"));
-  text += headline(analysed) + limit_table(analysed);
-  if (const auto interval = interval_note(analysed)) text += element("p", "95 % interval: " + *interval + ".");
-  return text + "</div>\n";
-}
-
 void add_users(Document& document, const AnalysedDevice& analysed) {
   TextTable table{{Align::left, Align::left}, {{"who holds it", "critical stiffness"}}};
   const auto add = [&](std::string who, const std::optional<std::string>& note) {
@@ -77,7 +49,7 @@ void add_users(Document& document, const AnalysedDevice& analysed) {
   document.table(table);
 }
 
-void add_wall(Document& document, const AnalysedDevice& analysed) {
+void add_wall(Document& document, const AnalysedDevice& analysed, const Detail& detail) {
   document.part("", "The wall of the file");
   if (const auto filters = wall_filters_text(analysed.device.parameters().wall)) {
     document.paragraph(fmt::format("Filters in the wall, closed in every number here: {}.", *filters));
@@ -86,7 +58,47 @@ void add_wall(Document& document, const AnalysedDevice& analysed) {
     document.paragraph(*verdict);
     document.list(wall_margin_notes(analysed.analysis));
   }
-  document.list(encoder_notes(analysed));
+  document.list(encoder_notes(analysed, detail));
+}
+
+/// The wall to run, and what it keeps.
+TextTable recommended_table(const RecommendedWall& found, Motion motion) {
+  const Units units = units_of(motion);
+  TextTable table{{Align::left, Align::right}, {{"the wall to run", ""}}};
+  const auto add = [&](std::string what, std::string value) {
+    table.rows.push_back({std::move(what), std::move(value)});
+  };
+  add("stiffness K", quantity(found.wall.stiffness.value_or(0.0), units.stiffness));
+  add("damping B", fmt::format("{} {}", number(found.wall.damping), units.damping));
+  if (found.wall.velocity_filter_hz > 0.0) add("velocity filter", quantity(found.wall.velocity_filter_hz, "Hz"));
+  if (found.notch) add("notch", quantity(found.notch->frequency_hz, "Hz"));
+  if (found.absolute_stability_limit) {
+    add(fmt::format("with this damper and {}, stable up to", words_of(Holder::any_user)),
+        limit_value_text(*found.absolute_stability_limit, units.stiffness));
+  }
+  if (found.margins.phase_margin) add("phase margin", fmt::format("{:.3g}°", degrees(*found.margins.phase_margin)));
+  if (found.margins.delay_margin) add("further delay allowed", quantity(*found.margins.delay_margin, "s"));
+  if (found.force_per_count) add("force per encoder count", quantity(found.force_per_count->largest, units.force));
+  return table;
+}
+
+/// The region of stable walls with the one to run, and what that keeps.
+void add_walls(Document& document, const AnalysedDevice& analysed, std::size_t index) {
+  if (!document.is_page() || !analysed.region) return;
+  const WallRegion& walls = *analysed.region;
+  const RecommendedWall* const found =
+      analysed.walls && analysed.walls->with_margins ? &*analysed.walls->with_margins : nullptr;
+  document.part("Stable walls, and the one to run");
+  if (found != nullptr) {
+    document.table(recommended_table(*found, analysed.device.parameters().motion));
+  }
+  document.figure(
+      fmt::format("region{}", index),
+      "Walls of stiffness K and virtual damping B: stable for anyone, and stable alone only. The boundary is exact.",
+      [&] {
+        return draw_region(analysed.device, walls, FigureFormat::svg,
+                           found != nullptr ? std::optional(found->wall) : std::nullopt);
+      });
 }
 
 void add_figures(Document& document, const AnalysedDevice& analysed, std::size_t index) {
@@ -128,7 +140,7 @@ TextTable numbered(TextTable table) {
   return table;
 }
 
-void add_phase_crossovers(Document& document, const AnalysedDevice& analysed) {
+void add_phase_crossovers(Document& document, const AnalysedDevice& analysed, const Detail& detail) {
   // A long delay has hundreds.
   static constexpr std::size_t most = 20;
   if (analysed.analysis.critical.trust.refused()) return;
@@ -144,17 +156,96 @@ void add_phase_crossovers(Document& document, const AnalysedDevice& analysed) {
                     "Nyquist frequency of {}, that frequency included.",
                     nyquist));
     document.paragraph(count > 0 ? "" : "There is none.");
-    document.table(numbered(crossover_table(analysed)));
+    document.table(numbered(crossover_table(analysed, detail)));
   } else if (count == 0) {
     document.paragraph(heading + ": none");
   } else {
-    document.table(crossover_table(count > most ? with_softest_crossovers(analysed, most) : analysed));
+    document.table(crossover_table(count > most ? with_softest_crossovers(analysed, most) : analysed, detail));
     if (count > most) document.verbatim(fmt::format("  ... the {} softest of {}; --json gives all\n", most, count));
   }
 }
 
-/// What the file says, so that a printed report can be traced.
-TextTable parameters(const AnalysedDevice& analysed) {
+/// `number` from 1, where there are several.
+void add_answer(Document& document, const AnalysedDevice& analysed, std::size_t number, bool is_alone,
+                const Detail& detail) {
+  document.part();
+  if (document.is_page()) {
+    document.verbatim(answer_box(analysed));
+  } else {
+    document.verbatim((is_alone ? "" : fmt::format("{}. ", number)) + first_lines(analysed));
+  }
+  document.part("", "What it means");
+  document.paragraph(meaning(analysed));
+  if (document.is_page()) add_users(document, analysed);
+  add_walls(document, analysed, number);
+  add_wall(document, analysed, detail);
+  const bool is_full = is_alone || document.is_page();
+  if (is_full) {
+    add_figures(document, analysed, number);
+    add_phase_crossovers(document, analysed, detail);
+    document.part("Vibration modes");
+    document.table(mode_table(analysed));
+  }
+  document.part("", "What simpler models say");
+  document.paragraph(rigid_model_note(analysed, detail));
+  if (!is_full) return;
+  document.part();
+  document.paragraph(q_criterion_note(analysed, detail));
+  document.part("What these numbers leave out");
+  document.list(caveats(analysed));
+  document.part("The device as given");
+  if (document.is_page()) document.table(device_table(analysed));
+}
+
+/// The comparison with device names as long as a line allows.
+std::string fitted_comparison(std::span<const AnalysedDevice> devices) {
+  static constexpr std::size_t shortest_name = 6;
+  const std::size_t beside_names = width_of(layout(comparison_table(devices, shortest_name))) - shortest_name;
+  return layout(comparison_table(devices, std::max(shortest_name, line_width - std::min(line_width, beside_names))));
+}
+
+void add_comparison(Document& document, std::span<const AnalysedDevice> devices) {
+  if (!document.is_page()) {
+    document.verbatim(fitted_comparison(devices) + wrap(comparison_legend(devices), line_width, 2));
+    return;
+  }
+  document.table(comparison_table(devices, any_width));
+  document.paragraph(comparison_legend(devices));
+  const auto same_motion = [&](const AnalysedDevice& each) {
+    return each.device.parameters().motion == devices.front().device.parameters().motion;
+  };
+  if (devices.size() <= most_curves && std::ranges::all_of(devices, same_motion)) {
+    document.figure("comparison", "What the sampled wall sees of each device, every crossover marked.",
+                    [&] { return draw(device_bode_figure(devices), FigureFormat::svg); });
+  }
+}
+
+std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medium, const Detail& detail = {}) {
+  Document document(medium);
+  const bool is_alone = devices.size() == 1;
+  if (!is_alone) add_comparison(document, devices);
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const bool is_section = document.is_page() && !is_alone;
+    document.part();
+    if (is_section) {
+      document.verbatim("<section class=\"device\">\n" +
+                        element("h1", fmt::format("{}. {}", i + 1, display_name(devices[i].device))));
+    }
+    add_answer(document, devices[i], i + 1, is_alone, detail);
+    if (is_section) document.verbatim("</section>\n");
+  }
+  if (!is_alone && !document.is_page()) {
+    document.part();
+    document.paragraph(
+        "Each device alone (zwidth analyze FILE) gives its walls with a damper and with margins, its crossovers, modes "
+        "and what the numbers leave out.");
+  }
+  return std::move(document).str();
+}
+
+}  // namespace
+
+TextTable device_table(const AnalysedDevice& analysed) {
   const DeviceParameters& device = analysed.device.parameters();
   const Units units = units_of(device.motion);
   TextTable table{{Align::left, Align::right}, {{"parameter", "value"}}};
@@ -208,93 +299,23 @@ TextTable parameters(const AnalysedDevice& analysed) {
   return table;
 }
 
-/// `number` from 1, where there are several.
-void add_answer(Document& document, const AnalysedDevice& analysed, std::size_t number, bool is_alone) {
-  document.part();
-  if (document.is_page()) {
-    document.verbatim(answer_box(analysed));
-  } else {
-    document.verbatim((is_alone ? "" : fmt::format("{}. ", number)) + first_lines(analysed));
-  }
-  document.part("", "What it means");
-  document.paragraph(meaning(analysed));
-  if (document.is_page()) add_users(document, analysed);
-  add_wall(document, analysed);
-  const bool is_full = is_alone || document.is_page();
-  if (is_full) {
-    add_figures(document, analysed, number);
-    add_phase_crossovers(document, analysed);
-    document.part("Vibration modes");
-    document.table(mode_table(analysed));
-  }
-  document.part("", "What simpler models say");
-  document.paragraph(rigid_model_note(analysed));
-  if (!is_full) return;
-  document.part();
-  document.paragraph(q_criterion_note(analysed));
-  document.part("What these numbers leave out");
-  document.list(caveats(analysed));
-  document.part("The device as given");
-  if (document.is_page()) document.table(parameters(analysed));
-}
-
-/// The comparison with device names as long as a line allows.
-std::string fitted_comparison(std::span<const AnalysedDevice> devices) {
-  static constexpr std::size_t shortest_name = 6;
-  const std::size_t beside_names = width_of(layout(comparison_table(devices, shortest_name))) - shortest_name;
-  return layout(comparison_table(devices, std::max(shortest_name, line_width - std::min(line_width, beside_names))));
-}
-
-void add_comparison(Document& document, std::span<const AnalysedDevice> devices) {
-  if (!document.is_page()) {
-    document.verbatim(fitted_comparison(devices) + wrap(comparison_legend(devices), line_width, 2));
-    return;
-  }
-  document.table(comparison_table(devices, any_width));
-  document.paragraph(comparison_legend(devices));
-  const auto same_motion = [&](const AnalysedDevice& each) {
-    return each.device.parameters().motion == devices.front().device.parameters().motion;
-  };
-  if (devices.size() <= most_curves && std::ranges::all_of(devices, same_motion)) {
-    document.figure("comparison", "What the sampled wall sees of each device, every crossover marked.",
-                    [&] { return draw(device_bode_figure(devices), FigureFormat::svg); });
-  }
-}
-
-std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medium) {
-  Document document(medium);
-  const bool is_alone = devices.size() == 1;
-  if (!is_alone) add_comparison(document, devices);
-  for (std::size_t i = 0; i < devices.size(); ++i) {
-    const bool is_section = document.is_page() && !is_alone;
-    document.part();
-    if (is_section) {
-      document.verbatim("<section class=\"device\">\n" +
-                        element("h1", fmt::format("{}. {}", i + 1, display_name(devices[i].device))));
-    }
-    add_answer(document, devices[i], i + 1, is_alone);
-    if (is_section) document.verbatim("</section>\n");
-  }
-  if (!is_alone && !document.is_page()) {
-    document.part();
-    document.paragraph(
-        "Each device alone (zwidth analyze FILE) gives its walls with a damper and with margins, its crossovers, modes "
-        "and what the numbers leave out.");
-  }
-  return std::move(document).str();
-}
-
-}  // namespace
-
-std::string analysis_text(std::span<const AnalysedDevice> devices) {
+std::string analysis_text(std::span<const AnalysedDevice> devices, const Detail& detail) {
   const auto is_point = [](const AnalysedDevice& each) { return each.analysis.point_wall.has_value(); };
-  if (std::ranges::none_of(devices, is_point)) return analysis_report(devices, Medium::text);
+  if (std::ranges::none_of(devices, is_point)) return analysis_report(devices, Medium::text, detail);
   std::string text;
   for (const AnalysedDevice& each : devices) {
     if (!text.empty()) text += "\n";
-    text += is_point(each) ? point_wall_text(each) : analysis_report({&each, 1}, Medium::text);
+    text += is_point(each) ? point_wall_text(each) : analysis_report({&each, 1}, Medium::text, detail);
   }
   return text;
+}
+
+std::optional<WallRegion> region_of_page(const AnalysedDevice& analysed, const Progress& progress) {
+  const Device& device = analysed.device;
+  if (is_point_wall(device) || device.degrees_of_freedom() > most_bodies_for_wall_summary) return std::nullopt;
+  WallRegion walls = region(device, {.approximations = false, .progress = progress});
+  if (walls.trust.refused() || !walls.region.stiffest) return std::nullopt;
+  return walls;
 }
 
 std::string html_report(std::span<const AnalysedDevice> devices) {
@@ -303,8 +324,7 @@ std::string html_report(std::span<const AnalysedDevice> devices) {
   constexpr std::string_view method =
       "The device is sampled exactly behind its zero-order hold, with the delay as it is, neither rounded to samples "
       "nor approximated. Every phase crossover up to and including the Nyquist frequency is found.";
-  return html_page(title, element("h1", title) + analysis_report(devices, Medium::page) +
-                              fmt::format("<footer>{} Written by zwidth {}.</footer>\n", method, ZWIDTH_VERSION));
+  return html_page(title, element("h1", title) + analysis_report(devices, Medium::page), method);
 }
 
 }  // namespace zwidth::report

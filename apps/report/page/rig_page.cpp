@@ -8,6 +8,7 @@
 #include "report/figure/figures.hpp"
 #include "report/figure/identification_figure.hpp"
 #include "report/figure/record_figure.hpp"
+#include "report/page/answer_box.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/rig_text.hpp"
@@ -19,7 +20,8 @@ namespace {
 template <typename Result>
 std::string page(std::string_view action, const Device& device, const Result& result, const std::string& figures = "") {
   const std::string title = fmt::format("Rig {}: {}", action, device.name());
-  return html_page(title, element("h1", title) + html_lines(rig_text(device, result)) + figures);
+  return html_page(title, element("h1", title) + html_lines(rig_text(device, result)) + figures +
+                              element("h2", "What the device's file says") + answer_box(analysed_device(device)));
 }
 
 std::string response_figure(const Device& device, const RigMeasurement& measurement) {
