@@ -16,19 +16,20 @@ Units units_of(Motion motion) {
 
 std::string number(double value) {
   const double magnitude = std::abs(value);
-  if (magnitude != 0.0 && (magnitude < 1e-3 || magnitude >= 1e6)) return fmt::format("{:.4g}", value);
+  if (magnitude != 0.0 && (magnitude < 1e-3 || magnitude >= 1e5)) return fmt::format("{:.4g}", value);
   if (magnitude >= 1e3) return fmt::format("{:.0f}", value);
   return fmt::format("{:.4g}", value);
 }
 
 std::string quantity(double value, std::string_view unit) {
-  static constexpr std::array<std::string_view, 8> prefixes = {"p", "n", "µ", "m", "", "k", "M", "G"};
-  static constexpr int no_prefix = 4;
+  static constexpr std::array<std::string_view, 7> prefixes = {"n", "µ", "m", "", "k", "M", "G"};
+  static constexpr int no_prefix = 3;
   // Beyond all prefixes, and where rounding could leave the range of a double.
   const bool is_extreme = std::abs(value) < 1e-300 || std::abs(value) > 1e300;
   if (is_extreme || !std::isfinite(value)) return fmt::format("{:.4g} {}", value, unit);
   // Rounded to four digits first, so that 999.96 becomes 1 k and not 1000.
   const double rounded = std::stod(fmt::format("{:.3e}", value));
+  if (std::abs(rounded) < 1e-9) return fmt::format("{:.4g} {}", rounded, unit);
   const int thousands = static_cast<int>(std::floor(std::log10(std::abs(rounded)) / 3.0 + 1e-9));
   const int prefix = std::clamp(thousands + no_prefix, 0, static_cast<int>(prefixes.size()) - 1);
   const double scaled = rounded / std::pow(1000.0, prefix - no_prefix);

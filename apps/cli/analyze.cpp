@@ -32,6 +32,7 @@ struct AnalyzeOptions {
   bool worst_user = false;
   bool require_stable = false;
   bool walls = false;
+  report::Detail detail;
   std::string users;
 };
 
@@ -129,6 +130,7 @@ std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& optio
       if (shows_walls(options) && !is_point_wall(each.device)) {
         each.walls = wall_summary(each.device, each.analysis, {.progress = line.progress()});
       }
+      if (!options.report.empty()) each.region = report::region_of_page(each, line.progress());
       return each;
     }));
   }
@@ -192,7 +194,7 @@ void run_analyze(const AnalyzeOptions& options) {
           results::line(results::analysis_json(each.device, each.analysis, options.walls ? each.walls : std::nullopt));
     outputs.print(lines);
   } else {
-    outputs.print_text(report::analysis_text(analysed));
+    outputs.print_text(report::analysis_text(analysed, options.detail));
     if (!options.report.empty()) outputs.print("\nThe report is in " + options.report + "\n");
   }
   if (options.require_stable) require_stable(options, analysed);
@@ -214,6 +216,9 @@ void add_analyze(CLI::App& app) {
   command->add_option("--users", options->users, "Also search a family of users: ranges of mass, damping, stiffness")
       ->type_name("RANGES")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
+  command->add_flag("--db", options->detail.decibels, "Print stiffnesses in dB re 1 N/m or 1 N m/rad, too");
+  command->add_flag("--formulas", options->detail.formulas,
+                    "Print formulas of the literature where they say nothing of\nthis device, too");
   command->add_flag(
       "--require-stable", options->require_stable,
       "Fail (exit status 1) where a wall is unstable with nobody or\nthe file's user, or not surely stable");

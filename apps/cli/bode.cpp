@@ -39,7 +39,7 @@ std::string crossovers_text(const std::vector<AnalysedDevice>& devices) {
     const CriticalStiffness& critical = each.analysis.critical;
     text += each.device.name() + "\n" + report::trust_lines(each.analysis.trust);
     if (!critical.crossovers.empty()) {
-      text += report::layout(report::crossover_table(each));
+      text += report::layout(report::crossover_table(each, {.decibels = true}));
     } else if (critical.status != StiffnessStatus::refused) {
       text += "  No phase crossover: no wall stiffness makes the loop oscillate.\n";
     }
@@ -82,8 +82,13 @@ void run_bode(const BodeArguments& arguments) {
   BodeOptions options = arguments.bode;
   options.progress = line.progress(analysis_share, 1.0);
   const auto bode_of = [&](const AnalysedDevice& each) { return bode(each.device, each.analysis, options); };
+  if (!arguments.output.csv.empty() && devices.size() > 1) {
+    throw BadInput("--csv", "a csv file holds one device", "give one FILE, or use --json");
+  }
   if (!arguments.output.figure.empty()) check_devices(devices, outputs.figure("--output").has_value());
-  outputs.put("--output", [&] { return results::bode_csv(bode_of(devices.front())); });
+  const auto numbers = [&] { return results::bode_csv(bode_of(devices.front())); };
+  outputs.put("--output", numbers);
+  outputs.put("--csv", numbers);
   outputs.draw("--output",
                [&](report::FigureFormat format) { return draw(device_bode_figure(devices, arguments.bode), format); });
   outputs.commit();
@@ -91,7 +96,7 @@ void run_bode(const BodeArguments& arguments) {
     std::string lines;
     for (const AnalysedDevice& each : devices) lines += results::line(results::bode_json(each.device, bode_of(each)));
     outputs.print(lines);
-  } else if (arguments.output.figure.empty()) {
+  } else if (arguments.output.figure.empty() && arguments.output.csv.empty()) {
     outputs.print_text(crossovers_text(devices));
   }
 }
@@ -104,6 +109,7 @@ void add_bode(CLI::App& app) {
   add_device_arguments(*command, arguments->devices, FileCount::several);
   add_output_options(*command, arguments->output,
                      {.json = "Print the numbers, one JSON document per device, one per line",
+                      .csv = "Write the numbers, of one device",
                       .figure = "Figure (.svg, .png, .pdf) or numbers (.csv) to write"});
   command->add_option("--from", arguments->bode.from, "Lowest frequency, rad/s")->type_name("W");
   command->add_option("--to", arguments->bode.to, "Highest frequency, rad/s; Nyquist unless given")->type_name("W");
@@ -119,7 +125,9 @@ void add_bode(CLI::App& app) {
       "  zwidth bode devices/lhifam.toml --set loop.delay=0.25e-3 --output lhifam.csv --points 1000");
   command->callback([arguments, command] {
     for (const char* option : {"--from", "--to", "--points"}) {
-      if (command->count(option) > 0 && arguments->output.figure.empty() && !arguments->output.json) {
+      const bool has_numbers =
+          !arguments->output.figure.empty() || !arguments->output.csv.empty() || arguments->output.json;
+      if (command->count(option) > 0 && !has_numbers) {
         throw BadInput(option, "is for a figure or its numbers", "add --output FILE or --json");
       }
     }

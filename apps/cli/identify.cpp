@@ -19,6 +19,7 @@
 #include "cli/structure_arguments.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/identification_figure.hpp"
+#include "report/page/identification_page.hpp"
 #include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
 #include "results/identification_json.hpp"
@@ -42,6 +43,7 @@ struct IdentifyArguments {
   bool no_hold = false;
   std::string output_device;
   OutputArguments output{.figure_option = "--figure"};
+  std::string report;
   bool points = false;
 
   [[nodiscard]] bool has_recording() const { return !response.recording.file.empty(); }
@@ -109,6 +111,7 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
 void check(const IdentifyArguments& arguments, Outputs& outputs) {
   if (arguments.output_device != "-") outputs.add("--output-device", arguments.output_device);
   outputs.add(arguments.output);
+  outputs.add("--report", arguments.report, Ending::page);
   outputs.keep(arguments.response.recording.file, "recording");
   for (const std::string& file : arguments.response.recording.more) outputs.keep(file, "recording");
   outputs.keep(arguments.structure.structure, "structure");
@@ -197,6 +200,7 @@ void put(const IdentifyArguments& arguments, Outputs& outputs, const Identified&
   hand_over_device(*arguments.response.command, device);
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
+  outputs.put("--report", [&] { return report::identification_page(identified); });
   outputs.commit();
 }
 
@@ -279,6 +283,8 @@ void add_identify(CLI::App& app) {
       ->type_name("FILE.toml");
   add_output_options(*command, arguments->output,
                      {.figure = "Draw data, fit and residual (.svg, .png, .pdf)", .explain = explain_help});
+  command->add_option("--report", arguments->report, "Also write one self-contained page with limits and figure")
+      ->type_name("OUT.html");
   command->add_flag("--points", arguments->points, "Measured and fitted response in the JSON document")
       ->needs(command->get_option("--json"));
   command->footer(

@@ -45,7 +45,7 @@ void add_output_options(CLI::App& command, OutputArguments& arguments, const Out
     command.add_flag_function("--explain", show_all, help.explain);
   }
   if (help.figure.empty()) return;
-  const std::string names = arguments.figure_option == "--output" ? "-o,--output" : arguments.figure_option;
+  const std::string names = arguments.figure_option == "--output" ? "-o,--output,--figure" : arguments.figure_option;
   command.add_option(names, arguments.figure, help.figure)->type_name("FILE");
 }
 

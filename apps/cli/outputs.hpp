@@ -40,7 +40,8 @@ struct OutputHelp {
   std::string explain = {};
 };
 
-/// Declares --json, --csv, --explain and the figure's option (--output is -o too); `arguments` must outlive the parsing.
+/// Declares --json, --csv, --explain and the figure's option (--output is -o and --figure, too); `arguments` must outlive the
+/// parsing.
 void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help);
 
 /// What a command gives out. The files, each asked for with an option: checked before the work, written after it, all or

@@ -55,6 +55,13 @@ RecordingFormat format_of(const std::string& text) {
   return RecordingFormat::detect;  // CLI11 has checked the word
 }
 
+/// Whether the file has one column of this name, so that no option need name it; standard input is read once.
+bool has_column(const RecordingArguments& arguments, std::string_view name) {
+  if (arguments.file == "-") return false;
+  const auto contents = list_named_recording(*arguments.command, arguments.file, recording_options(arguments));
+  return contents && std::ranges::count(contents->columns, name, &RecordingColumn::name) == 1;
+}
+
 /// "; FILE has: a, b, c", or nothing where the file cannot be listed (its own error is then better).
 std::string columns_of(const RecordingArguments& arguments) {
   if (arguments.file == "-") return "";
@@ -129,8 +136,9 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
 void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
   arguments.command = &command;
   command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(recording_group);
-  add_column(command, "force", arguments.force, "Commanded force: a column's name, or its number from 1", "F");
-  add_column(command, "position", arguments.position, "Sensed position", "M");
+  add_column(command, "force", arguments.force,
+             "Commanded force: a column's name, or its number from 1;\none named force needs no option", "F");
+  add_column(command, "position", arguments.position, "Sensed position; a column named position needs no option", "M");
   add_column(command, "velocity", arguments.velocity, "Sensed velocity, where no position is recorded");
   add_column(command, "acceleration", arguments.acceleration, "Sensed acceleration, where no position is recorded");
   command.add_option("--rate", arguments.options.rate, "Samples per second, where no column holds the time")
@@ -189,8 +197,13 @@ RecordingOptions recording_options(const RecordingArguments& arguments) {
   return options;
 }
 
-RecordedMotion read_motion(const RecordingArguments& arguments) {
-  RecordingOptions options = recording_options(arguments);
+RecordedMotion read_motion(const RecordingArguments& given) {
+  RecordingOptions options = recording_options(given);
+  RecordingArguments arguments = given;
+  const bool names_motion =
+      !given.position.name.empty() || !given.velocity.name.empty() || !given.acceleration.name.empty();
+  if (given.force.name.empty() && has_column(given, "force")) arguments.force.name = "force";
+  if (!names_motion && has_column(given, "position")) arguments.position.name = "position";
   if (arguments.force.name.empty()) {
     throw BadInput("--force", "missing", "name the column of the commanded force" + columns_of(arguments));
   }

@@ -28,6 +28,7 @@ struct RegionArguments {
   OutputArguments output;
   std::optional<std::size_t> raster;
   bool one_rate = false;
+  report::Detail detail;
 };
 
 /// Bound to its progress line, which is gone before anything is printed.
@@ -76,7 +77,7 @@ void run_region(const RegionArguments& arguments) {
   });
   outputs.commit();
   outputs.print(arguments.output.json ? results::line(results::region_json(device, walls))
-                                      : report::for_medium(report::region_text(device, walls)));
+                                      : report::for_medium(report::region_text(device, walls, arguments.detail)));
 }
 
 }  // namespace
@@ -93,6 +94,7 @@ void add_region(CLI::App& app) {
       ->check(CLI::Range(2, 2000));
   command->add_flag("--one-rate", arguments->one_rate,
                     "With [loop.damper]: spring and damper at the slower of the two rates");
+  command->add_flag("--formulas", arguments->detail.formulas, "Print the formulas of the literature beside the region");
   command->footer(
       "Examples:\n"
       "  zwidth region devices/lhifam.toml\n"

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "zwidth/design/region.hpp"
 #include "zwidth/design/wall_summary.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -14,6 +15,7 @@ struct AnalysedDevice {
   Device device;
   Analysis analysis;
   std::optional<WallSummary> walls = {};  ///< where they were asked for
+  std::optional<WallRegion> region = {};  ///< of a page
 };
 
 /// Throws as analyze() does.
@@ -21,5 +23,11 @@ struct AnalysedDevice {
   Analysis analysis = analyze(device, options);
   return {std::move(device), std::move(analysis), std::nullopt};
 }
+
+/// What stands beside the answer where it is asked for.
+struct Detail {
+  bool decibels = false;  ///< stiffnesses in dB re 1 N/m or 1 N m/rad, too
+  bool formulas = false;  ///< formulas of the literature, where they say nothing of this device, too
+};
 
 }  // namespace zwidth::report

@@ -11,6 +11,7 @@
 #include "report/document.hpp"
 #include "report/figure/device_bode_figure.hpp"
 #include "report/figure/figures.hpp"
+#include "report/page/answer_box.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/analysis_tables.hpp"
 #include "report/text/device_table.hpp"
@@ -20,6 +21,7 @@
 #include "report/text/point_wall_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "report/text/wall_filter_text.hpp"
 #include "report/text/wall_note.hpp"
 
 namespace zwidth::report {
@@ -36,35 +38,6 @@ std::string first_lines(const AnalysedDevice& analysed) {
   return text;
 }
 
-/// The stiffest spring that stays stable when the user lets go, too.
-std::string headline(const AnalysedDevice& analysed) {
-  const HoldingLimits& limits = analysed.analysis.limits;
-  const bool user_limits = limits.user && limits.user->critical_stiffness < limits.nobody.critical_stiffness;
-  const AnalysedDevice held = user_limits ? analysed : with_nobody_holding(analysed);
-  return element("p",
-                 fmt::format("Stiffest stable spring with {}", words_of(user_limits ? Holder::user : Holder::nobody))) +
-         fmt::format("<p class=\"value\">{}</p>\n", escape_markup(critical_stiffness_text(
-                                                        held.analysis.critical, analysed.device.parameters().motion)));
-}
-
-std::string limit_table(const AnalysedDevice& analysed) {
-  const std::vector<LimitRow> rows = limit_rows(analysed);
-  if (rows.empty()) return "";
-  TextTable table{{Align::left, Align::left, Align::left}, {{"wall", "who holds", "stable"}}};
-  for (const LimitRow& row : rows) {
-    table.rows.push_back({row.what, row.holder, row.hint.empty() ? row.answer : row.answer + "; " + row.hint});
-  }
-  return html_table(table);
-}
-
-std::string answer_box(const AnalysedDevice& analysed) {
-  std::string text = "<div class=\"answer\">\n";
-  text += element("p", trust_note(analysed.analysis.trust).value_or("sound"));
-  text += headline(analysed) + limit_table(analysed);
-  if (const auto interval = interval_note(analysed)) text += element("p", "95 % interval: " + *interval + ".");
-  return text + "</div>\n";
-}
-
 void add_users(Document& document, const AnalysedDevice& analysed) {
   TextTable table{{Align::left, Align::left}, {{"who holds it", "critical stiffness"}}};
   const auto add = [&](std::string who, const std::optional<std::string>& note) {
@@ -76,7 +49,7 @@ void add_users(Document& document, const AnalysedDevice& analysed) {
   document.table(table);
 }
 
-void add_wall(Document& document, const AnalysedDevice& analysed) {
+void add_wall(Document& document, const AnalysedDevice& analysed, const Detail& detail) {
   document.part("", "The wall of the file");
   if (const auto filters = wall_filters_text(analysed.device.parameters().wall)) {
     document.paragraph(fmt::format("Filters in the wall, closed in every number here: {}.", *filters));
@@ -85,7 +58,47 @@ void add_wall(Document& document, const AnalysedDevice& analysed) {
     document.paragraph(*verdict);
     document.list(wall_margin_notes(analysed.analysis));
   }
-  document.list(encoder_notes(analysed));
+  document.list(encoder_notes(analysed, detail));
+}
+
+/// The wall to run, and what it keeps.
+TextTable recommended_table(const RecommendedWall& found, Motion motion) {
+  const Units units = units_of(motion);
+  TextTable table{{Align::left, Align::right}, {{"the wall to run", ""}}};
+  const auto add = [&](std::string what, std::string value) {
+    table.rows.push_back({std::move(what), std::move(value)});
+  };
+  add("stiffness K", quantity(found.wall.stiffness.value_or(0.0), units.stiffness));
+  add("damping B", fmt::format("{} {}", number(found.wall.damping), units.damping));
+  if (found.wall.velocity_filter_hz > 0.0) add("velocity filter", quantity(found.wall.velocity_filter_hz, "Hz"));
+  if (found.notch) add("notch", quantity(found.notch->frequency_hz, "Hz"));
+  if (found.absolute_stability_limit) {
+    add(fmt::format("with this damper and {}, stable up to", words_of(Holder::any_user)),
+        limit_value_text(*found.absolute_stability_limit, units.stiffness));
+  }
+  if (found.margins.phase_margin) add("phase margin", fmt::format("{:.3g}°", degrees(*found.margins.phase_margin)));
+  if (found.margins.delay_margin) add("further delay allowed", quantity(*found.margins.delay_margin, "s"));
+  if (found.force_per_count) add("force per encoder count", quantity(found.force_per_count->largest, units.force));
+  return table;
+}
+
+/// The region of stable walls with the one to run, and what that keeps.
+void add_walls(Document& document, const AnalysedDevice& analysed, std::size_t index) {
+  if (!document.is_page() || !analysed.region) return;
+  const WallRegion& walls = *analysed.region;
+  const RecommendedWall* const found =
+      analysed.walls && analysed.walls->with_margins ? &*analysed.walls->with_margins : nullptr;
+  document.part("Stable walls, and the one to run");
+  if (found != nullptr) {
+    document.table(recommended_table(*found, analysed.device.parameters().motion));
+  }
+  document.figure(
+      fmt::format("region{}", index),
+      "Walls of stiffness K and virtual damping B: stable for anyone, and stable alone only. The boundary is exact.",
+      [&] {
+        return draw_region(analysed.device, walls, FigureFormat::svg,
+                           found != nullptr ? std::optional(found->wall) : std::nullopt);
+      });
 }
 
 void add_figures(Document& document, const AnalysedDevice& analysed, std::size_t index) {
@@ -127,7 +140,7 @@ TextTable numbered(TextTable table) {
   return table;
 }
 
-void add_phase_crossovers(Document& document, const AnalysedDevice& analysed) {
+void add_phase_crossovers(Document& document, const AnalysedDevice& analysed, const Detail& detail) {
   // A long delay has hundreds.
   static constexpr std::size_t most = 20;
   if (analysed.analysis.critical.trust.refused()) return;
@@ -143,17 +156,18 @@ void add_phase_crossovers(Document& document, const AnalysedDevice& analysed) {
                     "Nyquist frequency of {}, that frequency included.",
                     nyquist));
     document.paragraph(count > 0 ? "" : "There is none.");
-    document.table(numbered(crossover_table(analysed)));
+    document.table(numbered(crossover_table(analysed, detail)));
   } else if (count == 0) {
     document.paragraph(heading + ": none");
   } else {
-    document.table(crossover_table(count > most ? with_softest_crossovers(analysed, most) : analysed));
+    document.table(crossover_table(count > most ? with_softest_crossovers(analysed, most) : analysed, detail));
     if (count > most) document.verbatim(fmt::format("  ... the {} softest of {}; --json gives all\n", most, count));
   }
 }
 
 /// `number` from 1, where there are several.
-void add_answer(Document& document, const AnalysedDevice& analysed, std::size_t number, bool is_alone) {
+void add_answer(Document& document, const AnalysedDevice& analysed, std::size_t number, bool is_alone,
+                const Detail& detail) {
   document.part();
   if (document.is_page()) {
     document.verbatim(answer_box(analysed));
@@ -163,19 +177,20 @@ void add_answer(Document& document, const AnalysedDevice& analysed, std::size_t 
   document.part("", "What it means");
   document.paragraph(meaning(analysed));
   if (document.is_page()) add_users(document, analysed);
-  add_wall(document, analysed);
+  add_walls(document, analysed, number);
+  add_wall(document, analysed, detail);
   const bool is_full = is_alone || document.is_page();
   if (is_full) {
     add_figures(document, analysed, number);
-    add_phase_crossovers(document, analysed);
+    add_phase_crossovers(document, analysed, detail);
     document.part("Vibration modes");
     document.table(mode_table(analysed));
   }
   document.part("", "What simpler models say");
-  document.paragraph(rigid_model_note(analysed));
+  document.paragraph(rigid_model_note(analysed, detail));
   if (!is_full) return;
   document.part();
-  document.paragraph(q_criterion_note(analysed));
+  document.paragraph(q_criterion_note(analysed, detail));
   document.part("What these numbers leave out");
   document.list(caveats(analysed));
   document.part("The device as given");
@@ -205,7 +220,7 @@ void add_comparison(Document& document, std::span<const AnalysedDevice> devices)
   }
 }
 
-std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medium) {
+std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medium, const Detail& detail = {}) {
   Document document(medium);
   const bool is_alone = devices.size() == 1;
   if (!is_alone) add_comparison(document, devices);
@@ -216,7 +231,7 @@ std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medi
       document.verbatim("<section class=\"device\">\n" +
                         element("h1", fmt::format("{}. {}", i + 1, display_name(devices[i].device))));
     }
-    add_answer(document, devices[i], i + 1, is_alone);
+    add_answer(document, devices[i], i + 1, is_alone, detail);
     if (is_section) document.verbatim("</section>\n");
   }
   if (!is_alone && !document.is_page()) {
@@ -230,15 +245,23 @@ std::string analysis_report(std::span<const AnalysedDevice> devices, Medium medi
 
 }  // namespace
 
-std::string analysis_text(std::span<const AnalysedDevice> devices) {
+std::string analysis_text(std::span<const AnalysedDevice> devices, const Detail& detail) {
   const auto is_point = [](const AnalysedDevice& each) { return each.analysis.point_wall.has_value(); };
-  if (std::ranges::none_of(devices, is_point)) return analysis_report(devices, Medium::text);
+  if (std::ranges::none_of(devices, is_point)) return analysis_report(devices, Medium::text, detail);
   std::string text;
   for (const AnalysedDevice& each : devices) {
     if (!text.empty()) text += "\n";
-    text += is_point(each) ? point_wall_text(each) : analysis_report({&each, 1}, Medium::text);
+    text += is_point(each) ? point_wall_text(each) : analysis_report({&each, 1}, Medium::text, detail);
   }
   return text;
+}
+
+std::optional<WallRegion> region_of_page(const AnalysedDevice& analysed, const Progress& progress) {
+  const Device& device = analysed.device;
+  if (is_point_wall(device) || device.degrees_of_freedom() > most_bodies_for_wall_summary) return std::nullopt;
+  WallRegion walls = region(device, {.approximations = false, .progress = progress});
+  if (walls.trust.refused() || !walls.region.stiffest) return std::nullopt;
+  return walls;
 }
 
 std::string html_report(std::span<const AnalysedDevice> devices) {
@@ -247,8 +270,7 @@ std::string html_report(std::span<const AnalysedDevice> devices) {
   constexpr std::string_view method =
       "The device is sampled exactly behind its zero-order hold, with the delay as it is, neither rounded to samples "
       "nor approximated. Every phase crossover up to and including the Nyquist frequency is found.";
-  return html_page(title, element("h1", title) + analysis_report(devices, Medium::page) +
-                              fmt::format("<footer>{} Written by zwidth {}.</footer>\n", method, ZWIDTH_VERSION));
+  return html_page(title, element("h1", title) + analysis_report(devices, Medium::page), method);
 }
 
 }  // namespace zwidth::report

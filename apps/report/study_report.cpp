@@ -273,9 +273,8 @@ std::string study_text(const StudyRun& run, const Study& study) { return study_r
 
 std::string study_page(const StudyRun& run, const Study& study) {
   const std::string title = fmt::format("{}: a study of {} units", display_name(run.device()), study.samples);
-  const std::string version = fmt::format("zwidth {}, seed {}", ZWIDTH_VERSION, run.options().seed);
-  return html_page(title, element("h1", title) + study_report(run, study, Medium::page) + "<footer>" +
-                              element("p", version) + "</footer>");
+  return html_page(title, element("h1", title) + study_report(run, study, Medium::page),
+                   fmt::format("Seed {}.", run.options().seed));
 }
 
 std::string worst_device_file(const Study& study) {

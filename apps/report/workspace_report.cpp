@@ -283,8 +283,7 @@ std::string workspace_text(const Device& device, const Workspace& workspace, Sho
 
 std::string workspace_page(const Device& device, const Workspace& workspace) {
   const std::string title = fmt::format("{}: stiffest walls over its workspace", display_name(device));
-  return html_page(title, element("h1", title) + WorkspaceWriter(device, workspace).page() + "<footer>" +
-                              element("p", fmt::format("zwidth {}", ZWIDTH_VERSION)) + "</footer>");
+  return html_page(title, element("h1", title) + WorkspaceWriter(device, workspace).page());
 }
 
 std::string worst_pose_file(const Device& device, const Workspace& workspace, const std::string& folder) {

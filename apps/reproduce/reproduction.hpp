@@ -16,6 +16,14 @@ struct PaperFigure {
 /// Every figure that can be drawn so far, in the paper's order. Throws OutputFailed.
 [[nodiscard]] std::vector<PaperFigure> paper_figures();
 
+/// What our number says of a printed one.
+enum class PaperVerdict {
+  none,         ///< nothing is printed, or ours rests on what is
+  agrees,       ///< within the digits that are printed, or the tolerance that its reason names
+  differs,      ///< it does not
+  contradicts,  ///< what is claimed is not so
+};
+
 /// A number or claim printed in the paper beside ours.
 struct PaperNumber {
   std::string place;       ///< "Eq. 24"
@@ -24,6 +32,7 @@ struct PaperNumber {
   std::string ours;        ///< with unit; "-" where not reproduced yet
   std::string difference;  ///< ours - printed, or "agrees"
   std::string reason;
+  PaperVerdict verdict = PaperVerdict::none;
 };
 
 /// Every number printed in the paper that the core computes, and what is still missing, in the paper's order.

@@ -13,7 +13,8 @@ namespace zwidth::report {
 namespace {
 
 constexpr double on_resonance_below = 1.5e-3;  // s: the rows in which the rig oscillated near the resonance
-constexpr double acceptable_frequency = 0.06;  // rms
+constexpr double acceptable_frequency = 0.06;  // rms; of a row, too
+constexpr double acceptable_margin = 1.5;      // dB
 
 std::string hertz_and_decibels(const Table2Row& row) {
   return fmt::format("{:.2f} Hz, {:.2f} dB", row.frequency_hz, row.margin_db);
@@ -33,6 +34,8 @@ PaperNumber row(const Table2& table, std::size_t i) {
   const double start = on_resonance ? table.setting.small_start : table.setting.large_start;
   const double other_start = on_resonance ? table.setting.large_start : table.setting.small_start;
   static const ModalForm form = modal_form(Device(paper_lhifam_reduced_pretension()));
+  const bool is_near = std::abs(ours.frequency_hz / printed.frequency_hz - 1.0) <= acceptable_frequency &&
+                       std::abs(ours.margin_db - printed.margin_db) <= acceptable_margin;
   return {"Table II",
           fmt::format("Relay experiment, t_d = {:.0f} ms, mean of four", 1e3 * printed.delay),
           hertz_and_decibels(printed),
@@ -43,7 +46,8 @@ PaperNumber row(const Table2& table, std::size_t i) {
                       "dB.",
                       quantity(other_start, "m"), hertz_and_decibels(other),
                       hertz_and_decibels(table.without_friction.at(i)), linear_limit(table, printed.delay),
-                      -decibels(std::abs(response(form, 2.0 * std::numbers::pi * printed.frequency_hz))))};
+                      -decibels(std::abs(response(form, 2.0 * std::numbers::pi * printed.frequency_hz)))),
+          is_near ? PaperVerdict::agrees : PaperVerdict::differs};
 }
 
 PaperNumber fit(const Table2& table) {
@@ -86,7 +90,8 @@ PaperNumber plateau(const Table2& table) {
           fmt::format("A rigid device with the same friction gives {}. With the cable the oscillation locks where an "
                       "odd harmonic of the square wave meets the resonance: an eleventh of {:.1f} Hz is {:.2f} Hz. "
                       "First harmonics cannot show that.",
-                      frequencies(table.rigid), resonance, resonance / 11.0)};
+                      frequencies(table.rigid), resonance, resonance / 11.0),
+          PaperVerdict::agrees};
 }
 
 PaperNumber first_rows(const Table2& table) {
@@ -104,7 +109,8 @@ PaperNumber first_rows(const Table2& table) {
           100.0 * (1.0 - table.from_small[0].frequency_hz / table.printed[0].frequency_hz),
           100.0 * (1.0 - table.from_small[1].frequency_hz / table.printed[1].frequency_hz),
           table.from_small[0].margin_db - table.printed[0].margin_db,
-          table.from_small[1].margin_db - table.printed[1].margin_db, table.from_large[1].frequency_hz)};
+          table.from_small[1].margin_db - table.printed[1].margin_db, table.from_large[1].frequency_hz),
+      PaperVerdict::differs};
 }
 
 PaperNumber steps() {
@@ -114,7 +120,8 @@ PaperNumber steps() {
           fmt::format("{:.4f} Hz", 1000.0 / 8192.0),
           "agrees",
           "All are multiples of 1000/8192 Hz: a spectrum of 8192 points at 1 kHz, as ours. From 2 ms on the margins "
-          "lie near 1/|G_m|, as an oscillation of the device at that frequency must; Fig. 12 shows no more than that."};
+          "lie near 1/|G_m|, as an oscillation of the device at that frequency must; Fig. 12 shows no more than that.",
+          PaperVerdict::agrees};
 }
 
 }  // namespace

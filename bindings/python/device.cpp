@@ -112,6 +112,8 @@ void bind_device(py::module_& module) {
            "The device of these keys of a device file, tables as dicts: Device(body=[{\"name\": ...}], loop={...}). "
            "Numbers "
            "in SI units, or texts with a unit. Raises InputError with the key.")
+      .def(py::init([](const py::object& source) { return from_toml(source, py::tuple()); }), py::arg("source"),
+           py::pos_only(), "The device of a file: from_toml(source).")
       .def_static(
           "from_toml", &from_toml, py::arg("source"), py::arg("set") = py::tuple(),
           "Reads a device file: its path, or the text itself (more than one line). `set`: \"KEY=VALUE\" as --set "

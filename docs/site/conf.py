@@ -11,7 +11,7 @@ author = "the zwidth authors"
 project_copyright = author
 release = version = os.environ["ZWIDTH_VERSION"]
 root_doc = "docs/index"
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "equations"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton", "equations"]
 html_math_renderer = "katex"
 myst_enable_extensions = ["dollarmath"]
 myst_dmath_allow_labels = False
@@ -29,6 +29,9 @@ html_show_sphinx = False
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 pygments_style = "bw"
+copybutton_selector = "div:not(.highlight-text) > div.highlight pre"  # what programs print is not for a command line
+copybutton_prompt_text = "$ "  # of a console block its commands alone
+copybutton_line_continuation_character = "\\"
 
 
 def escape_signatures(app, what, name, obj, options, lines):

@@ -52,7 +52,7 @@ def figures(root, tree, program):
     text = (root / "docs/gallery.md").read_text()
     folder = tree / "docs/gallery"
     folder.mkdir()
-    for command in re.findall(r"^zwidth (.*)$", text, re.M):
+    for command in re.findall(r"^zwidth (.*)$", text.replace("\\\n", ""), re.M):
         words = shlex.split(command)
         place = words.index("--figure" if "--figure" in words else "--output") + 1
         output = words[place]

@@ -17,10 +17,10 @@ struct Units {
 };
 [[nodiscard]] Units units_of(Motion motion);  ///< SI
 
-/// Four significant digits without trailing zeros: "38.6", "31416", "1.2e-07".
+/// Four significant digits without trailing zeros, and those before the point up to five: "38.6", "31416", "1.2e-07".
 [[nodiscard]] std::string number(double value);
 
-/// A number with an engineering prefix, p to G: quantity(8848.7, "N/m") is "8.849 kN/m". For remarks and reports.
+/// A number with an engineering prefix, n to G, below 1 n with none: quantity(8848.7, "N/m") is "8.849 kN/m".
 [[nodiscard]] std::string quantity(double value, std::string_view unit);
 
 /// 20 log10 of a ratio or of a value in SI units; value > 0.

@@ -273,9 +273,22 @@ TEST_F(Frf, RefusesRecordingsThatDoNotBelongTogether) {
   expect_refusal("zwidth frf a.csv b.csv --table", "more than one file: is for a recording");
 }
 
+TEST_F(Frf, AFigureHasTwoNames) {
+  ASSERT_EQ(run(example + "--output one.svg").status, 0);
+  ASSERT_EQ(run(example + "--figure other.svg").status, 0);
+  EXPECT_EQ(contents("one.svg"), contents("other.svg"));
+}
+
+TEST_F(Frf, ColumnsNamedForceAndPositionNeedNoOption) {
+  const auto named = run("zwidth frf recordings/locked_chirp.csv --force force --position position --json");
+  EXPECT_EQ(named.status, 0);
+  EXPECT_EQ(run("zwidth frf recordings/locked_chirp.csv --json").output, named.output);
+}
+
 TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {
-  expect_refusal("zwidth frf recordings/locked_chirp.csv", "--force: missing; name the column of the commanded force");
-  expect_refusal("zwidth frf recordings/locked_chirp.csv --force force", "has: time, force, position");
+  write("other_names.csv", "time,f,x\n0,1,2\n");
+  expect_refusal("zwidth frf other_names.csv", "--force: missing; name the column of the commanded force");
+  expect_refusal("zwidth frf other_names.csv --force f", "has: time, f, x");
   expect_refusal("zwidth frf missing.csv --force 1 --position 2", "missing.csv");
   expect_refusal("zwidth frf recordings/locked_chirp.csv --force force --position angle",
                  "--position: recordings/locked_chirp.csv: angle: no such column; the file has 3 columns: time, force");

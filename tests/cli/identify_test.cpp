@@ -17,6 +17,7 @@ using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string record = "zwidth identify recordings/locked_chirp.csv --force force --position position ";
@@ -49,6 +50,17 @@ class Identify : public Workspace {
     return json::parse(outcome.output, nullptr, false);
   }
 };
+
+TEST_F(Identify, WritesAPageOfTheFit) {
+  ASSERT_EQ(run(locked + "--report fit.html").status, 0);
+  const std::string page = contents("fit.html");
+  for (const char* part : {"<dt>any passive user</dt>", "link.0.stiffness", "<svg", "Written by zwidth"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+  EXPECT_THAT(page, Not(HasSubstr("<pre>")));
+  ASSERT_EQ(run(free_motion + "--method inverse-dynamics --report rigid.html").status, 0);
+  EXPECT_THAT(contents("rigid.html"), HasSubstr("<svg"));
+}
 
 // The recording is of the paper's Table I (79.5 kN/m, 15 N s/m): recordings/README.md.
 TEST_F(Identify, FindsTheCableOfTheExample) {

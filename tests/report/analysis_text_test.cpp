@@ -10,6 +10,7 @@
 
 #include "report/analysis_report.hpp"
 #include "report/example_analyses.hpp"
+#include "report/text/explanation.hpp"
 #include "report/text/limit_rows.hpp"
 #include "report/text/wall_note.hpp"
 
@@ -21,6 +22,8 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 std::string text_of(const AnalysedDevice& analysed) { return analysis_text({&analysed, 1}); }
+
+std::string with_formulas(const AnalysedDevice& analysed) { return analysis_text({&analysed, 1}, {.formulas = true}); }
 
 /// Without its line breaks, so that a sentence is found wherever it was wrapped.
 std::string unwrapped(std::string text) {
@@ -131,11 +134,27 @@ TEST(AnalysisText, NamesEveryDelayThatLimits) {
 }
 
 TEST(AnalysisText, ListsEveryCrossoverAndMarksTheLimit) {
-  const std::string text = text_of(lhifam());
+  const AnalysedDevice analysed = lhifam();
+  EXPECT_THAT(text_of(analysed), HasSubstr("   6.143 Hz   38.6  8.849 kN/m  rigid body  2 poles leave   <- limits\n"));
+  EXPECT_THAT(text_of(analysed), Not(HasSubstr("dB")));
+  const std::string text = analysis_text({&analysed, 1}, {.decibels = true});
   EXPECT_THAT(text, HasSubstr("   6.143 Hz   38.6  8.849 kN/m   78.94  rigid body  2 poles leave   <- limits\n"));
   EXPECT_THAT(text, HasSubstr("   15.82 Hz   99.4  140.4 kN/m  102.95  rigid body  2 poles return\n"));
   EXPECT_THAT(text, HasSubstr("   98.37 Hz  618.1   33.9 kN/m   90.60  mode 1      2 poles leave\n"));
   EXPECT_THAT(text, HasSubstr("     500 Hz   3142  135.2 MN/m  162.62  rigid body  1 pole leaves   Nyquist\n"));
+}
+
+TEST(AnalysisText, FormulasThatSayNothingOfTheDeviceAreForThoseWhoAsk) {
+  AnalysedDevice analysed = lhifam();
+  EXPECT_FALSE(q_criterion_note(analysed));
+  EXPECT_TRUE(q_criterion_note(analysed, {.formulas = true}));
+  analysed.analysis.q_criterion->mode_matters = true;
+  EXPECT_TRUE(q_criterion_note(analysed));
+  analysed.analysis.quantisation.emplace().not_met = {UnmetAssumption::flexible_links};
+  EXPECT_TRUE(encoder_notes(analysed).empty());
+  EXPECT_EQ(encoder_notes(analysed, {.formulas = true}).size(), 1U);
+  analysed.analysis.quantisation->not_met.clear();
+  EXPECT_EQ(encoder_notes(analysed).size(), 1U);
 }
 
 TEST(AnalysisText, ShortensALongListOfCrossoversToTheSoftest) {
@@ -152,11 +171,11 @@ TEST(AnalysisText, ShortensALongListOfCrossoversToTheSoftest) {
 
 TEST(AnalysisText, SaysOnWhichSideTheRigidModelIs) {
   AnalysedDevice analysed = lhifam();
-  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("7.001 kN/m (-2.03 dB), 20.9 % too low: the safe side"));
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("7.001 kN/m, 20.9 % too low: the safe side"));
   RigidApproximation::Error& error = analysed.analysis.rigid->error;
   analysed.analysis.rigid->critical.stiffness = 2 * 8848.70869499712;
   error = RigidApproximation::Error::unsafe;
-  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("(+6.02 dB), 100 % too high: UNSAFE"));
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr(", 100 % too high: UNSAFE"));
   analysed.analysis.rigid->critical.stiffness = 8848.70869499712;
   error = RigidApproximation::Error::none;
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("the same within 0.05 %"));
@@ -167,25 +186,26 @@ TEST(AnalysisText, SaysOnWhichSideTheRigidModelIs) {
 
 TEST(AnalysisText, ExplainsTheQCriterionInTheRightDirection) {
   AnalysedDevice analysed = lhifam();
-  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("above the rigid critical stiffness of 7.001 kN/m, but similar"));
+  EXPECT_THAT(unwrapped(with_formulas(analysed)),
+              HasSubstr("above the rigid critical stiffness of 7.001 kN/m, but similar"));
   analysed.analysis.q_criterion = QCriterion{3000.0, true};
-  EXPECT_THAT(unwrapped(text_of(analysed)),
+  EXPECT_THAT(unwrapped(with_formulas(analysed)),
               HasSubstr("not above the rigid critical stiffness of 7.001 kN/m: the vibration mode matters"));
   analysed.analysis.q_criterion = QCriterion{3e5, false};
-  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("the mode hardly matters"));
+  EXPECT_THAT(unwrapped(with_formulas(analysed)), HasSubstr("the mode hardly matters"));
 }
 
 TEST(AnalysisText, SaysWhyTheQCriterionIsSilent) {
   AnalysedDevice analysed = lhifam();
   analysed.analysis.q_criterion = QCriterion{3e5, std::nullopt};
   analysed.analysis.rigid->critical.status = StiffnessStatus::none_stable;
-  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("rigid links has no finite critical stiffness to compare"));
+  EXPECT_THAT(unwrapped(with_formulas(analysed)), HasSubstr("rigid links has no finite critical stiffness to compare"));
   DeviceParameters parameters = analysed.device.parameters();
   parameters.loop.sensed = 1;
   analysed.device = Device(parameters);
-  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("It says nothing about this loop"));
-  EXPECT_THAT(unwrapped(text_of(lhifam())), Not(HasSubstr("without the virtual damper")));
-  EXPECT_THAT(unwrapped(text_of(lhifam_with_wall())),
+  EXPECT_THAT(unwrapped(with_formulas(analysed)), HasSubstr("It says nothing about this loop"));
+  EXPECT_THAT(unwrapped(with_formulas(lhifam())), Not(HasSubstr("without the virtual damper")));
+  EXPECT_THAT(unwrapped(with_formulas(lhifam_with_wall())),
               HasSubstr("Q is of the device without the virtual damper. It is not compared"));
 }
 

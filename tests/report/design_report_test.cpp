@@ -112,7 +112,7 @@ TEST(SweepReports, WithoutAnyLimitAreStillDrawn) {
 TEST(SweepFigure, NamesWhatIsDrawn) {
   const std::string figure =
       draw_sweep(lhifam(), delay_sweep({.any_user = true, .crossovers = true}), FigureFormat::svg);
-  EXPECT_THAT(figure, HasSubstr("loop.delay (ms)"));
+  EXPECT_THAT(figure, HasSubstr("Delay (ms)"));
   EXPECT_THAT(figure, HasSubstr("with any passive user"));
   EXPECT_THAT(figure, HasSubstr("crossovers of vibration mode 1"));
   EXPECT_THAT(figure, Not(HasSubstr("vibration mode 2")));
@@ -125,7 +125,7 @@ TEST(SweepFigure, DrawsAMapOfUnevenAndFallingAxes) {
   for (const FigureFormat format : {FigureFormat::svg, FigureFormat::png, FigureFormat::pdf}) {
     EXPECT_GT(draw_sweep(device, sweep, format).size(), 1000U);
   }
-  EXPECT_THAT(draw_sweep(device, sweep, FigureFormat::svg), HasSubstr("link.stiffness (kN/m)"));
+  EXPECT_THAT(draw_sweep(device, sweep, FigureFormat::svg), HasSubstr("Stiffness of the link (kN/m)"));
 }
 
 // Theory, sections 2 and 5: the motor's encoder is better in free motion, the handle's whoever holds it.

@@ -95,6 +95,17 @@ TEST(Reproduction, ThePageHoldsEveryRowAndFigure) {
   for (const PaperFigure& figure : figures) EXPECT_THAT(page, HasSubstr(figure.title));
   EXPECT_THAT(page, HasSubstr("411.2257 rad/s"));
   EXPECT_THAT(page, HasSubstr("Not reproduced"));
+  EXPECT_LT(page.find("<b>"), page.find("<svg"));
+}
+
+TEST(Reproduction, EachNumberHasAVerdict) {
+  const auto count = [](PaperVerdict verdict) { return std::ranges::count(numbers(), verdict, &PaperNumber::verdict); };
+  EXPECT_EQ(row("Mass m").verdict, PaperVerdict::agrees);
+  EXPECT_EQ(row("Q of Table I").verdict, PaperVerdict::differs);
+  EXPECT_EQ(row("When the mode matters").verdict, PaperVerdict::contradicts);
+  EXPECT_EQ(row("Phase crossover with reduced").verdict, PaperVerdict::none);  // ours is inferred from it
+  EXPECT_EQ(count(PaperVerdict::contradicts), 1);
+  EXPECT_GE(count(PaperVerdict::agrees), 10);
 }
 
 }  // namespace

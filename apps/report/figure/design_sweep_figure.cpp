@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -44,9 +45,29 @@ AxisUnit parameter_axis_unit(const SweepAxis& axis, const Device& device) {
   return axis_unit(std::max(std::abs(axis.first), std::abs(axis.last)));
 }
 
+/// What a key's number is: "Delay" of loop.delay, "Mass of motor" of body.motor.mass, "Stiffness of link 0". Of deeper keys the key.
+std::string name_in_words(const std::string& key) {
+  const std::size_t dot = key.rfind('.');
+  if (dot == std::string::npos) return key;
+  const std::string place = key.substr(0, dot);
+  std::string name = key.substr(dot + 1);
+  constexpr std::string_view unit_in_name = "_hz";
+  if (name.ends_with(unit_in_name)) name.resize(name.size() - unit_in_name.size());
+  std::ranges::replace(name, '_', ' ');
+  name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
+  constexpr std::string_view of_body = "body.";
+  constexpr std::string_view of_link = "link.";
+  if (place == "loop") return name;
+  if (place == "loop.damper") return name + " of the damper's loop";
+  if (place.starts_with(of_body)) return name + " of " + place.substr(of_body.size());
+  if (place.starts_with(of_link)) return name + " of link " + place.substr(of_link.size());
+  return place.find('.') == std::string::npos ? fmt::format("{} of the {}", name, place) : key;
+}
+
 std::string axis_title(const SweepAxis& axis, const Device& device) {
   const std::string unit = results::parameter_unit(axis.key, motion_of_key(device.parameters(), axis.key));
-  return unit.empty() ? axis.key : fmt::format("{} ({}{})", axis.key, parameter_axis_unit(axis, device).prefix, unit);
+  const std::string name = name_in_words(axis.key);
+  return unit.empty() ? name : fmt::format("{} ({}{})", name, parameter_axis_unit(axis, device).prefix, unit);
 }
 
 bool is_logarithmic(const SweepAxis& axis) { return axis.spacing == SweepAxis::Spacing::logarithmic; }

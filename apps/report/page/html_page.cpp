@@ -1,7 +1,12 @@
 #include "report/page/html_page.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <ctime>
 #include <string>
 
 #include "report/text/markup.hpp"
@@ -24,8 +29,10 @@ p, ul { margin: .5rem 0; }
 pre { font-size: .93rem; overflow-x: auto; }
 .answer { border: 1px solid var(--line); border-left: 6px solid var(--mark); border-radius: 4px; padding: .8rem 1.2rem;
   margin: 1rem 0; }
-.answer .value { font-size: 1.6rem; font-weight: 600; margin: 0; }
 .answer p { margin: .2rem 0; }
+.holders { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: .3rem 1.5rem; margin: .3rem 0 .6rem; }
+.holders dt { color: var(--quiet); }
+.holders dd { font-size: 1.6rem; font-weight: 600; margin: 0; line-height: 1.2; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; margin: .6rem 0; font-size: .93rem; }
 th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
@@ -44,21 +51,33 @@ figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; padding-b
 .device { border-top: 1px solid var(--line); margin-top: 2.5rem; padding-top: 1rem; }
 footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); font-size: .85rem; color: var(--quiet); }
 @media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } pre { font-size: .72rem; } th, td { padding: .3rem .45rem; }
-  .answer { padding: .6rem .8rem; } .answer .value { font-size: 1.3rem; } }
+  .answer { padding: .6rem .8rem; } .holders dd { font-size: 1.3rem; } }
 @media print { :root { color-scheme: light; --ink: #1a1a1a; --paper: #fff; --quiet: #555; --line: #d4d4d4; }
   figure { overflow: visible; } figure svg { min-width: 0; } body { max-width: none; padding: 0; font-size: 11pt; } figure, table, .answer { break-inside: avoid; }
   h2, h3 { break-after: avoid; } .device { break-before: page; border: 0; } .wide { overflow: visible; } }
 @page { margin: 18mm; }
 )";
 
+/// https://reproducible-builds.org/specs/source-date-epoch
+std::time_t time_of_writing() {
+  const char* const given = std::getenv("SOURCE_DATE_EPOCH");  // NOLINT(concurrency-mt-unsafe): nothing here sets it
+  std::int64_t seconds = 0;
+  const std::string_view text = given == nullptr ? "" : given;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  const bool is_day = !text.empty() && read.ec == std::errc() && seconds >= 0 && seconds < 253402300800;  // year 10000
+  return is_day ? static_cast<std::time_t>(seconds) : std::time(nullptr);
+}
+
 }  // namespace
 
-std::string html_page(std::string_view title, std::string_view body) {
+std::string html_page(std::string_view title, std::string_view body, std::string_view note) {
+  const std::string written = fmt::format("{}{}Written by zwidth {} on {:%Y-%m-%d}.", note, note.empty() ? "" : " ",
+                                          ZWIDTH_VERSION, fmt::gmtime(time_of_writing()));
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}\n"
-      "</body>\n</html>\n",
-      escape_markup(title), style, body);
+      "<footer>{}</footer>\n</body>\n</html>\n",
+      escape_markup(title), style, body, html_text(written));
 }
 
 std::string html_table(const TextTable& table) {

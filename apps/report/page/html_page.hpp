@@ -8,8 +8,9 @@
 
 namespace zwidth::report {
 
-/// A whole HTML file: self-contained, light, and made to print. `body` is markup; `title` is text.
-[[nodiscard]] std::string html_page(std::string_view title, std::string_view body);
+/// A whole HTML file: self-contained, light, and made to print. `body` is markup; `title` and `note` are text. Its last line is the
+/// note, the program's version and the day, in UTC (SOURCE_DATE_EPOCH where that is set).
+[[nodiscard]] std::string html_page(std::string_view title, std::string_view body, std::string_view note = {});
 
 /// The table as HTML, its texts escaped.
 [[nodiscard]] std::string html_table(const TextTable& table);

@@ -12,6 +12,7 @@
 #include "report/figure/figures.hpp"
 #include "report/figure/identification_figure.hpp"
 #include "report/figure/record_figure.hpp"
+#include "report/page/answer_box.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/device_table.hpp"
 #include "report/text/frf_text.hpp"
@@ -70,6 +71,8 @@ std::string page(const Found& found, const std::function<void(Document&)>& add_a
   document.part("Remarks");
   document.list(remarks_of(found.trust, remarks));
   add_session(document, found.session);
+  document.part("What the device's file says");
+  document.verbatim(answer_box(analysed_device(found.device)));
   document.part("The device as given");
   document.table(device_table(found.device));
   return html_page(title, element("h1", title) + std::move(document).str());

@@ -46,7 +46,7 @@ bool has_user(std::span<const AnalysedDevice> devices) {
 
 }  // namespace
 
-TextTable crossover_table(const AnalysedDevice& analysed) {
+TextTable crossover_table(const AnalysedDevice& analysed, const Detail& detail) {
   const CriticalStiffness& critical = analysed.analysis.critical;
   const double nyquist = std::numbers::pi / analysed.device.loop().sampling_period;
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left, Align::left, Align::left},
@@ -59,6 +59,11 @@ TextTable crossover_table(const AnalysedDevice& analysed) {
                           quantity(crossover.stiffness, units_of(analysed.device.parameters().motion).stiffness),
                           fmt::format("{:.2f}", decibels(crossover.stiffness)), short_name(crossover.limited_by),
                           effect_of(crossover.poles_leaving), remark});
+  }
+  if (!detail.decibels) {
+    constexpr std::size_t column = 3;
+    table.alignment.erase(table.alignment.begin() + column);
+    for (auto& row : table.rows) row.erase(row.begin() + column);
   }
   return table;
 }

@@ -11,7 +11,7 @@ namespace zwidth::report {
 // The tables of an answer, shared by the text and the HTML report. Only headings where there is nothing to list.
 
 /// Every phase crossover, by rising frequency.
-[[nodiscard]] TextTable crossover_table(const AnalysedDevice& analysed);
+[[nodiscard]] TextTable crossover_table(const AnalysedDevice& analysed, const Detail& detail = {});
 
 /// The rigid body where springs tie it to ground, and the vibration modes.
 [[nodiscard]] TextTable mode_table(const AnalysedDevice& analysed);

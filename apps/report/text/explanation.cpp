@@ -169,11 +169,8 @@ AnalysedDevice with_nobody_holding(const AnalysedDevice& analysed) {
 
 std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion) {
   switch (critical.status) {
-    case StiffnessStatus::finite: {
-      const auto unit = units_of(motion).stiffness;
-      return fmt::format("{} ({:.2f} dB re 1 {})", quantity(critical.stiffness, unit), decibels(critical.stiffness),
-                         unit);
-    }
+    case StiffnessStatus::finite:
+      return quantity(critical.stiffness, units_of(motion).stiffness);
     case StiffnessStatus::none_stable:
       return critical.stable_intervals.empty() ? "none: no wall is stable, however soft"
                                                : "none: the softest walls are unstable, stiffer ones are stable";
@@ -289,7 +286,7 @@ std::string meaning(const AnalysedDevice& analysed) {
                      limit_meaning(analysed, Holder::user));
 }
 
-std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
+std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed, const Detail& detail) {
   const auto& rigid = analysed.analysis.rigid;
   if (!rigid || analysed.device.bodies().size() < 2 || analysed.analysis.trust.refused()) return std::nullopt;
   const Units units = device_units(analysed);
@@ -307,21 +304,22 @@ std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
     return fmt::format("{}{}{}.", model, value, unsafe ? ": UNSAFE, the links make it lower" : "");
   }
   const double excess = rigid_value / exact.stiffness - 1.0;
-  const std::string off = fmt::format("{}{} ({:+.2f} dB), ", model, stiffness_text(analysed, rigid_value),
-                                      decibels(rigid_value / exact.stiffness));
+  const std::string ratio =
+      detail.decibels ? fmt::format(" ({:+.2f} dB)", decibels(rigid_value / exact.stiffness)) : std::string();
+  const std::string off = fmt::format("{}{}{}, ", model, stiffness_text(analysed, rigid_value), ratio);
   if (unsafe) return off + percent(excess) + " too high: UNSAFE, a wall designed with the rigid model can oscillate.";
   if (rigid->error == RigidApproximation::Error::none) return off + "the same within 0.05 %.";
   return off + percent(-excess) + " too low: the safe side, but stiffness is given away.";
 }
 
-std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
+std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed, const Detail& detail) {
   const auto& criterion = analysed.analysis.q_criterion;
   if (!criterion || !(criterion->stiffness > 0.0) || analysed.analysis.trust.refused()) return std::nullopt;
-  const auto unit = device_units(analysed).stiffness;
+  if (!detail.formulas && !criterion->mode_matters.value_or(false)) return std::nullopt;
   std::string text = fmt::format(
-      "Q criterion (an approximation; the crossovers decide): Q = {} ({:.2f} dB re 1 {}), "
-      "about the least stiffness at which the resonance can go unstable, over all delays. ",
-      quantity(criterion->stiffness, unit), decibels(criterion->stiffness), unit);
+      "Q criterion (an approximation; the crossovers decide): Q = {}, about the least stiffness at which the resonance "
+      "can go unstable, over all delays. ",
+      stiffness_text(analysed, criterion->stiffness));
   if (parameters_of(analysed).wall.damping > 0.0) text += "Q is of the device without the virtual damper. ";
   const Loop& loop = parameters_of(analysed).loop;
   if (loop.sensed != loop.actuated) {
@@ -349,7 +347,7 @@ std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
          fmt::format("It is far above the rigid critical stiffness of {}: the mode hardly matters.", rigid_value);
 }
 
-std::vector<std::string> encoder_notes(const AnalysedDevice& analysed) {
+std::vector<std::string> encoder_notes(const AnalysedDevice& analysed, const Detail& detail) {
   const Units units = units_of(analysed.device.parameters().motion);
   std::vector<std::string> notes;
   if (const auto& force = analysed.analysis.force_per_count) {
@@ -357,7 +355,8 @@ std::vector<std::string> encoder_notes(const AnalysedDevice& analysed) {
                                 quantity(force->largest, units.force), quantity(force->stiffness, units.force),
                                 quantity(force->damping, units.force)));
   }
-  if (const auto& bound = analysed.analysis.quantisation) {
+  const auto& bound = analysed.analysis.quantisation;
+  if (bound && (bound->not_met.empty() || detail.formulas)) {
     notes.push_back(fmt::format(
         "the device's friction dissipates what encoder steps generate up to K = {}: min(2 f_c/q = {}, 2 b/T = {}) "
         "(Abbott & Okamura 2005; passivity of a rigid device with a spring alone, not a limit of stability){}",

@@ -27,7 +27,7 @@ namespace zwidth::report {
 /// The device with nobody holding; without an [operator], as it is.
 [[nodiscard]] AnalysedDevice with_nobody_holding(const AnalysedDevice& analysed);
 
-/// "8.849 kN/m (78.94 dB re 1 N/m)", "none: no wall is stable", "unbounded".
+/// "8.849 kN/m", "none: no wall is stable", "unbounded".
 [[nodiscard]] std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion);
 
 /// "8.7 kN/m to 9.1 kN/m, ...": what the uncertainty of the parameters makes of it. Nothing without an uncertainty.
@@ -49,13 +49,15 @@ namespace zwidth::report {
 [[nodiscard]] std::string meaning(const AnalysedDevice& analysed);
 
 /// How far off a rigid model is, and on which side. Nothing where there is no rigid model or the device is one.
-[[nodiscard]] std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed);
+[[nodiscard]] std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed, const Detail& detail = {});
 
-/// Q and its plain meaning, its approximation stated. Nothing unless the device has two bodies.
-[[nodiscard]] std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed);
+/// Q and its plain meaning, its approximation stated. Nothing unless the device has two bodies, and its mode matters or
+/// formulas are asked for.
+[[nodiscard]] std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed, const Detail& detail = {});
 
-/// What the encoder does to the wall's force, and friction about it, one phrase each.
-[[nodiscard]] std::vector<std::string> encoder_notes(const AnalysedDevice& analysed);
+/// What the encoder does to the wall's force, and friction about it where that formula holds or formulas are asked for,
+/// one phrase each.
+[[nodiscard]] std::vector<std::string> encoder_notes(const AnalysedDevice& analysed, const Detail& detail = {});
 
 /// What the numbers leave out: user, friction, encoder steps, force limit.
 [[nodiscard]] std::vector<std::string> caveats(const AnalysedDevice& analysed);

@@ -22,8 +22,7 @@ std::string in_hertz(const Interval& interval) {
 std::vector<LabelledText> found(const MeasuredStiffness& stiffness, const std::string& unit) {
   const MeasuredCrossover& limit = *stiffness.limit;
   return {{"critical stiffness",
-           fmt::format("{} ({:.2f} dB re 1 {}), {}", quantity(limit.stiffness, unit), decibels(limit.stiffness), unit,
-                       between(*stiffness_interval(stiffness), unit))},
+           fmt::format("{}, {}", quantity(limit.stiffness, unit), between(*stiffness_interval(stiffness), unit))},
           {"oscillates at",
            fmt::format("{}, 95 %: {}", crossover_frequency_text(limit.frequency), in_hertz(limit.frequency_interval))}};
 }

@@ -69,22 +69,6 @@ std::string basis_text(const StiffnessBasis& basis, Motion motion) {
   return text;
 }
 
-/// Value, unit, standard deviation and 95 % interval of each parameter.
-TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion) {
-  TextTable table{{Align::left, Align::right, Align::left, Align::right, Align::right, Align::right},
-                  {{"parameter", "value", "unit", "+-1 sigma", "95 % from", "to"}}};
-  for (const ParameterEstimate& each : estimates) {
-    std::vector<std::string> row = {each.key, number(each.value), parameter_unit(each.key, motion)};
-    if (each.standard_deviation) {
-      row.insert(row.end(), {number(*each.standard_deviation), number(*each.lower), number(*each.upper)});
-    } else {
-      row.insert(row.end(), {"not determined", "-", "-"});
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 /// Whether it moves the limit, or is clearly there.
 bool matters(const RivalEstimate& rival, double limit) {
   const auto moves = [&](double end) { return !(std::abs(end / limit - 1.0) < least_share_of_limit); };
@@ -93,38 +77,20 @@ bool matters(const RivalEstimate& rival, double limit) {
   return rival.standard_deviation && std::abs(rival.value) > 2.0 * *rival.standard_deviation;
 }
 
-/// What else explains the records, and the critical stiffness over the range of each.
-TextTable rival_table(const Identification& identified, ShownFindings shown) {
-  const double limit = identified.analysis.critical.stiffness;
-  const Units units = units_of(identified.fit.device.parameters().motion);
+/// Of what else explains the records, what is shown.
+std::vector<RivalEstimate> shown_rivals(const Identification& identified, ShownFindings shown) {
   std::vector<RivalEstimate> listed = identified.rivals;
-  if (shown != ShownFindings::all) std::erase_if(listed, [&](const auto& each) { return !matters(each, limit); });
-  listed.resize(shown_of(listed.size(), most_rivals, shown));
-  TextTable table{{Align::left, Align::left, Align::right, Align::right, Align::right, Align::right},
-                  {{"what else explains the record", "", "size", "+-1 sigma", "K_CR from", "to"}}};
-  for (const RivalEstimate& each : listed) {
-    const auto size = [&](double value) {
-      const bool takes_prefix = !each.unit.empty() && each.unit.find_first_of(" /") == std::string::npos;
-      return takes_prefix ? quantity(value, each.unit) : number(value) + (each.unit.empty() ? "" : " " + each.unit);
-    };
-    const bool has_range = each.stiffness_interval.has_value() && !identified.trust.refused();
-    const auto end = [&](double Interval::*which) {
-      return has_range ? limit_value_text((*each.stiffness_interval).*which, units.stiffness) : "-";
-    };
-    std::string name = each.code;
-    std::ranges::replace(name, '_', ' ');
-    table.rows.push_back({std::move(name), each.parameter, size(each.value),
-                          each.standard_deviation ? size(*each.standard_deviation) : "not determined",
-                          end(&Interval::lower), end(&Interval::upper)});
-  }
-  return table;
+  if (shown == ShownFindings::all) return listed;
+  const double limit = identified.analysis.critical.stiffness;
+  std::erase_if(listed, [&](const auto& each) { return !matters(each, limit); });
+  listed.resize(std::min(listed.size(), most_rivals));
+  return listed;
 }
 
 std::string rivals_text(const Identification& identified, ShownFindings shown) {
   if (identified.rivals.empty()) return "";
-  const TextTable table = rival_table(identified, shown);
-  const std::size_t listed = table.rows.size() - 1;
-  std::string text = listed == 0 ? "" : "\n" + layout(table);
+  const std::size_t listed = shown_rivals(identified, shown).size();
+  std::string text = listed == 0 ? "" : "\n" + layout(rival_table(identified, shown));
   if (const std::size_t rest = identified.rivals.size() - listed; rest > 0) {
     text += listed == 0
                 ? wrap(fmt::format("None of the {} other explanations fitted with it moves the limit by {:g} %: "
@@ -165,6 +131,52 @@ std::string paragraphs(const std::vector<std::string>& items, std::size_t indent
 }
 
 }  // namespace
+
+TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion) {
+  TextTable table{{Align::left, Align::right, Align::left, Align::right, Align::right, Align::right},
+                  {{"parameter", "value", "unit", "+-1 sigma", "95 % from", "to"}}};
+  for (const ParameterEstimate& each : estimates) {
+    std::vector<std::string> row = {each.key, number(each.value), parameter_unit(each.key, motion)};
+    if (each.standard_deviation) {
+      row.insert(row.end(), {number(*each.standard_deviation), number(*each.lower), number(*each.upper)});
+    } else {
+      row.insert(row.end(), {"not determined", "-", "-"});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+TextTable rival_table(const Identification& identified, ShownFindings shown) {
+  const Units units = units_of(identified.fit.device.parameters().motion);
+  TextTable table{{Align::left, Align::left, Align::right, Align::right, Align::right, Align::right},
+                  {{"what else explains the record", "", "size", "+-1 sigma", "K_CR from", "to"}}};
+  for (const RivalEstimate& each : shown_rivals(identified, shown)) {
+    const auto size = [&](double found) {
+      constexpr double rounding = 1e-12;  // of SI units: what the search leaves of a number that is 0
+      const double value = std::abs(found) < rounding ? 0.0 : found;
+      const bool takes_prefix = !each.unit.empty() && each.unit.find_first_of(" /") == std::string::npos;
+      return takes_prefix ? quantity(value, each.unit) : number(value) + (each.unit.empty() ? "" : " " + each.unit);
+    };
+    const bool has_range = each.stiffness_interval.has_value() && !identified.trust.refused();
+    const auto end = [&](double Interval::*which) {
+      return has_range ? limit_value_text((*each.stiffness_interval).*which, units.stiffness) : "-";
+    };
+    std::string name = each.code;
+    std::ranges::replace(name, '_', ' ');
+    table.rows.push_back({std::move(name), each.parameter, size(each.value),
+                          each.standard_deviation ? size(*each.standard_deviation) : "not determined",
+                          end(&Interval::lower), end(&Interval::upper)});
+  }
+  return table;
+}
+
+std::string quality_of_fit(const Identification& identified) {
+  const Motion motion = identified.fit.device.parameters().motion;
+  std::vector<std::string> sentences = motion_quality(identified.motions, motion, ShownFindings::all);
+  sentences.push_back(fit_quality(identified.fit));
+  return fmt::format("{}", fmt::join(sentences, " "));
+}
 
 std::string identification_text(const Identification& identified, ShownFindings shown) {
   const ParameterFit& fit = identified.fit;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "report/document.hpp"
 #include "report/text/findings_text.hpp"
+#include "report/text/text_table.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
 
@@ -20,5 +22,14 @@ void add_identification(Document& document, const Identification& identified);
 /// The numbers of a rigid body with their intervals, how they were found, and the findings.
 [[nodiscard]] std::string identification_text(const RigidBodyIdentification& identified,
                                               ShownFindings shown = ShownFindings::all);
+
+/// Value, unit, standard deviation and 95 % interval of each parameter.
+[[nodiscard]] TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion);
+
+/// What else explains the records, and the critical stiffness over the range of each: all, or those that count.
+[[nodiscard]] TextTable rival_table(const Identification& identified, ShownFindings shown);
+
+/// What the fit leaves of each motion and of the response.
+[[nodiscard]] std::string quality_of_fit(const Identification& identified);
 
 }  // namespace zwidth::report

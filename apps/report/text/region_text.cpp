@@ -20,8 +20,8 @@ constexpr std::size_t region_indent = 22;
 
 class RegionWriter {
  public:
-  RegionWriter(const Device& device, const WallRegion& walls)
-      : device_(device), walls_(walls), units_(units_of(device.parameters().motion)) {
+  RegionWriter(const Device& device, const WallRegion& walls, const Detail& detail)
+      : device_(device), walls_(walls), detail_(detail), units_(units_of(device.parameters().motion)) {
     named_.modes = walls.modes;
     named_.suspended_rigid_body = walls.suspended_rigid_body;
   }
@@ -50,7 +50,7 @@ class RegionWriter {
     }
     text += (walls_.shared ? shared_lines(*walls_.shared) : answer_lines()) + "\n" + meaning() + "\n";
     if (walls_.any_user) text += absolute_stability_paragraph() + "\n";
-    if (!walls_.approximations.empty()) text += approximations() + "\n";
+    if (detail_.formulas && !walls_.approximations.empty()) text += approximations() + "\n";
     for (const Remark& remark : walls_.remarks) text += wrap(remark_line(remark), line_width, 0) + "\n";
     return text + wrap(
                       "Linear and sampled: friction, encoder steps and the force limit are left out. The area is one "
@@ -207,12 +207,15 @@ class RegionWriter {
 
   const Device& device_;
   const WallRegion& walls_;
+  Detail detail_;
   Analysis named_;  // the modes alone
   Units units_;
 };
 
 }  // namespace
 
-std::string region_text(const Device& device, const WallRegion& walls) { return RegionWriter(device, walls).text(); }
+std::string region_text(const Device& device, const WallRegion& walls, const Detail& detail) {
+  return RegionWriter(device, walls, detail).text();
+}
 
 }  // namespace zwidth::report

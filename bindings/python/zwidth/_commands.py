@@ -18,6 +18,9 @@ from ._errors import InputError, warn_of_document
 Option = Union[bool, int, float, str, None, Sequence[Any]]
 """Of a command: True for a flag, a number (SI) or a text with a unit, a list for what repeats; None leaves it out."""
 
+DeviceOrFile = Union[Device, str, "os.PathLike[str]"]
+"""A Device, or what Device.from_toml() takes: a device file's path, or its text."""
+
 Progress = Optional[Callable[[float], object]]
 """Called with the fraction done, 0 to 1; what it raises ends the work."""
 
@@ -127,23 +130,26 @@ def _options(options: Mapping[str, Any]) -> List[Tuple[str, List[str]]]:
     return given
 
 
+def _opened(device: DeviceOrFile) -> Device:
+    return device if isinstance(device, Device) else Device.from_toml(device)
+
+
 def _run(
     command: str,
-    device: Optional[Device],
+    device: Optional[DeviceOrFile],
     recordings: Sequence[Recorded],
     progress: Progress,
     options: Mapping[str, Any],
     study: Union[str, Path, None] = None,
 ) -> _core.Answer:
-    if device is not None and not isinstance(device, Device):
-        raise InputError("device", f"is of type {type(device).__name__}", "a zwidth.Device")
     held = [_held(each, number) for number, each in enumerate(recordings)]
-    return _core.run(command, _options(options), device, held, progress, study)
+    opened = None if device is None else _opened(device)
+    return _core.run(command, _options(options), opened, held, progress, study)
 
 
 def _result(
     command: str,
-    device: Optional[Device],
+    device: Optional[DeviceOrFile],
     recordings: Sequence[Recorded],
     progress: Progress,
     options: Mapping[str, Any],
@@ -157,25 +163,25 @@ def _result(
     return result
 
 
-def analyze(device: Device, *, progress: Progress = None, **options: Option) -> _results.Analysis:
+def analyze(device: DeviceOrFile, *, progress: Progress = None, **options: Option) -> _results.Analysis:
     """Critical stiffness of a device, what limits it, and the margins of its wall."""
     result: _results.Analysis = _result("analyze", device, (), progress, options)
     return result
 
 
-def bode(device: Device, *, progress: Progress = None, **options: Option) -> _results.Bode:
+def bode(device: DeviceOrFile, *, progress: Progress = None, **options: Option) -> _results.Bode:
     """Frequency responses of a device with every crossover (`from_` is the option --from)."""
     result: _results.Bode = _result("bode", device, (), progress, options)
     return result
 
 
-def region(device: Device, *, progress: Progress = None, **options: Option) -> _results.Region:
+def region(device: DeviceOrFile, *, progress: Progress = None, **options: Option) -> _results.Region:
     """Every stable wall, stiff and damped: the region in the plane of K and B."""
     result: _results.Region = _result("region", device, (), progress, options)
     return result
 
 
-def design(device: Device, *, progress: Progress = None, **options: Option) -> _results.Design:
+def design(device: DeviceOrFile, *, progress: Progress = None, **options: Option) -> _results.Design:
     """What each number of the device does to the limits."""
     _refuse("design", options, "sweep", "compare", "notch", "target", "recommend")
     result: _results.Design = _result("design", device, (), progress, options)
@@ -183,41 +189,41 @@ def design(device: Device, *, progress: Progress = None, **options: Option) -> _
 
 
 def sweep(
-    device: Device, axis: Union[str, Sequence[str]], *, progress: Progress = None, **options: Option
+    device: DeviceOrFile, axis: Union[str, Sequence[str]], *, progress: Progress = None, **options: Option
 ) -> _results.Sweep:
     """The limit along one number or two: `axis` is "KEY=FIRST:LAST:COUNT", or with ":log", or two of these."""
     result: _results.Sweep = _result("design", device, (), progress, {**_given("sweep", axis), **options})
     return result
 
 
-def compare(device: Device, values: str, *, progress: Progress = None, **options: Option) -> _results.Comparison:
+def compare(device: DeviceOrFile, values: str, *, progress: Progress = None, **options: Option) -> _results.Comparison:
     """Several values of one key side by side: "KEY=VALUE,VALUE"."""
     result: _results.Comparison = _result("design", device, (), progress, {**_given("compare", values), **options})
     return result
 
 
-def design_notch(device: Device, *, progress: Progress = None, **options: Option) -> _results.Notch:
+def design_notch(device: DeviceOrFile, *, progress: Progress = None, **options: Option) -> _results.Notch:
     """A notch on the wall's force that lets the wall be stiffer."""
     result: _results.Notch = _result("design", device, (), progress, {"notch": True, **options})
     return result
 
 
 def design_targets(
-    device: Device, target: Union[float, str], *, progress: Progress = None, **options: Option
+    device: DeviceOrFile, target: Union[float, str], *, progress: Progress = None, **options: Option
 ) -> _results.DesignTargets:
     """What each number alone must be for the limit to reach `target`: N/m or N m/rad, "2x", "200 %"; goal="damper": B."""
     result: _results.DesignTargets = _result("design", device, (), progress, {**_given("target", target), **options})
     return result
 
 
-def recommend_wall(device: Device, *, progress: Progress = None, **options: Option) -> _results.WallRecommendation:
+def recommend_wall(device: DeviceOrFile, *, progress: Progress = None, **options: Option) -> _results.WallRecommendation:
     """The wall to render: K, B, velocity filter and optional notch, stable for any passive user with margins."""
     result: _results.WallRecommendation = _result("recommend", device, (), progress, options)
     return result
 
 
 def diagnose(
-    device: Device, *, recording: Optional[Recorded] = None, progress: Progress = None, **options: Option
+    device: DeviceOrFile, *, recording: Optional[Recorded] = None, progress: Progress = None, **options: Option
 ) -> _results.Diagnosis:
     """What an oscillation is, by its frequency (oscillates_hz) or a recording of it, and what moves it."""
     recordings = () if recording is None else (recording,)
@@ -226,7 +232,7 @@ def diagnose(
 
 
 def simulate(
-    device: Device, *, user_force: Union[str, Recorded, None] = None, progress: Progress = None, **options: Option
+    device: DeviceOrFile, *, user_force: Union[str, Recorded, None] = None, progress: Progress = None, **options: Option
 ) -> _results.Simulation:
     """The sampled loop in time. `points=True` keeps the motion; `user_force`: "step:5@0.1" and the like, or a recording."""
     recordings: Tuple[Recorded, ...] = ()
@@ -239,7 +245,7 @@ def simulate(
 
 
 def relay(
-    device: Optional[Device] = None,
+    device: Optional[DeviceOrFile] = None,
     *,
     recording: Optional[Recorded] = None,
     progress: Progress = None,
@@ -276,14 +282,14 @@ def identify(
     return _result("identify", device, recordings, progress, options)
 
 
-def excite(device: Optional[Device] = None, *, progress: Progress = None, **options: Option) -> _results.Excitation:
+def excite(device: Optional[DeviceOrFile] = None, *, progress: Progress = None, **options: Option) -> _results.Excitation:
     """A signal to excite a device with, played through a model of it where one is given."""
     result: _results.Excitation = _result("excite", device, (), progress, options)
     return result
 
 
 def study(
-    device: Device,
+    device: DeviceOrFile,
     study: Union[str, "os.PathLike[str]", Mapping[str, Any]],
     *,
     progress: Progress = None,
@@ -311,7 +317,7 @@ def study(
 
 
 def workspace(
-    device: Device,
+    device: DeviceOrFile,
     *,
     poses: Union[str, Sequence[str], npt.ArrayLike, Mapping[str, npt.ArrayLike], None] = None,
     points: Union[str, npt.ArrayLike, None] = None,
@@ -329,7 +335,8 @@ def workspace(
     """
     if directions is not None and normals is not None:
         raise InputError("options.directions", "are given beside normals", "one of the two")
-    if isinstance(device, Device) and poses is not None:
+    device = _opened(device)
+    if poses is not None:
         options["poses"] = _mechanism.poses_text(device, poses)
     if points is not None:
         options["points"] = _mechanism.vectors_text("points", points)
@@ -341,13 +348,13 @@ def workspace(
     return result
 
 
-def model(device: Device) -> _results.Model:
+def model(device: DeviceOrFile) -> _results.Model:
     """The continuous and the exact discrete model of a device, and its wall: `export --format json`."""
     result: _results.Model = _result("export", device, (), None, {"format": "json"})
     return result
 
 
-def export(device: Device, format: str, **options: Option) -> str:
+def export(device: DeviceOrFile, format: str, **options: Option) -> str:
     """The model or the wall as the text of a program: "octave", "python", "json", "c" or "chai3d"."""
     text = _run("export", device, (), None, {"format": format, **options}).printed
     # The text says what is doubtful; so does the document of the same device.
@@ -405,7 +412,7 @@ class CriticalStiffnessMany:
 
 
 def critical_stiffness_many(
-    device: Device, changes: Mapping[str, npt.ArrayLike], *, progress: Progress = None
+    device: DeviceOrFile, changes: Mapping[str, npt.ArrayLike], *, progress: Progress = None
 ) -> CriticalStiffnessMany:
     """critical_stiffness() of the device with the i-th value of every key set, for every i, on all cores.
 
@@ -414,7 +421,7 @@ def critical_stiffness_many(
     if not hasattr(changes, "items"):
         raise InputError("changes", f"is of type {type(changes).__name__}", "arrays by key")
     arrays = {str(key): _real_numbers(f"device.{key}", values, "numbers in SI units") for key, values in changes.items()}
-    return CriticalStiffnessMany(_core.critical_stiffness_many(device, arrays, progress))
+    return CriticalStiffnessMany(_core.critical_stiffness_many(_opened(device), arrays, progress))
 
 
 _COMMANDS = {

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,9 @@ def is_main_interpreter() -> bool: ...
 
 class Device:
     """A haptic device and its sampled loop; never changes."""
+    @overload
+    def __init__(self, source: Union[str, PathLike[str]], /) -> None: ...
+    @overload
     def __init__(self, **keys: Any) -> None: ...
     @staticmethod
     def from_toml(source: Union[str, PathLike[str]], set: Sequence[str] = ...) -> Device: ...
