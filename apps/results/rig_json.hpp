@@ -21,7 +21,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(NudgeReading, {{NudgeReading::with_force, "with_for
                                             {NudgeReading::against_force, "against_force"},
                                             {NudgeReading::not_told, "not_told"}})
 
-// The documents of `rig ACTION --json`, schema "zwidth.rig_ACTION/1": see docs/rig.md.
+// The documents of `rig ACTION --json`, schema "zwidth.rig_ACTION/1": see docs/rig_method.md.
 [[nodiscard]] Json rig_json(const Device& device, const RigCheck& check);
 [[nodiscard]] Json rig_json(const Device& device, const RigMeasurement& measurement);
 [[nodiscard]] Json rig_json(const Device& device, const RigIdentification& identification);

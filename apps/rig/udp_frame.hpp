@@ -8,7 +8,7 @@
 
 namespace zwidth::rig {
 
-/// A frame of the UDP protocol, both ways: 40 bytes, little-endian, in SI units (docs/rig.md).
+/// A frame of the UDP protocol, both ways: 40 bytes, little-endian, in SI units (docs/rig_drives.md).
 ///
 ///     offset   0        4      12         20         28      36
 ///              sequence time   position   velocity   force   CRC-32 (polynomial 0x04C11DB7, as in zlib) of what stands before

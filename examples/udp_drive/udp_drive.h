@@ -1,5 +1,5 @@
 /* The drive's end of `zwidth rig --driver udp:HOST:PORT` in C99, around two functions of a device: udp_drive.c simulates one,
- * bridges/ asks those of vendors. Frames: docs/rig.md.
+ * bridges/ asks those of vendors. Frames: docs/rig_drives.md.
  *
  * Prints its port, and then a line each time its watchdog lets go or takes hold again.
  */

@@ -1,4 +1,4 @@
-// What docs/rig.md shows of drives, as it stands there: the [driver] table, the commands, the rates of the lines.
+// What docs/rig_drives.md and docs/rig_method.md show of drives, as it stands there: the [driver] table, the commands, the rates of the lines.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,9 @@ std::string text_of(const std::filesystem::path& file) {
 
 std::string document_of_buses() { return text_of(ZWIDTH_SOURCE_DIR "/docs/rig_can.md"); }
 
-std::string document() { return text_of(ZWIDTH_SOURCE_DIR "/docs/rig.md"); }
+std::string document() {
+  return text_of(ZWIDTH_SOURCE_DIR "/docs/rig_drives.md") + text_of(ZWIDTH_SOURCE_DIR "/docs/rig_method.md");
+}
 
 /// The lines of all fenced blocks of a language.
 std::vector<std::string> lines_of(const std::string& language) {

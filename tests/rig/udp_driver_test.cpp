@@ -36,7 +36,7 @@ std::string hexadecimal(std::span<const std::byte> bytes) {
   return text;
 }
 
-// Written by hand from the table in docs/rig.md: 7, 1.5 s, -0.25 m, 2 m/s, 0.5 N, and zlib.crc32 of that.
+// Written by hand from the table in docs/rig_drives.md: 7, 1.5 s, -0.25 m, 2 m/s, 0.5 N, and zlib.crc32 of that.
 TEST(UdpFrame, IsTheDocumentedOne) {
   const auto bytes = encoded({7, 1.5, -0.25, 2.0, 0.5});
   EXPECT_EQ(hexadecimal(bytes),
