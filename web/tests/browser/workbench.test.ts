@@ -52,6 +52,7 @@ describe('work habits', () => {
     ] as const) {
       await show(page, tab)
       await settled(page)
+      if (name.includes('Which stiffness')) await page.getByRole('button', { name: 'Save Which stiffness is stable', exact: true }).click()
       const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name }).click()])
       const bytes = readFileSync(await download.path())
       expect(bytes.subarray(0, start.length).toString('latin1')).toBe(start)
