@@ -208,7 +208,8 @@ export function everythingAt(width: number): void {
     await context.close()
   })
 
-  it.each(['light', 'dark'] as const)('is usable by all: no violation on any tab, %s', async (scheme) => {
+  // Colours do not hang on the width: the dark ones are looked at once.
+  it.each(width > 1000 ? (['light', 'dark'] as const) : (['light'] as const))('is usable by all: no violation on any tab, %s', async (scheme) => {
     const { page, context, complaints } = await openPage(here, width, '', scheme)
     await withWall(page)
     await askAll(page)
