@@ -209,34 +209,37 @@ export function everythingAt(width: number): void {
   })
 
   // Colours do not hang on the width: the dark ones are looked at once.
-  it.each(width > 1000 ? (['light', 'dark'] as const) : (['light'] as const))('is usable by all: no violation on any tab, %s', async (scheme) => {
-    const { page, context, complaints } = await openPage(here, width, '', scheme)
-    await withWall(page)
-    await askAll(page)
-    await page.getByRole('button', { name: 'Pin', exact: true }).click()
-    await show(page, 'Frequency')
-    await page.getByRole('button', { name: 'Table of Bode magnitude' }).click()
-    await show(page, 'Recording')
-    await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
-    await page.getByRole('button', { name: 'Fit', exact: true }).click()
-    await page.getByRole('button', { name: 'Use this device' }).waitFor()
-    await settled(page)
-    await page.evaluate(axe.source)
-    const look = async (tab: string): Promise<void> => {
-      expect(await violations(page), `${tab}, ${scheme}`).toEqual([])
-      await expect
-        .poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth))
-        .toBeLessThanOrEqual(0)
-    }
-    await onEachTab(page, look)
-    await page.getByRole('button', { name: 'New, open' }).click()
-    await look('the menu')
-    await page.keyboard.press('Escape')
-    await toDevice(page)
-    await look('the device')
-    expect(complaints).toEqual([])
-    await context.close()
-  })
+  it.each(width > 1000 ? (['light', 'dark'] as const) : (['light'] as const))(
+    'is usable by all: no violation on any tab, %s',
+    async (scheme) => {
+      const { page, context, complaints } = await openPage(here, width, '', scheme)
+      await withWall(page)
+      await askAll(page)
+      await page.getByRole('button', { name: 'Pin', exact: true }).click()
+      await show(page, 'Frequency')
+      await page.getByRole('button', { name: 'Table of Bode magnitude' }).click()
+      await show(page, 'Recording')
+      await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
+      await page.getByRole('button', { name: 'Fit', exact: true }).click()
+      await page.getByRole('button', { name: 'Use this device' }).waitFor()
+      await settled(page)
+      await page.evaluate(axe.source)
+      const look = async (tab: string): Promise<void> => {
+        expect(await violations(page), `${tab}, ${scheme}`).toEqual([])
+        await expect
+          .poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth))
+          .toBeLessThanOrEqual(0)
+      }
+      await onEachTab(page, look)
+      await page.getByRole('button', { name: 'New, open' }).click()
+      await look('the menu')
+      await page.keyboard.press('Escape')
+      await toDevice(page)
+      await look('the device')
+      expect(complaints).toEqual([])
+      await context.close()
+    },
+  )
 
   it('goes from a recording to a device', async () => {
     const { page, context, complaints } = await openPage(here, width)
