@@ -89,6 +89,9 @@ void add_walls(Document& document, const AnalysedDevice& analysed, std::size_t i
   const RecommendedWall* const found =
       analysed.walls && analysed.walls->with_margins ? &*analysed.walls->with_margins : nullptr;
   document.part("Stable walls, and the one to run");
+  // The region is that of the file's filters: a wall behind others does not belong into it.
+  const bool is_seen_alike = found != nullptr && !found->notch &&
+                             found->wall.velocity_filter_hz == analysed.device.parameters().wall.velocity_filter_hz;
   if (found != nullptr) {
     document.table(recommended_table(*found, analysed.device.parameters().motion));
   }
@@ -97,7 +100,7 @@ void add_walls(Document& document, const AnalysedDevice& analysed, std::size_t i
       "Walls of stiffness K and virtual damping B: stable for anyone, and stable alone only. The boundary is exact.",
       [&] {
         return draw_region(analysed.device, walls, FigureFormat::svg,
-                           found != nullptr ? std::optional(found->wall) : std::nullopt);
+                           is_seen_alike ? std::optional(found->wall) : std::nullopt);
       });
 }
 
