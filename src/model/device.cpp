@@ -347,12 +347,13 @@ void check_loop_parts(const DeviceParameters& parameters, Checks& checks) {
 }
 
 /// Of numbers that make a mechanism: what is wrong where it is put to its pose.
-std::optional<DeviceProblem> find_problem_at_pose(DeviceParameters parameters) {
+std::optional<DeviceProblem> find_problem_at_pose(const DeviceParameters& parameters) {
   if (put_to_pose() == nullptr) {
     return device_problem("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
   }
   try {
-    put_to_pose()(parameters);
+    DeviceParameters posed = parameters;
+    put_to_pose()(posed);
   } catch (const Error& error) {
     for (const InputProblem& each : error.problems()) {
       return DeviceProblem{each.place.key, each.what, each.allowed, each.problem};

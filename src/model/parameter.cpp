@@ -89,7 +89,7 @@ std::string full_parameter_key(const DeviceParameters& parameters, std::string_v
   for (const auto& [prefix, count] : {std::pair{std::string_view("link."), parameters.links.size()},
                                       std::pair{std::string_view("transmission."), motors},
                                       std::pair{std::string_view("wall.filter."), parameters.wall.filters.size()}}) {
-    if (count == 1 && key.starts_with(prefix) && key.find('.', prefix.size()) == key.npos) {
+    if (count == 1 && key.starts_with(prefix) && key.find('.', prefix.size()) == std::string_view::npos) {
       return fmt::format("{}0.{}", prefix, key.substr(prefix.size()));
     }
   }

@@ -4,8 +4,8 @@
 
 #include "stability/tip/tip_states.hpp"
 #include "zwidth/model/device.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/model/tip_motion.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
 
