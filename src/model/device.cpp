@@ -351,8 +351,8 @@ std::optional<DeviceProblem> find_problem_at_pose(const DeviceParameters& parame
   if (put_to_pose() == nullptr) {
     return device_problem("mechanism", {.code = ProblemCode::no_mechanism_at_pose});
   }
+  DeviceParameters posed = parameters;
   try {
-    DeviceParameters posed = parameters;
     put_to_pose()(posed);
   } catch (const Error& error) {
     for (const InputProblem& each : error.problems()) {
@@ -361,7 +361,7 @@ std::optional<DeviceProblem> find_problem_at_pose(const DeviceParameters& parame
     return device_problem("mechanism.file",
                           {.code = ProblemCode::mechanism_file_refused, .subjects = {{"why", error.what()}}});
   }
-  return find_problem(parameters);
+  return find_problem(posed);
 }
 
 }  // namespace
