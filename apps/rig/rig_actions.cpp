@@ -194,7 +194,7 @@ MeasureOptions default_measurement(const Device& device) {
 LimitOptions default_limit(const Device& device) {
   const CriticalStiffness predicted = critical_stiffness(device);
   std::optional<double> any_user;
-  if (const auto limit = any_user_limit(device)) any_user = limit->stiffness;
+  if (const auto limit = any_user_limit(device)) any_user = limit->lower_bound();
   LimitOptions options;
   if (auto search = limit_search_options(device, predicted, any_user)) {
     options.search = *std::move(search);

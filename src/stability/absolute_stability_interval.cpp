@@ -14,11 +14,11 @@
 namespace zwidth {
 namespace {
 
-// Of a damper that became slower than its spring, none.
+// 0 where it is not known, as of a damper that became slower than its spring.
 double any_user_stiffness(const Device& device, VirtualDamper damper) {
-  if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, damper).stiffness;
+  if (!has_damper_loop(device.loop())) return absolute_stability_limit(device, damper).lower_bound();
   if (!internal::bounds_all_users(device)) return 0.0;
-  return internal::AnyUserLimits(device).limit(damper).stiffness;
+  return internal::AnyUserLimits(device).limit(damper).lower_bound();
 }
 
 }  // namespace

@@ -17,6 +17,8 @@
 #include "zwidth/design/design_target.hpp"
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/design/parameter_sweep.hpp"
+#include "zwidth/design/region.hpp"
+#include "zwidth/design/safe_wall.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/study_file.hpp"
@@ -393,7 +395,7 @@ TEST(MechanismDesign, a_study_file_takes_the_units_of_joints_and_motors) {
 }
 
 // Three joints, two directions, and a corner too slow for the sampling rate: the limit for any user is not known, so no wall is
-// proposed, and none is called harmless.
+// proposed, none is called harmless, and nobody's limit does not stand for it.
 TEST(MechanismDesign, no_wall_rests_on_a_limit_that_is_not_known) {
   const auto arm_sampled_at = [](double period) {
     std::string bodies;
@@ -425,6 +427,18 @@ TEST(MechanismDesign, no_wall_rests_on_a_limit_that_is_not_known) {
   EXPECT_EQ(none.status, WallRecommendation::Status::none);
   ASSERT_TRUE(none.reason);
   EXPECT_EQ(none.reason->code, FindingCode::any_grasp_not_known);
+  const WallRegion walls = region(fast);
+  EXPECT_FALSE(walls.any_user);
+  EXPECT_TRUE(std::ranges::any_of(walls.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::any_grasp_not_known;
+  }));
+  const SafeWall safe = safe_wall(fast);
+  EXPECT_EQ(safe.status, SafeWall::Status::refused);
+  EXPECT_EQ(safe.trust.findings.front().code, FindingCode::any_grasp_not_known);
+  const DesignTargets targets =
+      design_targets(fast, {.goal = StiffnessGoal::absolute_stability_limit, .times_now = 2.0});
+  EXPECT_TRUE(targets.trust.refused());
+  EXPECT_TRUE(targets.targets.empty());
 }
 
 }  // namespace

@@ -25,7 +25,9 @@ struct AbsoluteStabilityRegion {
   double area = 0.0;                                        ///< in (K, B), of the polygons
   /// The limit is a lower bound: some walls above it may be stable with every passive user too.
   bool is_bound = false;
-  Trust trust = {};  ///< of the limit of which most was taken off, where that is above the deviation
+  /// Of the limit of which most was taken off, where that is above the deviation. Refused, with no ranges, where the limit is
+  /// not known at some B.
+  Trust trust = {};
 };
 
 /// How finely the region for any passive user is traced.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,7 +16,8 @@ namespace zwidth {
 /// The stiffest wall that is stable whoever holds the device.
 struct AbsoluteStabilityLimit {
   /// The wall is stable with every passive user for every stiffness below; 0 where some user destabilises any wall,
-  /// infinity where none destabilises one. What `truncation` leaves open is taken off.
+  /// infinity where none destabilises one, NaN where it is not known (`trust` is refused). What `truncation` leaves open is
+  /// taken off.
   double stiffness = 0.0;
   /// rad/s, where the worst user destabilises it; 0 where the limit is reached towards zero frequency, by ever heavier
   /// users (the limit of a rigid device is the same at all low frequencies, and counts as this), or is 0 or infinite
@@ -29,6 +31,9 @@ struct AbsoluteStabilityLimit {
   std::optional<StiffnessInterval> interval = {};
   /// doubtful where more than 1e-4 had to be taken off, and where frequencies at which nothing dissipates are not known
   Trust trust = {};
+
+  /// What a wall may rest on: `stiffness`, and 0 where that is not known.
+  [[nodiscard]] double lower_bound() const { return std::isnan(stiffness) ? 0.0 : stiffness; }
 };
 
 /// The limit over all passive users of a flexible device, with the virtual damper closed.

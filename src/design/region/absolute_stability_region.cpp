@@ -31,6 +31,10 @@ class Sampler {
   [[nodiscard]] AbsoluteStabilityPoint at(double damping) {
     tell(progress_, 0.0);
     const AbsoluteStabilityLimit limit = limits_.limit({damping, walls_.velocity_filter_hz()}, progress_);
+    if (std::isnan(limit.stiffness)) {
+      not_known_.inherit(limit.trust);
+      return {damping, 0.0, 0.0};
+    }
     const double taken_off = limit.stiffness > 0.0 ? limit.stiffness / (1.0 - limit.truncation) - limit.stiffness : 0.0;
     if (!limit.trust.sound() && taken_off > most_taken_off_) {
       most_taken_off_ = taken_off;
@@ -50,7 +54,10 @@ class Sampler {
   }
 
   // Sound where what is taken off lies within the deviation; a limit that is taken off altogether lies outside.
-  [[nodiscard]] Trust trust() const { return most_taken_off_ > deviation_ * stiffness_extent ? trust_ : Trust{}; }
+  [[nodiscard]] Trust trust() const {
+    if (not_known_.refused()) return not_known_;
+    return most_taken_off_ > deviation_ * stiffness_extent ? trust_ : Trust{};
+  }
 
   // The end of the limit between a B where it is above 0 and one where it is 0.
   [[nodiscard]] AbsoluteStabilityPoint end_between(const AbsoluteStabilityPoint& inside,
@@ -106,6 +113,7 @@ class Sampler {
   const Progress& progress_;
   double most_taken_off_ = 0.0;  // of a limit, N/m
   Trust trust_;                  // of that limit
+  Trust not_known_;              // refused with the first limit that is not known
 };
 
 std::vector<AbsoluteStabilityPoint> scan(Sampler& sampler, double largest) {
@@ -164,6 +172,7 @@ AbsoluteStabilityRegion absolute_stability_region(const Device& device, const St
   stages.next(1.0);
   sampler.largest = coarse.empty() ? largest_damping : coarse.back().back().damping;
   for (const auto& range : coarse) {
+    if (sampler.trust().refused()) break;
     std::vector<AbsoluteStabilityPoint> points{range.front()};
     for (std::size_t i = 0; i + 1 < range.size(); ++i) sampler.refine(range[i], range[i + 1], 0, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -176,6 +185,7 @@ AbsoluteStabilityRegion absolute_stability_region(const Device& device, const St
     region.ranges.push_back(std::move(points));
   }
   region.is_bound = !knows_all_users(device);
+  if (sampler.trust().refused()) region = {};
   region.trust = sampler.trust();
   stages.done();
   return region;

@@ -170,11 +170,6 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     const double period = damper_timing(device.loop()).sampling_period;
     result.force_per_count = force_per_count_rates(device.parameters().wall, period, resolution);
   }
-  if (options.any_user && device.parameters().coordinates) {
-    for (Remark& each : any_grasp_remarks(device, asks_any_user(device, options))) {
-      result.remarks.push_back(std::move(each));
-    }
-  }
   if (asks_any_user(device, options) && result.region.most_damped && result.region.most_damped->damping > 0.0) {
     if (!bounds_all_users(device)) {
       result.remarks.push_back(left_out_beside_damper_loop("any_user"));
@@ -182,12 +177,21 @@ WallRegion region(const Device& device, const RegionOptions& options) {
       stages.next(0.95);
       result.any_user = absolute_stability_region(device, result.nobody ? *result.nobody->walls : *result.walls,
                                                   result.region.most_damped->damping, {.progress = stages.stage()});
-      result.trust.inherit(result.any_user->trust);
+      if (result.any_user->trust.refused()) {
+        result.any_user.reset();
+      } else {
+        result.trust.inherit(result.any_user->trust);
+      }
       if (has_damper_loop(device.loop())) result.remarks.push_back(any_user_limit_scanned(device.loop()));
     } else {
       result.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user_region,
                                      .evidence = {{"bodies", static_cast<double>(device.degrees_of_freedom())},
                                                   {"most", static_cast<double>(most_bodies_for_absolute_stability)}}}));
+    }
+  }
+  if (options.any_user && device.parameters().coordinates) {
+    for (Remark& each : any_grasp_remarks(device, result.any_user.has_value())) {
+      result.remarks.push_back(std::move(each));
     }
   }
   stages.next(1.0);

@@ -135,7 +135,8 @@ class DamperRecommendation {
     wall.bounded_by.damping = found.bound;
     wall.margins = wall_margins(walled);
     if (can_be_held(device_)) {
-      wall.absolute_stability_limit = absolute_stability_limit(walled, found.damper, options_.progress).stiffness;
+      const AbsoluteStabilityLimit limit = absolute_stability_limit(walled, found.damper, options_.progress);
+      if (!limit.trust.refused()) wall.absolute_stability_limit = limit.stiffness;
       wall.absolute_stability_damping_limit = absolute_stability_damping(walled, options_.progress).damping;
     }
     wall.force_per_count = force_per_count(walled);

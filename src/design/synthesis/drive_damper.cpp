@@ -89,7 +89,7 @@ std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, con
     const Device damped = with(each, best.damping);
     const CriticalStiffness critical = critical_stiffness(damped);
     if (critical.trust.refused() || !(critical.stiffness > 0.0)) return 0.0;
-    return any_user && is_held ? known_any_user_limit(damped, progress).stiffness : critical.stiffness;
+    return any_user && is_held ? known_any_user_limit(damped, progress).lower_bound() : critical.stiffness;
   };
   try {
     std::optional<TwoRateUsers> two_rates;
@@ -108,7 +108,7 @@ std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, con
     const BestDamping together = best_damping(
         device,
         [&](double damping) {
-          return is_held ? one_rate->limit({damping, filter}, progress).stiffness
+          return is_held ? one_rate->limit({damping, filter}, progress).lower_bound()
                          : unguarded_stiffness(with(device, damping)).stiffness;
         },
         progress);
@@ -117,7 +117,7 @@ std::optional<DriveDamper> drive_damper(const Device& device, bool any_user, con
     found.velocity_filter_hz = apart.damping > 0.0 ? filter : 0.0;
     found.stiffness = limit_with(*on_drive, apart);
     if (is_held) {
-      found.absolute_stability_limit = known_any_user_limit(with(*on_drive, apart.damping), progress).stiffness;
+      found.absolute_stability_limit = known_any_user_limit(with(*on_drive, apart.damping), progress).lower_bound();
     }
     found.one_rate_damping = together.damping;
     found.one_rate_stiffness = limit_with(device, together);

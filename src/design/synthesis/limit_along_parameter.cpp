@@ -41,7 +41,11 @@ std::optional<LimitAlongParameter::Limit> LimitAlongParameter::at(double value, 
     Limit limit{stiffness_limit(filtered_plant(device), virtual_damper(device), interest.most), false};
     if (goal_ == StiffnessGoal::critical_stiffness) return limit;
     limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
-    if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, of_any_user(device, interest.enough, limit));
+    if (!limit.is_bound) {
+      const std::optional<double> any_user = of_any_user(device, interest.enough, limit);
+      if (!any_user) return std::nullopt;
+      limit.stiffness = std::min(limit.stiffness, *any_user);
+    }
     return limit;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
@@ -91,7 +95,7 @@ std::optional<LimitAlongParameter::Limit> LimitAlongParameter::of_two_loops(cons
   return limit;
 }
 
-double LimitAlongParameter::of_any_user(const Device& device, double enough, Limit& limit) {
+std::optional<double> LimitAlongParameter::of_any_user(const Device& device, double enough, Limit& limit) {
   const VirtualDamper damper = virtual_damper(device);
   const double period = device.loop().sampling_period;
   const bool is_of_damper = parameter_.kind == DesignParameter::Kind::wall_damping ||
@@ -109,6 +113,7 @@ double LimitAlongParameter::of_any_user(const Device& device, double enough, Lim
   }
   if (!users_ || !is_of_damper) users_ = std::make_unique<AbsoluteStabilitySearch>(device);
   const AbsoluteStabilityLimit found = users_->limit(damper);
+  if (found.trust.refused()) return std::nullopt;
   const double angle = found.frequency > 0.0 ? found.frequency * period : low_angle;
   if (std::ranges::find(angles_, angle) == angles_.end()) angles_.push_back(angle);
   if (angles_.size() > most_angles) angles_.erase(angles_.begin());

@@ -45,7 +45,8 @@ class LimitAlongParameter {
  private:
   [[nodiscard]] Limit of_damper(const Device& device, const Interest& interest) const;
   [[nodiscard]] std::optional<Limit> of_two_loops(const Device& device, const Interest& interest);
-  [[nodiscard]] double of_any_user(const Device& device, double enough, Limit& limit);
+  // Nothing where it is not known.
+  [[nodiscard]] std::optional<double> of_any_user(const Device& device, double enough, Limit& limit);
 
   const Device& device_;
   const DesignParameter& parameter_;

@@ -171,7 +171,7 @@ double stiffest_wall(const Device& device, const RequiredMargins& margins) {
   require_one_rate(device);
   const VirtualDamper damper = virtual_damper(device);
   StiffnessRange range;
-  if (margins.any_user) range.at_most = absolute_stability_limit(device, damper).stiffness / margins.gain;
+  if (margins.any_user) range.at_most = absolute_stability_limit(device, damper).lower_bound() / margins.gain;
   return range.at_most > 0.0 ? stiffest_wall(filtered_plant(device), damper, margins, range) : 0.0;
 }
 
@@ -218,7 +218,7 @@ bool keeps_margins(const Device& device, double stiffness, const RequiredMargins
   const LoopsOfStiffness loops(plant, damper);
   const double grown = stiffness * margins.gain;
   return loop_keeps(loops, stiffness, margins) && grown < critical_stiffness_of(plant, loops.crossings()).stiffness &&
-         (!margins.any_user || grown < absolute_stability_limit(device, damper).stiffness);
+         (!margins.any_user || grown < absolute_stability_limit(device, damper).lower_bound());
 }
 
 LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progress)

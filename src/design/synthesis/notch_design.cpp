@@ -44,7 +44,7 @@ Device with_filter(const Device& device, const WallFilter& filter) {
 // One of the modal shifts at which a proposal is recomputed exactly.
 struct Verified {
   Device device;
-  double any_user = 0.0;  // without the notch; 0: not to be kept
+  std::optional<AbsoluteStabilityLimit> any_user;  // without the notch; nothing: not to be kept
 };
 
 class Verification {
@@ -57,11 +57,11 @@ class Verification {
           count == 1 ? 0.0 : 2.0 * static_cast<double>(i) / static_cast<double>(modal_shifts_verified - 1) - 1.0;
       tell(progress_, static_cast<double>(i) / static_cast<double>(count));
       Device each = with_modal_shift(device, share * options.modal_frequency_uncertainty);
-      const double any_user =
-          keep_absolute_stability_limit ? absolute_stability_limit(each, virtual_damper(each)).stiffness : 0.0;
+      std::optional<AbsoluteStabilityLimit> any_user;
+      if (keep_absolute_stability_limit) any_user = absolute_stability_limit(each, virtual_damper(each));
       const double without = internal::stiffest_wall(each, margins_);
       without_.push_back({share * options.modal_frequency_uncertainty, without, without});
-      modal_shifts_.push_back({std::move(each), any_user});
+      modal_shifts_.push_back({std::move(each), std::move(any_user)});
     }
   }
 
@@ -113,17 +113,17 @@ class Verification {
   }
 
   // A softer wall may keep the margins less well: down to a stiffness that keeps them at every modal shift; 0 where there is
-  // none, or a user may destabilise the notched device below the limit without.
+  // none, or a user may destabilise the notched device below the limit without, as far as both are known.
   [[nodiscard]] double kept_everywhere(const WallFilter& notch, double stiffness) const {
     std::vector<Device> notched;
     for (const Verified& each : modal_shifts_) {
       tell(progress_, 0.0);
       notched.push_back(with_filter(each.device, notch));
       const Device& device = notched.back();
-      if (each.any_user > 0.0 &&
-          is_lower(absolute_stability_limit(device, virtual_damper(device)).stiffness, each.any_user)) {
-        return 0.0;
-      }
+      if (!each.any_user) continue;
+      if (each.any_user->trust.refused()) return 0.0;
+      const AbsoluteStabilityLimit with_notch = absolute_stability_limit(device, virtual_damper(device));
+      if (is_lower(with_notch.lower_bound(), each.any_user->stiffness)) return 0.0;
     }
     const RequiredMargins margins{margins_.gain * (1.0 - shaved), margins_.phase * (1.0 - shaved), margins_.any_user};
     for (int step = 0; step < most_steps_down; ++step, stiffness *= step_down) {

@@ -90,7 +90,7 @@ double absolute_stability_damping(const Device& device, const AbsoluteStabilityR
   if (first_below == limit.end()) return limit.back().damping;
   AnyUserLimits limits(device);
   return last_that_holds(std::prev(first_below)->damping, first_below->damping, [&](double damping) {
-    return limits.limit({damping, filter}).stiffness > stiffness;
+    return limits.limit({damping, filter}).lower_bound() > stiffness;
   });
 }
 
@@ -150,7 +150,7 @@ bool most_keep(const std::vector<Device>& devices, double stiffness, VirtualDamp
     }
     AnyUserLimits limits(each);
     const bool fails = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double share) {
-      return limits.limit({share * damper.damping, damper.velocity_filter_hz}).stiffness < stiffness;
+      return limits.limit({share * damper.damping, damper.velocity_filter_hz}).lower_bound() < stiffness;
     });
     failed += fails;
   }
@@ -247,10 +247,11 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
       *std::ranges::min_element(held, {}, [](const KnownHolderLimit& each) { return each.critical.stiffness; });
   wall.limit = least.critical.stiffness;
   if (can_be_held(device)) {
-    const double any_user = known_any_user_limit(own ? device : with_damping(device, 0.0)).stiffness;
-    if (any_user > 0.0 && std::isfinite(any_user)) {
+    const AbsoluteStabilityLimit any_user = known_any_user_limit(own ? device : with_damping(device, 0.0));
+    if (any_user.trust.refused()) return wall.trust.inherit(any_user.trust);
+    if (any_user.stiffness > 0.0 && std::isfinite(any_user.stiffness)) {
       wall.basis = SafeWall::Basis::any_user;
-      wall.limit = any_user;
+      wall.limit = any_user.stiffness;
     }
   }
   if (wall.basis == SafeWall::Basis::device && device.has_bodies()) {

@@ -20,7 +20,7 @@ void TwoRateLimits::search(bool quickly) {
 double TwoRateLimits::limit(VirtualDamper damper) const {
   tell(options_.progress, 0.0);
   const Device walled = with_wall(device_, 0.0, damper);
-  if (damper.damping == 0.0 && has_users_) return any_user_limit(walled, options_.progress)->stiffness;
+  if (damper.damping == 0.0 && has_users_) return any_user_limit(walled, options_.progress)->lower_bound();
   const CriticalStiffness nobody = unguarded_stiffness(device_without_user(walled));
   if (is_quick_) return std::min(nobody.stiffness, users_->limit_on_grid(damper));
   if (has_users_) return two_rate_absolute_stability(walled, nobody)->stiffness;

@@ -236,7 +236,7 @@ WallRecommendation recommend_two_rate_damper(const Device& device, const Recomme
   const auto in_both_loops = [&](RecommendedWall& wall) {
     if (!wall.absolute_stability_limit) return;
     const Device walled = with_wall(device, 0.0, {wall.wall.damping, wall.wall.velocity_filter_hz});
-    wall.absolute_stability_limit = any_user_limit(walled, options.progress)->stiffness;
+    wall.absolute_stability_limit = any_user_limit(walled, options.progress)->lower_bound();
   };
   if (result.wall) in_both_loops(*result.wall);
   std::ranges::for_each(result.alternatives, in_both_loops);

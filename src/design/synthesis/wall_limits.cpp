@@ -80,11 +80,10 @@ WallLimits::WallLimits(const Device& device, const RecommendationOptions& option
 
 double WallLimits::limit(VirtualDamper damper) {
   tell(options_.progress, 0.0);
-  const double limit = users_ ? users_->limit(damper, options_.progress).stiffness
-                              : critical_stiffness(plants_.front(), damper).stiffness;
-  if (!std::isnan(limit)) return limit;
-  misses_a_limit_ = true;
-  return 0.0;
+  if (!users_) return critical_stiffness(plants_.front(), damper).stiffness;
+  const AbsoluteStabilityLimit limit = users_->limit(damper, options_.progress);
+  misses_a_limit_ |= limit.trust.refused();
+  return limit.lower_bound();
 }
 
 bool WallLimits::keeps(double stiffness, VirtualDamper damper) {
