@@ -202,7 +202,7 @@ def disk(root):
 
 # The header of each name of the standard library that public headers may use.
 STANDARD = {
-    "array": "array", "complex": "complex", "function": "functional", "int16_t": "cstdint", "int8_t": "cstdint", "map": "map", "move": "utility",
+    "array": "array", "complex": "complex", "function": "functional", "int16_t": "cstdint", "int8_t": "cstdint", "isnan": "cmath", "map": "map", "move": "utility",
     "nullopt": "optional", "numbers": "numbers", "numeric_limits": "limits", "optional": "optional", "runtime_error": "stdexcept",
     "shared_ptr": "memory", "size_t": "cstddef", "span": "span", "string": "string", "string_view": "string_view",
     "uint16_t": "cstdint", "uint32_t": "cstdint", "uint64_t": "cstdint", "uint8_t": "cstdint", "unique_ptr": "memory", "vector": "vector",
