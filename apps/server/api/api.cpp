@@ -23,7 +23,12 @@ using results::Json;
 const std::string base = "/api/v1/";
 constexpr std::size_t document_limit = std::size_t{1} << 20;
 constexpr std::size_t recording_limit = std::size_t{64} << 20;
-constexpr std::array<std::string_view, 4> quick_commands{"analyze", "bode", "region", "simulate"};
+constexpr std::array<std::string_view, 3> plotted{"bode", "region", "simulate"};
+
+Haste haste_of(std::string_view command) {
+  if (command == "analyze") return Haste::answer;
+  return std::ranges::find(plotted, command) != plotted.end() ? Haste::plot : Haste::search;
+}
 
 std::string devices_document(const std::vector<OfferedDevice>& offered) {
   Json document = results::document("zwidth.devices/1");
@@ -90,8 +95,7 @@ Api::Api(const Commands& commands, const std::vector<OfferedDevice>& devices, co
              {base + "devices", "GET", "", 0},
              {base + "recordings", "POST", "application/octet-stream", recording_limit}};
   for (const std::string& name : commands.names()) {
-    const bool is_quick = std::ranges::find(quick_commands, name) != quick_commands.end();
-    routes_.push_back({base + name, "POST", "application/json", document_limit, is_quick});
+    routes_.push_back({base + name, "POST", "application/json", document_limit, haste_of(name)});
   }
 }
 

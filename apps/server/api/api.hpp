@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,13 +11,21 @@
 
 namespace zwidth::server {
 
+/// How long a person waits for it, and so what gives way to what.
+enum class Haste : std::uint8_t {
+  answer,  ///< milliseconds: the limits, which the page always shows
+  plot,    ///< a tenth of a second: what follows a drag
+  search,  ///< a second and more
+};
+constexpr std::size_t count_of_hastes = 3;
+
 /// What a path of the API takes.
 struct Route {
   std::string path;          ///< "/api/v1/analyze"
   std::string method;        ///< GET or POST
   std::string content_type;  ///< of the body; empty: none
   std::size_t body_limit = 0;
-  bool is_quick = false;  ///< mostly answered in milliseconds
+  Haste haste = Haste::search;
 };
 
 struct ApiAnswer {

@@ -305,8 +305,7 @@ void Connection::dispatch_work(const Route& route) {
     net::post(sockets, [self = std::move(self), answer = std::move(answer)] { self->on_answer(answer); });
   };
   const bool is_over_share = shared_.tells_clients() && shared_.work_of(client_) > shared_.limits.waiting / 2;
-  const WorkQueue::Kind kind = route.is_quick ? WorkQueue::Kind::quick : WorkQueue::Kind::any;
-  if (is_over_share || !shared_.work.add(kind, std::move(work))) {
+  if (is_over_share || !shared_.work.add(static_cast<std::size_t>(route.haste), std::move(work))) {
     works_ = streams_ = false;
     Response busy(is_over_share ? http::status::too_many_requests : http::status::service_unavailable, 11);
     busy.set(http::field::retry_after, "1");

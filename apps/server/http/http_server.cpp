@@ -220,7 +220,7 @@ void serve(Api& api, const HttpOptions& options, const std::function<void(const 
   const net::ip::address address = address_of(options.host, error);
   if (error) throw boost::system::system_error(error);
   net::io_context sockets(1);
-  WorkQueue work(std::max(1U, std::thread::hardware_concurrency()), options.limits.waiting);
+  WorkQueue work(count_of_hastes, std::max(1U, std::thread::hardware_concurrency()), options.limits.waiting);
   Shared shared{api, options.limits, embedded_pages(), address.is_loopback() ? "" : random_token(), work};
   Listener listener(sockets, shared, {address, options.port});
   started(started_at(listener.endpoint(), shared.token));

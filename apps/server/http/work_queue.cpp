@@ -1,13 +1,29 @@
 #include "server/http/work_queue.hpp"
 
-#include <algorithm>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <utility>
 
 namespace zwidth::server {
+namespace {
 
-WorkQueue::WorkQueue(std::size_t threads, std::size_t most_waiting) : most_waiting_(most_waiting), idle_(threads) {
-  threads_.emplace_back([this] { run(Kind::quick); });
-  for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { run(Kind::any); });
+constexpr int nicer_per_lane = 5;
+
+/// Of this thread, and of those that it starts.
+void lower_priority(int by) {
+  const auto thread = static_cast<id_t>(::gettid());
+  (void)::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + by);
+}
+
+}  // namespace
+
+WorkQueue::WorkQueue(std::size_t lanes, std::size_t threads, std::size_t most_waiting)
+    : most_waiting_(most_waiting), lanes_(lanes) {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    lanes_[lane].idle = threads;
+    for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this, lane] { run(lane); });
+  }
 }
 
 WorkQueue::~WorkQueue() {
@@ -15,39 +31,35 @@ WorkQueue::~WorkQueue() {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
-  changed_.notify_all();
+  for (Lane& each : lanes_) each.changed.notify_all();
   for (std::thread& each : threads_) each.join();
 }
 
-bool WorkQueue::add(Kind kind, std::function<void()> work) {
+bool WorkQueue::add(std::size_t lane, std::function<void()> work) {
+  Lane& to = lanes_.at(lane);
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= idle_ + most_waiting_) return false;
-    waiting_.push_back({kind, std::move(work)});
+    if (to.waiting.size() >= to.idle + most_waiting_) return false;
+    to.waiting.push_back(std::move(work));
   }
-  changed_.notify_all();
+  to.changed.notify_one();
   return true;
 }
 
-std::deque<WorkQueue::Waiting>::iterator WorkQueue::next(Kind of_thread) {
-  if (of_thread == Kind::any) return waiting_.begin();
-  return std::ranges::find(waiting_, Kind::quick, &Waiting::kind);
-}
-
-void WorkQueue::run(Kind of_thread) {
+void WorkQueue::run(std::size_t lane) {
+  lower_priority(nicer_per_lane * static_cast<int>(lane));
+  Lane& own = lanes_[lane];
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [&] { return ends_ || next(of_thread) != waiting_.end(); });
-    const auto taken = next(of_thread);
-    if (taken == waiting_.end()) return;
-    std::function<void()> work = std::move(taken->work);
-    waiting_.erase(taken);
-    if (of_thread == Kind::any) --idle_;
+    own.changed.wait(lock, [&] { return ends_ || !own.waiting.empty(); });
+    if (own.waiting.empty()) return;
+    const std::function<void()> work = std::move(own.waiting.front());
+    own.waiting.pop_front();
+    --own.idle;
     lock.unlock();
     work();
-    work = nullptr;
     lock.lock();
-    if (of_thread == Kind::any) ++idle_;
+    ++own.idle;
   }
 }
 

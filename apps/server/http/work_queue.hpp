@@ -2,7 +2,6 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -11,37 +10,33 @@
 
 namespace zwidth::server {
 
-/// Threads that take work in turn, and one more that takes quick work alone: what takes long does not keep it waiting.
+/// Lanes of work, each with threads of its own that take it in turn. The first lane has the processor before the second, and so on:
+/// what takes long keeps nothing waiting that a person looks at.
 class WorkQueue {
  public:
-  enum class Kind : std::uint8_t { any, quick };
-
-  /// What is more than `most_waiting`, beside as many at work as there are `threads`, is refused.
-  WorkQueue(std::size_t threads, std::size_t most_waiting);
+  /// Of a lane what is more than `most_waiting`, beside as many at work as it has `threads`, is refused.
+  WorkQueue(std::size_t lanes, std::size_t threads, std::size_t most_waiting);
   /// Does what still waits.
   ~WorkQueue();
   WorkQueue(const WorkQueue&) = delete;
   WorkQueue& operator=(const WorkQueue&) = delete;
 
   /// False where too much waits already. `work` must not throw.
-  [[nodiscard]] bool add(Kind kind, std::function<void()> work);
+  [[nodiscard]] bool add(std::size_t lane, std::function<void()> work);
 
  private:
-  struct Waiting {
-    Kind kind = Kind::any;
-    std::function<void()> work;
+  struct Lane {
+    std::condition_variable changed;
+    std::deque<std::function<void()>> waiting;
+    std::size_t idle = 0;  ///< threads
   };
 
-  /// Of the thread for quick work; else the first of all.
-  [[nodiscard]] std::deque<Waiting>::iterator next(Kind of_thread);
-  void run(Kind of_thread);
+  void run(std::size_t lane);
 
   std::size_t most_waiting_;
-  std::size_t idle_ = 0;  ///< threads that take any
   bool ends_ = false;
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Waiting> waiting_;
+  std::vector<Lane> lanes_;
   std::vector<std::thread> threads_;
 };
 
