@@ -20,7 +20,7 @@ namespace zwidth::report {
 namespace {
 
 std::string unit_stiffness_text(const StudyRun& run, double value) {
-  if (std::isnan(value)) return "none";
+  if (std::isnan(value)) return "not known";
   if (std::isinf(value)) return "unbounded";
   return quantity(value, units_of(run.device().parameters().motion).stiffness);
 }

@@ -163,10 +163,10 @@ class WorkspaceWriter {
     return text + ".";
   }
 
-  /// Of any passive user where that is known everywhere.
+  /// Of any passive user where that is known of some pose: what is not known may be the least.
   [[nodiscard]] double worst_of(const WorkspacePose& pose) const {
-    return has_any_user() && pose.least_any_user && pose.least_any_user->any_user ? *pose.least_any_user->any_user
-                                                                                  : pose.least->nobody;
+    if (!has_any_user()) return pose.least->nobody;
+    return pose.least_any_user ? pose.least_any_user->any_user.value_or(0.0) : 0.0;
   }
 
   [[nodiscard]] std::vector<const WorkspacePose*> worst_poses(std::size_t most) const {

@@ -23,31 +23,32 @@ enum class FindingCode : std::uint16_t {
   mechanism_number_replaced,  ///< a number of the mechanism's file is another in the device file
 
   // stability
-  wall_not_surely_stable,        ///< the wall lies within the interval of the critical stiffness
-  interval_open,                 ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
-  second_route_contradicts,      ///< two computations contradict each other on one wall's stability
-  second_route_undecided,        ///< no second computation confirms one wall's stability
-  poles_along_circle,            ///< poles run along the unit circle: the least limit in several directions is open
-  touch_without_pole,            ///< the limit is a pole's touch of the circle that a second computation does not find
-  slow_instability,              ///< the free device is unstable so slowly that rounded coefficients explain it
-  delay_margin_contradicts,      ///< two computations contradict each other on the delay margin
-  margins_contradict,            ///< two computations contradict each other on phase, delay and disk margin
-  disk_margin_contradicts,       ///< the disk margin is larger than gain and phase margins allow
-  disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
-  too_many_states_for_damper,    ///< a damper slower than its spring, whose loop has too many states to follow
-  left_out_beside_damper_loop,   ///< what is not given where the damper runs in a loop of its own
-  damper_closed_at_own_rate,     ///< a response or a model is that behind a damper closed in a loop of its own
-  critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
-  unstable_with_nobody,          ///< the file's user alone keeps the wall stable
-  stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
-  damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
-  any_grasp_not_known,           ///< the limit over all passive grasps of a mechanism's tip is not computed
-  any_grasp_scanned,             ///< the least over frequency, of a scan, with any passive grasp of a mechanism's tip
-  any_grasp_bounded,             ///< of a point wall that limit lies between two bounds, of a scan
-  workspace_of_tried_poses,      ///< the least over a workspace is that of the poses and directions tried
-  workspace_poses_refused,       ///< some poses of a workspace are singular or not reached
-  workspace_directions_refused,  ///< along some directions of a workspace no wall is known
-  workspace_points_not_reached,  ///< some points of a workspace are not reached
+  wall_not_surely_stable,         ///< the wall lies within the interval of the critical stiffness
+  interval_open,                  ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
+  second_route_contradicts,       ///< two computations contradict each other on one wall's stability
+  second_route_undecided,         ///< no second computation confirms one wall's stability
+  poles_along_circle,             ///< poles run along the unit circle: the least limit in several directions is open
+  touch_without_pole,             ///< the limit is a pole's touch of the circle that a second computation does not find
+  slow_instability,               ///< the free device is unstable so slowly that rounded coefficients explain it
+  delay_margin_contradicts,       ///< two computations contradict each other on the delay margin
+  margins_contradict,             ///< two computations contradict each other on phase, delay and disk margin
+  disk_margin_contradicts,        ///< the disk margin is larger than gain and phase margins allow
+  disk_margin_left_out,           ///< its search does not end: the wall is far below every limit
+  too_many_states_for_damper,     ///< a damper slower than its spring, whose loop has too many states to follow
+  left_out_beside_damper_loop,    ///< what is not given where the damper runs in a loop of its own
+  damper_closed_at_own_rate,      ///< a response or a model is that behind a damper closed in a loop of its own
+  critical_damping_left_out,      ///< the largest damper alone is not sure, for `reason`
+  unstable_with_nobody,           ///< the file's user alone keeps the wall stable
+  stiffer_than_any_user_limit,    ///< some user's grasp makes the wall oscillate
+  damper_above_any_user_limit,    ///< some user's grasp makes the damper oscillate
+  any_grasp_not_known,            ///< the limit over all passive grasps of a mechanism's tip is not computed
+  any_grasp_not_known_somewhere,  ///< the same at some poses and directions of a workspace: there it may be the least
+  any_grasp_scanned,              ///< the least over frequency, of a scan, with any passive grasp of a mechanism's tip
+  any_grasp_bounded,              ///< of a point wall that limit lies between two bounds, of a scan
+  workspace_of_tried_poses,       ///< the least over a workspace is that of the poses and directions tried
+  workspace_poses_refused,        ///< some poses of a workspace are singular or not reached
+  workspace_directions_refused,   ///< along some directions of a workspace no wall is known
+  workspace_points_not_reached,   ///< some points of a workspace are not reached
   workspace_beyond_ranges,  ///< some poses of a workspace are beyond the ranges that the mechanism's file gives its joints
   workspace_along_normals,       ///< a wall in every direction: a workspace answers for walls along one normal each
   workspace_without_user,        ///< the limits of a workspace leave the file's user out

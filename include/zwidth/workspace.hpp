@@ -89,7 +89,7 @@ struct WorkspacePose {
   /// Refined between the directions tried; the normals alone where those were given. Absent where there is none.
   std::optional<DirectionLimits> least = {};           ///< with nobody
   std::optional<DirectionLimits> greatest = {};        ///< with nobody
-  std::optional<DirectionLimits> least_any_user = {};  ///< with any passive user
+  std::optional<DirectionLimits> least_any_user = {};  ///< with any passive user; absent where one of them is not known
 };
 
 /// A limit somewhere in the workspace, computed once more as `analyze()` does for the device of that pose and normal.
@@ -103,16 +103,17 @@ struct WorkspaceLimit {
 
 /// A quantile over poses times directions tried, X_(ceil(N p)); infinity: unbounded there.
 struct WorkspaceQuantile {
-  double probability = 0.0;             ///< share below
-  double nobody = 0.0;                  ///< N/m
-  std::optional<double> any_user = {};  ///< N/m
+  double probability = 0.0;  ///< share below
+  double nobody = 0.0;       ///< N/m
+  std::optional<double> any_user =
+      {};  ///< N/m; a limit that is not known counts as 0; absent where it is known nowhere
 };
 
 /// How much of poses times directions tried has a limit of at least a stiffness.
 struct WorkspaceShare {
   double stiffness = 0.0;               ///< N/m
   double nobody = 0.0;                  ///< 0..1
-  std::optional<double> any_user = {};  ///< 0..1
+  std::optional<double> any_user = {};  ///< 0..1, likewise
 };
 
 /// A point that the tip does not reach.
@@ -128,16 +129,18 @@ struct Workspace {
   std::vector<std::string> pose_joints;  ///< that were varied, or give the poses of points
   std::size_t tip_directions = 0;        ///< in how many independent directions the tip moves, most of all poses
   std::optional<WorkspaceLimit> least;   ///< with nobody holding; absent where no pose has a limit
-  std::optional<WorkspaceLimit> least_any_user;  ///< with any passive user; absent unless asked for and known
-  std::vector<WorkspaceQuantile> quantiles;      ///< at 0, 5, 25, 50, 75, 95 and 100 %; empty where nothing is known
+  std::optional<WorkspaceLimit>
+      least_any_user;                        ///< of the known ones with any passive user; absent unless there are some
+  std::vector<WorkspaceQuantile> quantiles;  ///< at 0, 5, 25, 50, 75, 95 and 100 %; empty where nothing is known
   std::optional<WorkspaceShare> share_at_least;  ///< of options.stiffness
   std::vector<WorkspacePose> poses;              ///< in the order of the grid, the list, or the points that are reached
   std::vector<UnreachedPoint> unreached;         ///< points
   std::uint64_t directions = 0;                  ///< poses times directions that have a limit
   std::uint64_t refused_directions = 0;          ///< that have none, those of refused poses too where they are known
   std::uint64_t refused_poses = 0;               ///< without any
-  Trust trust;                                   ///< the device's, and that the least is confirmed
-  std::vector<Remark> remarks;                   ///< what was left out, and why
+  Trust
+      trust;  ///< the device's, that the least is confirmed, and that no limit with any user is unknown beside known ones
+  std::vector<Remark> remarks;  ///< what was left out, and why
 };
 
 /// The stiffest wall at every pose and in every direction of a mechanism: the entry point.

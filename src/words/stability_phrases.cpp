@@ -93,6 +93,10 @@ std::span<const Phrase> stability_phrases() {
           any_grasp_not_known, "any_grasp_not_known", note,
           "the limit over all passive users of a mechanism, who hold its tip in every direction, is not computed here",
           ""},
+      Phrase{any_grasp_not_known_somewhere, "any_grasp_not_known_somewhere", warning,
+             "the limit over all passive users is not known along {count} of {of} directions at poses",
+             "the least with any passive user may lie there; quantiles and shares count it as 0",
+             "look at the poses without that limit, or leave them out"},
       Phrase{
           any_grasp_scanned, "any_grasp_scanned", note,
           "any passive user holds the tip in every direction; his limit is the least at the frequencies looked at, and "

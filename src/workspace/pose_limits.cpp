@@ -98,6 +98,8 @@ class AnyDirection {
   std::unique_ptr<const LimitsAtPose> shared_;
 };
 
+constexpr double not_known = -1.0;  // below every limit
+
 double nobody_of(const DirectionLimits& limits) {
   return limits.status == StiffnessStatus::refused ? std::numeric_limits<double>::infinity() : limits.nobody;
 }
@@ -139,10 +141,12 @@ void add_extremes(const AnyDirection& any_direction, const Eigen::MatrixXd& move
   const auto greatest = [](const DirectionLimits& each) {
     return each.status == StiffnessStatus::refused ? std::numeric_limits<double>::infinity() : -each.nobody;
   };
+  // What is not known may be the least of all.
   const auto any_user = [](const DirectionLimits& each) {
-    return each.any_user.value_or(std::numeric_limits<double>::infinity());
+    return each.status == StiffnessStatus::refused ? std::numeric_limits<double>::infinity()
+                                                   : each.any_user.value_or(not_known);
   };
-  const bool has_any_user = std::ranges::any_of(known, [](const auto& each) { return each.any_user.has_value(); });
+  const bool has_any_user = std::ranges::all_of(known, [](const auto& each) { return each.any_user.has_value(); });
   if (!is_spread) {
     pose.least = least_of(known, nobody_of);
     pose.greatest = least_of(known, greatest);
@@ -151,7 +155,9 @@ void add_extremes(const AnyDirection& any_direction, const Eigen::MatrixXd& move
   }
   pose.least = refined(known, moved, any_direction, {.may_jump = true}, nobody_of);
   pose.greatest = refined(known, moved, any_direction, {}, greatest);
-  if (has_any_user) pose.least_any_user = refined(known, moved, any_direction, {.with_any_user = true}, any_user);
+  if (!has_any_user) return;
+  const DirectionLimits least = refined(known, moved, any_direction, {.with_any_user = true}, any_user);
+  if (least.any_user) pose.least_any_user = least;
 }
 
 }  // namespace

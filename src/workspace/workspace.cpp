@@ -160,9 +160,11 @@ class WorkspaceSearch {
         }
         ++result_.directions;
         nobody_.push_back(each.nobody);
-        if (each.any_user) any_user_.push_back(*each.any_user);
+        any_user_.push_back(each.any_user.value_or(0.0));
+        if (!each.any_user) ++unknown_any_user_;
       }
     }
+    if (unknown_any_user_ == any_user_.size()) any_user_.clear();
     std::ranges::sort(nobody_);
     std::ranges::sort(any_user_);
   }
@@ -223,7 +225,11 @@ class WorkspaceSearch {
       trust_no_more_than(exact.nobody.trust);
       if (exact.nobody.status == StiffnessStatus::refused) return limit;
       if (exact.any_user) trust_no_more_than(exact.any_user->trust);
-      const double stiffness = with_any_user ? exact.any_user.value().stiffness : exact.nobody.stiffness;
+      if (with_any_user && !exact.any_user) {
+        result_.trust.doubt({.code = FindingCode::any_grasp_not_known});
+        return limit;
+      }
+      const double stiffness = with_any_user ? exact.any_user->stiffness : exact.nobody.stiffness;
       const bool is_same =
           stiffness == limit.stiffness || std::abs(stiffness - limit.stiffness) <= confirmed_within * stiffness;
       if (!is_same) {
@@ -288,7 +294,11 @@ class WorkspaceSearch {
     if (nobody_.empty()) return;
     if (options_.any_user && any_user_.empty()) {
       result_.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
-    } else if (options_.any_user && result_.tip_directions > 1) {
+    } else if (options_.any_user && unknown_any_user_ > 0) {
+      result_.trust.doubt({.code = FindingCode::any_grasp_not_known_somewhere,
+                           .evidence = {counted("count", unknown_any_user_), counted("of", any_user_.size())}});
+    }
+    if (options_.any_user && !any_user_.empty() && result_.tip_directions > 1) {
       result_.remarks.push_back(note({.code = FindingCode::any_grasp_scanned}));
     }
     Finding tried{.code = FindingCode::workspace_of_tried_poses,
@@ -310,8 +320,9 @@ class WorkspaceSearch {
   MechanismModel mechanism_;
   internal::ThreadArena arena_;
   std::vector<PoseState> state_;
-  std::vector<double> nobody_;  // limits of all directions, rising
-  std::vector<double> any_user_;
+  std::vector<double> nobody_;    // limits of all directions, rising
+  std::vector<double> any_user_;  // the same; 0 where it is not known; empty where it is known nowhere
+  std::size_t unknown_any_user_ = 0;
   Workspace result_;
 };
 

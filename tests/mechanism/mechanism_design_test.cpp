@@ -17,8 +17,6 @@
 #include "zwidth/design/design_target.hpp"
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/design/parameter_sweep.hpp"
-#include "zwidth/design/region.hpp"
-#include "zwidth/design/safe_wall.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/study_file.hpp"
@@ -392,53 +390,6 @@ TEST(MechanismDesign, a_study_file_takes_the_units_of_joints_and_motors) {
   EXPECT_EQ(parameters[0].distribution.upper, 1.2);
   EXPECT_EQ(parameters[1].distribution.centre, 400.0);
   EXPECT_NEAR(parameters[1].distribution.deviation, 20.0, 1e-12);
-}
-
-// Three joints, two directions, and a corner too slow for the sampling rate: the limit for any user is not known, so no wall is
-// proposed, none is called harmless, and nobody's limit does not stand for it.
-TEST(MechanismDesign, no_wall_rests_on_a_limit_that_is_not_known) {
-  const auto arm_sampled_at = [](double period) {
-    std::string bodies;
-    const auto add_joint = [&](const std::string& name, double damping) {
-      bodies += "<body pos='" + std::string(name == "a" ? "0" : "0.15") + " 0 0'><joint name='" + name +
-                "' axis='0 0 1' damping='" + std::to_string(damping) +
-                "'/><inertial pos='0.07 0 0' mass='0.2' diaginertia='1e-6 5e-4 5e-4'/>";
-    };
-    add_joint("a", 2e-3);
-    add_joint("b", 2e-4);
-    add_joint("c", 1e-3);
-    DeviceParameters parameters;
-    parameters.mechanism.emplace();
-    parameters.mechanism->mechanism.text =
-        "<mujoco><compiler angle='radian'/><worldbody>" + bodies +
-        "<site name='tip' pos='0.1 0 0'/></body></body></body></worldbody><actuator><motor joint='a'/><motor "
-        "joint='b'/>"
-        "<motor joint='c'/></actuator></mujoco>";
-    parameters.mechanism->mechanism.tip = "tip";
-    parameters.mechanism->mechanism.pose = {{"a", 0.3}, {"b", 0.8}, {"c", 0.7}};
-    parameters.mechanism->normal = {1.0, 0.0, 0.0};
-    parameters.loop.sampling_period = period;
-    return device_of_mechanism(parameters);
-  };
-  EXPECT_EQ(recommend_wall(arm_sampled_at(1e-3), {.alternatives = false}).status, WallRecommendation::Status::found);
-  const Device fast = arm_sampled_at(1e-7);
-  EXPECT_FALSE(analyze(fast).any_user);
-  const WallRecommendation none = recommend_wall(fast, {.alternatives = false});
-  EXPECT_EQ(none.status, WallRecommendation::Status::none);
-  ASSERT_TRUE(none.reason);
-  EXPECT_EQ(none.reason->code, FindingCode::any_grasp_not_known);
-  const WallRegion walls = region(fast);
-  EXPECT_FALSE(walls.any_user);
-  EXPECT_TRUE(std::ranges::any_of(walls.remarks, [](const Remark& each) {
-    return each.finding && each.finding->code == FindingCode::any_grasp_not_known;
-  }));
-  const SafeWall safe = safe_wall(fast);
-  EXPECT_EQ(safe.status, SafeWall::Status::refused);
-  EXPECT_EQ(safe.trust.findings.front().code, FindingCode::any_grasp_not_known);
-  const DesignTargets targets =
-      design_targets(fast, {.goal = StiffnessGoal::absolute_stability_limit, .times_now = 2.0});
-  EXPECT_TRUE(targets.trust.refused());
-  EXPECT_TRUE(targets.targets.empty());
 }
 
 }  // namespace

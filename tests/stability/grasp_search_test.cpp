@@ -115,6 +115,13 @@ TEST(GraspSearch, FollowsSlowCornersToRest) {
   const double slow = limit_times_period(1e-3);
   EXPECT_NEAR(limit_times_period(1e-4) / slow, 1.0, 2e-3);
   EXPECT_NEAR(limit_times_period(4e-5) / slow, 1.0, 2e-3);
+  // Slower yet it is not known; however slow, it is no motion at rest.
+  for (double period = 2e-6; period > 1e-12; period *= 0.3) {
+    SCOPED_TRACE(period);
+    DeviceParameters loop;
+    loop.loop.sampling_period = period;
+    EXPECT_TRUE(std::isnan(any_grasp_limit(motion, loop, normal).stiffness));
+  }
 }
 
 // Some grasp reaches the wall in a range of frequencies narrower than the search's points.

@@ -110,8 +110,9 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
     }
   }
   text += reaching.under("What reaches it, the smallest change first; numbers that are 0 now at the end");
-  text += lowering.under(fmt::format("What reaches it, but lowers the limit with any passive user, now {}",
-                                     words.limit(targets.absolute_stability_limit_now)));
+  text += lowering.under(
+      fmt::format("What reaches it, but lowers the limit with any passive user, now {}, or leaves it unknown",
+                  words.limit(targets.absolute_stability_limit_now)));
   if (!without.empty()) text += "\nWhat does not\n" + without;
   if (targets.drive_damper) text += "\nThe damper on the drive\n" + bulleted(zwidth::text(targets.drive_damper->why));
   return text;

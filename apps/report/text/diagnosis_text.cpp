@@ -122,7 +122,8 @@ class LimitScale {
 std::string end_text(const Diagnosis& diagnosis, const DiagnosisChange& change) {
   if (!change.ends_it) return "-";
   if (!*change.ends_it) return "no";
-  if (!diagnosis.stiffness || !change.absolute_stability_limit_then) return "yes";
+  if (!diagnosis.stiffness) return "yes";
+  if (!change.absolute_stability_limit_then) return diagnosis.absolute_stability_limit_now ? "alone only" : "yes";
   const bool is_damper = diagnosis.limit_of == WallNumber::damping;
   const double now = is_damper ? diagnosis.damping : *diagnosis.stiffness;
   const double wall = change.key == (is_damper ? "wall.damping" : "wall.stiffness") ? change.value_then : now;

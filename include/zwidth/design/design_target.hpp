@@ -39,7 +39,7 @@ struct DesignTarget {
   /// absolute_stability_limit() at the value needed; infinite where nobody can destabilise a wall, absent where there is no value,
   /// no body to hold, or the limit is not found.
   std::optional<double> absolute_stability_limit_then;
-  std::optional<bool> safe;  ///< no lower then than now; absent where one is not known
+  std::optional<bool> safe;  ///< known to be no lower then than now; absent where that of now is not known
 };
 
 /// The ways to a stiffness, the cheapest first: least relative change |ln(needed/now)|; then numbers that are 0 in the

@@ -102,7 +102,7 @@ struct DiagnosisChange {
   /// absolute_stability_limit() after the change, of a damper alone absolute_stability_damping(); infinite where nobody can destabilise a
   /// wall, absent where the device cannot be held or the limit is not found.
   std::optional<double> absolute_stability_limit_then = {};
-  std::optional<bool> safe = {};  ///< no lower then than now; absent where one is not known
+  std::optional<bool> safe = {};  ///< known to be no lower then than now; absent where that of now is not known
 };
 /// What is done to it: "damping of every body + 20 %".
 [[nodiscard]] std::string words_of(const DiagnosisChange& change);

@@ -13,9 +13,8 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_user.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/model/tip_motion.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
-#include "zwidth/stability/grasp_limit.hpp"
+#include "zwidth/stability/absolute_stability.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -100,8 +99,7 @@ std::vector<Sensitivity> any_grasp_sensitivities(const Device& device, const Abs
   }
   const DeviceParameters parameters = certain_parameters(free);
   const auto limit_of = [&](const Device& moved) {
-    return std::complex<double>(
-        any_grasp_limit(tip_motion_of(moved).value(), moved.parameters(), wall_normal(moved)).stiffness);
+    return std::complex<double>(absolute_stability_limit(moved, virtual_damper(moved)).stiffness);
   };
   std::vector<Sensitivity> result;
   for (const DesignParameter& number : design_parameters(free)) {

@@ -45,7 +45,7 @@ AbsoluteStabilityCheck::AbsoluteStabilityCheck(const Device& device, WallNumber 
 }
 
 AbsoluteStabilityCheck::Judgement AbsoluteStabilityCheck::judged(const std::optional<Limit>& limit) const {
-  if (!limit) return {};
+  if (!limit) return {std::nullopt, false};  // what is not known may be lower
   // What was taken off the limit for certainty lowers nothing.
   const double most = limit->value * (1.0 + limit->truncation);
   return {limit->value, most >= now_->value * (1.0 - same_for_users)};

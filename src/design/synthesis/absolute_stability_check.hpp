@@ -27,7 +27,7 @@ class AbsoluteStabilityCheck {
 
   struct Judgement {
     std::optional<double> then;  // infinite where nobody can destabilise a wall
-    std::optional<bool> safe;    // the limit is no lower than now, as far as both are known
+    std::optional<bool> safe;    // known to be no lower than now; absent where that is not known
   };
   [[nodiscard]] Judgement of(const Device& changed) const;
   // The same of K where `users` are those of the changed device: for many dampers.

@@ -73,7 +73,10 @@ LimitAlongParameter::Limit LimitAlongParameter::of_damper(const Device& device, 
   Limit limit{std::min(own.value, interest.most), false};
   if (goal_ == StiffnessGoal::critical_stiffness) return limit;
   limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
-  if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, absolute_stability_damping(device).damping);
+  if (limit.is_bound) return limit;
+  const AbsoluteStabilityDamping any_user = absolute_stability_damping(device);
+  if (any_user.trust.refused()) throw Error(ErrorCode::did_not_converge, any_user.trust.reasons.front());
+  limit.stiffness = std::min(limit.stiffness, any_user.damping);
   return limit;
 }
 

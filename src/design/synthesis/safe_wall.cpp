@@ -228,8 +228,9 @@ double damping_limit(const std::vector<Device>& holders, SafeWall& wall) {
       return 0.0;
     }
     if (wall.basis == SafeWall::Basis::any_user) {  // nobody is among them, and the first
-      return absolute_stability_damping(each, absolute_stability_region(each, walls, region.most_damped->damping),
-                                        wall.stiffness);
+      const AbsoluteStabilityRegion users = absolute_stability_region(each, walls, region.most_damped->damping);
+      wall.trust.inherit(users.trust);
+      return users.trust.refused() ? 0.0 : absolute_stability_damping(each, users, wall.stiffness);
     }
     least = std::min(least, boundary_damping(walls, region, wall.stiffness));
   }

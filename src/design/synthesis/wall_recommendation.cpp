@@ -297,13 +297,16 @@ class Recommendation {
     return {.code = no_wall_keeps_margins_with_any_filter};
   }
 
-  void remark_on_bounds(WallRecommendation& result) const {
+  void remark_on_bounds(WallRecommendation& result) {
     remark_on_resolution(device_, options_, result);
     if (!limits_.has_users()) {
       result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
     }
-    if (limits_.has_users()) {
-      for (Remark& each : any_grasp_remarks(device_, true)) result.remarks.push_back(std::move(each));
+    if (limits_.has_users() && device_.parameters().coordinates) {
+      (void)limits_.limit({});
+      for (Remark& each : any_grasp_remarks(device_, !limits_.misses_a_limit())) {
+        result.remarks.push_back(std::move(each));
+      }
     }
     if (!device_.parameters().wall.filters.empty()) {
       result.remarks.push_back(note({.code = FindingCode::filters_stay, .key = "wall.filter"}));

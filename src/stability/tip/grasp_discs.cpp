@@ -21,7 +21,6 @@ constexpr std::size_t least_aliases = 12;
 constexpr double most_aliases = 2000.0;
 constexpr double undamped_below = 1e-12;   // of a motion of the tip, relative: what the motions before it do not damp
 constexpr double rounded_damping = 1e-14;  // relative, of an eigenvalue of D that is rounding
-constexpr double at_rest_below = 1e-7;     // |sT|: rounding leaves poles that rest so far off
 constexpr double no_spring_below = 1e-12;  // relative, of the springs of still motions
 constexpr double least_damping = 1e-9;     // relative, of a motion that nothing damps, where R = 0 is sought
 
@@ -209,6 +208,23 @@ std::vector<ComplexNumber> GraspDiscs::still_poles() const {
   return motion_poles(still.transpose() * of_.stiffness * still, still.transpose() * of_.damping * still, period_);
 }
 
+// How many of these poles are at rest: one of each motion that no spring holds, two where nothing damps it. Rounding moves them by
+// the square root of itself, so that no bound tells them from slow ones.
+Eigen::Index GraspDiscs::still_at_rest() const {
+  const Eigen::MatrixXd still = still_motions();
+  const auto of_size_one = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd of_still = still.transpose() * matrix * still;
+    const double size = of_still.cwiseAbs().maxCoeff();
+    return size > 0.0 ? of_still / size : of_still;
+  };
+  const auto free_of = [](const Eigen::MatrixXd& forces) {
+    return forces.cols() - (forces.isZero(0.0) ? 0 : rank(forces, no_spring_below));
+  };
+  if (still.cols() == 0) return 0;
+  const Eigen::MatrixXd springs = of_size_one(of_.stiffness);
+  return free_of(springs) + free_of(springs + of_size_one(of_.damping));
+}
+
 std::vector<ComplexNumber> GraspDiscs::free_poles() const {
   std::vector<ComplexNumber> poles = motion_poles(of_.stiffness, of_.damping, period_);
   std::erase_if(poles, [](const ComplexNumber& s) { return !(s.imag() > 0.0); });
@@ -249,11 +265,11 @@ std::vector<ComplexNumber> GraspDiscs::lossless_points() const {
 
 double GraspDiscs::slowest_corner() const {
   double slowest = std::numeric_limits<double>::infinity();
-  const auto look_at = [&](ComplexNumber s) {
-    if (std::abs(s) > at_rest_below) slowest = std::min(slowest, std::abs(s));
-  };
-  for (const ComplexNumber& s : still_poles()) look_at(s);
-  for (const ComplexNumber& s : lossless_points()) look_at(s);
+  std::vector<ComplexNumber> poles = still_poles();
+  std::ranges::sort(poles, {}, [](const ComplexNumber& each) { return std::abs(each); });
+  const auto rest = static_cast<std::size_t>(still_at_rest());
+  if (rest < poles.size()) slowest = std::abs(poles[rest]);
+  for (const ComplexNumber& s : lossless_points()) slowest = std::min(slowest, std::abs(s));
   return slowest;
 }
 

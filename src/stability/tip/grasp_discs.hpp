@@ -71,6 +71,7 @@ class GraspDiscs {
 
   // sT of the motions that are left where the tip stands still: a grasp that holds it so makes them the loop's own.
   [[nodiscard]] std::vector<std::complex<double>> still_poles() const;
+  [[nodiscard]] Eigen::Index still_at_rest() const;
 
   // The least |sT| of those and of the lossless points, of what does not rest: as w -> 0 nothing changes far below it. Infinite where
   // there is none.
