@@ -92,7 +92,8 @@ std::span<const Phrase> stability_phrases() {
       Phrase{
           any_grasp_not_known, "any_grasp_not_known", note,
           "the limit over all passive users of a mechanism, who hold its tip in every direction, is not computed here",
-          ""},
+          "it is not with a damper in a loop of its own, above 20 coordinates, and where a motion is too slow for the "
+          "sampling period"},
       Phrase{any_grasp_not_known_somewhere, "any_grasp_not_known_somewhere", warning,
              "the limit over all passive users is not known along {count} of {of} directions at poses",
              "the least with any passive user may lie there; quantiles and shares count it as 0",

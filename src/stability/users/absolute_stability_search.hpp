@@ -50,7 +50,7 @@ class AbsoluteStabilitySearch {
 
   Device free_;
   TerminationDiscs discs_;
-  std::optional<AnyGrasp> grasps_;  // of the tip of a mechanism; discs_ are then not asked
+  std::optional<AnyGrasp> grasps_;  // of the tip of a mechanism, in place of the discs of discs_
   FreeGain free_gain_ = FreeGain::stiffness;
   double period_ = 0.0;
   DiscPieces pieces_;
