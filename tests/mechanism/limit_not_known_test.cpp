@@ -63,6 +63,25 @@ TEST(LimitNotKnown, NoWallRestsOnIt) {
   EXPECT_TRUE(targets.targets.empty());
 }
 
+// Dampings of six decades: rounding of the fast corners is greater than the slowest one, which sets the limit at 2e-8 rad a sample
+// (5.874 N/m at the longer period, where the scan's own end says 57).
+TEST(LimitNotKnown, WhereRoundingHidesTheSlowestCorner) {
+  for (const double period : {1.387e-4, 5e-5}) {
+    SCOPED_TRACE(period);
+    DeviceParameters parameters;
+    parameters.mechanism = MechanismDirection{
+        {.path = ZWIDTH_SOURCE_DIR "/tests/mechanism/slow_corner_arm.xml",
+         .tip = "tip",
+         .pose = {{"j0", 0.238767}, {"j1", -0.901774}, {"j2", -0.927779}, {"j3", 0.075798}, {"j4", -0.949302}}},
+        {-0.181062, -0.936842, -0.299238}};
+    parameters.loop.sampling_period = period;
+    const Analysis analysis = analyze(device_of_mechanism(std::move(parameters)));
+    EXPECT_GT(analysis.critical.stiffness, 6000.0);
+    EXPECT_FALSE(analysis.any_user);
+    EXPECT_TRUE(has_finding(analysis.remarks, FindingCode::any_grasp_not_known));
+  }
+}
+
 // There it may be the least.
 TEST(LimitNotKnown, AtOnePoseItLeavesTheWorkspaceDoubtful) {
   const Device device = slow_arm(2.6e-5);

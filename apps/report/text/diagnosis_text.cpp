@@ -104,6 +104,7 @@ class LimitScale {
 
   [[nodiscard]] std::string text(double limit) const {
     if (limit == 0.0) return "none";
+    if (std::isnan(limit)) return "not known";
     return std::isfinite(limit) ? number(limit / scale_) : std::string("no limit");
   }
   [[nodiscard]] std::string with_unit(double limit) const {
@@ -171,7 +172,7 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
       "\n" + wrap(fmt::format("What moves it, each change alone and recomputed ({})", now), line_width, 0);
   text += layout(table);
   if (!lowering.empty()) {
-    text += bulleted(fmt::format("lowers the limit with any passive user: {}", lowering));
+    text += bulleted(fmt::format("lowers the limit with any passive user, or leaves it unknown: {}", lowering));
   }
   return text;
 }

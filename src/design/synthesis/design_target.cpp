@@ -312,8 +312,8 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   const Progress while_judging = [&progress](double) { progress.go_on(); };
   const AbsoluteStabilityCheck users(device, options.limit_of, while_judging);
   result.absolute_stability_limit_now = users.now();
-  if (users.now()) {
-    for (Remark& each : any_grasp_remarks(device, true)) result.remarks.push_back(std::move(each));
+  if (can_be_held(device)) {
+    for (Remark& each : any_grasp_remarks(device, users.now().has_value())) result.remarks.push_back(std::move(each));
   }
   double limit = own.value;
   if (options.goal == StiffnessGoal::absolute_stability_limit) {

@@ -116,7 +116,10 @@ std::optional<double> LimitAlongParameter::of_any_user(const Device& device, dou
   }
   if (!users_ || !is_of_damper) users_ = std::make_unique<AbsoluteStabilitySearch>(device);
   const AbsoluteStabilityLimit found = users_->limit(damper);
-  if (found.trust.refused()) return std::nullopt;
+  if (found.trust.refused()) {
+    refused_at_ = found.trust.reasons.front();
+    return std::nullopt;
+  }
   const double angle = found.frequency > 0.0 ? found.frequency * period : low_angle;
   if (std::ranges::find(angles_, angle) == angles_.end()) angles_.push_back(angle);
   if (angles_.size() > most_angles) angles_.erase(angles_.begin());

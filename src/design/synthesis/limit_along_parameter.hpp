@@ -36,7 +36,7 @@ class LimitAlongParameter {
   // differ.
   [[nodiscard]] bool is_known() const;
 
-  // Why the limit of two loops was last refused at a value that makes a device; nothing where it never was.
+  // Why the limit of two loops, or that with any user, was last refused at a value that makes a device; nothing where it never was.
   [[nodiscard]] const std::optional<std::string>& refused_at() const { return refused_at_; }
 
   // The limit. Absent where the value makes no device, or its limit is not found.

@@ -74,7 +74,7 @@ class GraspDiscs {
   [[nodiscard]] Eigen::Index still_at_rest() const;
 
   // The least |sT| of those and of the lossless points, of what does not rest: as w -> 0 nothing changes far below it. Infinite where
-  // there is none.
+  // there is none, 0 where rounding hides it.
   [[nodiscard]] double slowest_corner() const;
 
   // In how many the tip moves.
