@@ -235,7 +235,7 @@ void run_target(const DesignArguments& arguments) {
 
 void run_design(const CLI::App& command, const DesignArguments& arguments) {
   if (arguments.recommend.wanted) {
-    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output.json);
+    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output);
   }
   if (arguments.recommend.quantisation_force) throw BadInput("--ripple", "is for a recommendation", "add --recommend");
   if (arguments.notch.wanted) {
@@ -263,7 +263,7 @@ void add_design(CLI::App& app) {
   add_device_arguments(*command, arguments->devices, FileCount::several);
   add_output_options(*command, arguments->output,
                      {.json = "Print one JSON document per answer, on one line",
-                      .figure = "Of a sweep: .csv; of it or of a notch: .svg, .png or .pdf"});
+                      .figure = "Of a sweep: .csv; of it, a notch or a recommendation:\n.svg, .png or .pdf"});
   CLI::Option* sweep = command->add_option("--sweep", arguments->sweeps,
                                            "Follow a number: KEY=FIRST:LAST:COUNT, or with :log; two: twice");
   sweep->type_name("KEY=A:B:N")->allow_extra_args(false);
