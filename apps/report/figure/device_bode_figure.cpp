@@ -131,7 +131,8 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
 BodeFigure diagnosis_figure(const Device& device, const Diagnosis& diagnosis) {
   Wall wall = device.parameters().wall;
   wall.damping = diagnosis.damping;
-  const AnalysedDevice analysed = analysed_device(device_with_wall(device, wall), limit_and_wall_only());
+  AnalysedDevice analysed = analysed_device(device_with_wall(device, wall), limit_and_wall_only());
+  analysed.analysis.trust.inherit(diagnosis.trust);
   BodeFigure figure = device_bode_figure({&analysed, 1});
   figure.observed = diagnosis.frequency;
   if (diagnosis.stiffness && *diagnosis.stiffness > 0.0) {
