@@ -58,7 +58,9 @@ TEST_F(Design, SweepsOneNumberIntoFigureAndTable) {
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(contents("fig.svg"), HasSubstr("crossovers of vibration mode 1"));
   EXPECT_THAT(outcome.output, HasSubstr("loop.delay"));
-  ASSERT_EQ(run("zwidth design devices/lhifam.toml --sweep loop.delay=0:8e-3:9 -o all.csv").status, 0);
+  ASSERT_EQ(run("zwidth design devices/lhifam.toml --sweep loop.delay=0:8e-3:9 -o all.csv --csv same.csv").status, 0);
+  EXPECT_EQ(contents("same.csv"), contents("all.csv"));
+  expect_refusal("zwidth design devices/lhifam.toml --target 2x --csv a.csv", "--csv");
   const std::string csv = contents("all.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 10);
 }
