@@ -77,6 +77,15 @@ TEST_F(Design, SweepsTwoNumbers) {
   EXPECT_THAT(contents("map.png"), StartsWith("\x89PNG"));
 }
 
+// Lines of equal K_CR in white; the first and the last value are the axis' ends, a tic each.
+TEST_F(Design, DrawsTwoNumbersAsContoursBetweenTheirEnds) {
+  const std::string command = "zwidth design devices/lhifam.toml --sweep loop.delay=0:4e-3:31 ";
+  ASSERT_EQ(run(command + "--sweep link.damping=5:50:5 --figure map.svg").status, 0);
+  const std::string drawn = contents("map.svg");
+  EXPECT_THAT(drawn, HasSubstr("rgb(255, 255, 255)"));
+  for (const char* tic : {">0<", ">4<", ">5<", ">50<"}) EXPECT_THAT(drawn, HasSubstr(tic));
+}
+
 TEST_F(Design, ComparesArchitectures) {
   const Outcome outcome =
       run("zwidth design devices/lhifam.toml --compare sensed=motor,handle --operator 0.5,6,135 --json");
