@@ -16,6 +16,7 @@
 #include "report/text/trust_text.hpp"
 #include "results/bode_json.hpp"
 #include "zwidth/model/mechanism_key.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -111,8 +112,19 @@ void add_bode(CLI::App& app) {
                      {.json = "Print the numbers, one JSON document per device, one per line",
                       .csv = "Write the numbers, of one device",
                       .figure = "Figure (.svg, .png, .pdf) or numbers (.csv) to write"});
-  command->add_option("--from", arguments->bode.from, "Lowest frequency, rad/s")->type_name("W");
-  command->add_option("--to", arguments->bode.to, "Highest frequency, rad/s; Nyquist unless given")->type_name("W");
+  CLI::Option* from = command->add_option("--from", arguments->bode.from, "Lowest frequency, rad/s")->type_name("W");
+  CLI::Option* to =
+      command->add_option("--to", arguments->bode.to, "Highest frequency, rad/s; Nyquist unless given")->type_name("W");
+  const auto in_hertz = [command](const char* name, std::optional<double>& frequency, const char* help,
+                                  CLI::Option* other) {
+    command
+        ->add_option_function<double>(
+            name, [&frequency](double hz) { frequency = radians_per_second(hz); }, help)
+        ->type_name("HZ")
+        ->excludes(other);
+  };
+  in_hertz("--from-hz", arguments->bode.from, "The same in Hz", from);
+  in_hertz("--to-hz", arguments->bode.to, "The same in Hz", to);
   command
       ->add_option("--points", arguments->bode.points, "Frequencies on the logarithmic axis, more where a curve bends")
       ->capture_default_str()
@@ -124,7 +136,7 @@ void add_bode(CLI::App& app) {
       "  zwidth bode devices/lhifam.toml devices/lhifam_rigid.toml --output comparison.pdf\n"
       "  zwidth bode devices/lhifam.toml --set loop.delay=0.25e-3 --output lhifam.csv --points 1000");
   command->callback([arguments, command] {
-    for (const char* option : {"--from", "--to", "--points"}) {
+    for (const char* option : {"--from", "--to", "--from-hz", "--to-hz", "--points"}) {
       const bool has_numbers =
           !arguments->output.figure.empty() || !arguments->output.csv.empty() || arguments->output.json;
       if (command->count(option) > 0 && !has_numbers) {

@@ -135,9 +135,9 @@ void run_sweep(const DesignArguments& arguments) {
   if (sweep.trust.refused()) {
     return print_refused(outputs, sweep.trust, device.name(),
                          arguments.output.json ? results::line(results::sweep_json(device, sweep)) : "",
-                         {arguments.output.figure});
+                         {arguments.output.csv, arguments.output.figure});
   }
-  outputs.put("--output", [&] { return results::sweep_csv(sweep); });
+  for (const char* option : {"--csv", "--output"}) outputs.put(option, [&] { return results::sweep_csv(sweep); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(device, sweep, format); });
   outputs.commit();
   outputs.print(arguments.output.json ? results::line(results::sweep_json(device, sweep))
@@ -234,8 +234,11 @@ void run_target(const DesignArguments& arguments) {
 }
 
 void run_design(const CLI::App& command, const DesignArguments& arguments) {
+  if (!arguments.output.csv.empty() && arguments.sweeps.empty()) {
+    throw BadInput("--csv", "is for a sweep", "add --sweep KEY=FIRST:LAST:COUNT");
+  }
   if (arguments.recommend.wanted) {
-    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output.json);
+    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output);
   }
   if (arguments.recommend.quantisation_force) throw BadInput("--ripple", "is for a recommendation", "add --recommend");
   if (arguments.notch.wanted) {
@@ -263,7 +266,8 @@ void add_design(CLI::App& app) {
   add_device_arguments(*command, arguments->devices, FileCount::several);
   add_output_options(*command, arguments->output,
                      {.json = "Print one JSON document per answer, on one line",
-                      .figure = "Of a sweep: .csv; of it or of a notch: .svg, .png or .pdf"});
+                      .csv = "Of a sweep: also write its numbers",
+                      .figure = "Also draw a sweep, a notch or a recommendation: .svg, .png or\n.pdf; .csv as --csv"});
   CLI::Option* sweep = command->add_option("--sweep", arguments->sweeps,
                                            "Follow a number: KEY=FIRST:LAST:COUNT, or with :log; two: twice");
   sweep->type_name("KEY=A:B:N")->allow_extra_args(false);

@@ -12,6 +12,8 @@
 #include "cli/progress_line.hpp"
 #include "cli/refused_answer.hpp"
 #include "cli/subcommand.hpp"
+#include "report/analysed_device.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/wall_recommendation_json.hpp"
@@ -72,9 +74,10 @@ void add_recommend_options(CLI::App& command, RecommendArguments& arguments) {
 }
 
 void run_recommend(const CLI::App& command, const DeviceArguments& devices, const RecommendArguments& arguments,
-                   const NotchArguments& shared, bool json) {
+                   const NotchArguments& shared, const OutputArguments& output) {
+  const bool json = output.json;
   if (devices.files.size() != 1) throw BadInput("--recommend", "takes one device file");
-  for (const char* option : {"--notch", "--sweep", "--compare", "--target", "--output", "--any-user"}) {
+  for (const char* option : {"--notch", "--sweep", "--compare", "--target", "--any-user"}) {
     if (command.count(option) > 0) throw BadInput("--recommend", CommandText("excludes ") + CommandText(option));
   }
   for (const char* option : {"--far-from-modes", "--lower-any-user"}) {
@@ -83,6 +86,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
   const RecommendationOptions options = recommendation_options(arguments, shared);
   Outputs outputs(command);
   outputs.add("--write", shared.write);
+  outputs.add("--output", output.figure, Ending::figure);
   outputs.keep(devices.files, "device file");
   const std::string& file = devices.files.front();
   const Device device = read_devices(devices).front();
@@ -90,7 +94,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
   if (recommendation.status == WallRecommendation::Status::refused) {
     return print_refused(outputs, recommendation.trust, device.name(),
                          json ? results::line(results::wall_recommendation_json(device, options, recommendation)) : "",
-                         {shared.write});
+                         {shared.write, output.figure});
   }
   if (!shared.write.empty() && !recommendation.wall) {
     throw WorkFailed(fmt::format("{}: {} is not written: {}", file, shared.write, text(recommendation.reason)));
@@ -99,6 +103,12 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
     DeviceParameters walled = device.parameters();
     walled.wall = recommendation.wall->wall;
     return write_device(walled);
+  });
+  outputs.draw("--output", [&](report::FigureFormat format) {
+    if (!recommendation.wall) return report::draw_region(device, region(device, {.approximations = false}), format);
+    const Wall& wall = recommendation.wall->wall;
+    const Device walled = report::device_with_wall(device, wall);
+    return report::draw_region(walled, region(walled, {.approximations = false}), format, wall);
   });
   outputs.commit();
   outputs.print(json ? results::line(results::wall_recommendation_json(device, options, recommendation))

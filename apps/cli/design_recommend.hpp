@@ -18,6 +18,6 @@ void add_recommend_options(CLI::App& command, RecommendArguments& arguments);
 
 /// Recommends the wall and prints the answer. Throws BadInput and WorkFailed.
 void run_recommend(const CLI::App& command, const DeviceArguments& devices, const RecommendArguments& arguments,
-                   const NotchArguments& shared, bool json);
+                   const NotchArguments& shared, const OutputArguments& output);
 
 }  // namespace zwidth::cli

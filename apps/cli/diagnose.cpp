@@ -15,6 +15,7 @@
 #include "cli/refused_answer.hpp"
 #include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
+#include "report/figure/device_bode_figure.hpp"
 #include "report/text/diagnosis_text.hpp"
 #include "results/diagnosis_json.hpp"
 #include "zwidth/design/diagnosis.hpp"
@@ -86,10 +87,20 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   if (!recorded) options.frequency = radians_per_second(*arguments.oscillates_hz);
   const auto problem = recording ? find_problem(options, device, *recording) : find_problem(options, device);
   if (problem) refuse(*problem, options_of_diagnosis, file);
+  Outputs outputs(command, arguments.output);
+  outputs.keep(arguments.devices.files, "device file");
+  if (!arguments.output.figure.empty()) {
+    if (const auto no_figure = find_problem(BodeOptions{}, device)) refuse(*no_figure, {});
+  }
   const Diagnosis diagnosis = diagnosed(command, device, recording, options, file);
   const std::string document = arguments.output.json ? results::line(results::diagnosis_json(device, diagnosis)) : "";
-  const Outputs outputs(command);
-  if (diagnosis.trust.refused()) return print_refused(outputs, diagnosis.trust, device.name(), document, {});
+  if (diagnosis.trust.refused()) {
+    return print_refused(outputs, diagnosis.trust, device.name(), document, {arguments.output.figure});
+  }
+  outputs.draw("--output", [&](report::FigureFormat format) {
+    return report::draw(report::diagnosis_figure(device, diagnosis), format);
+  });
+  outputs.commit();
   if (arguments.output.json) return outputs.print(document);
   outputs.print_text(report::diagnosis_text(device, diagnosis));
 }
@@ -110,7 +121,8 @@ void add_diagnose(CLI::App& app) {
       ->type_name("M");
   command->add_option("--recording", arguments->recording.file, "Take frequency and amplitude from its last half")
       ->type_name("FILE");
-  add_output_options(*command, arguments->output, {});
+  add_output_options(*command, arguments->output,
+                     {.figure = "Also draw the loop's response with that frequency: .svg, .png or .pdf"});
   add_recording_options(*command, arguments->recording);
   command->footer(
       "Examples:\n"

@@ -139,7 +139,8 @@ void add_excite(CLI::App& app) {
       ->needs(device);
   command->add_flag("--beyond-limits", arguments->beyond_limits, "Warn of an exceeded limit instead of failing")
       ->needs(device);
-  add("-o,--output", arguments->samples, "CSV to write; else, without --figure and --json, standard output", "FILE");
+  add("-o,--output,--csv", arguments->samples, "CSV to write; else, without --figure and --json, standard output",
+      "FILE");
   add_output_options(*command, arguments->output,
                      {.json = "Print the summary as JSON on standard output",
                       .figure = "Signal and power density as .svg, .png or .pdf"});

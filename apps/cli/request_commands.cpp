@@ -170,7 +170,7 @@ RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offe
     return std::ranges::count(request.options, option, &CommandRequest::Option::name) > 0;
   };
   // Text where the command has no document, or where its text is asked for on standard output.
-  const bool is_text = asks_for("output") || asks_for("output-device");
+  const bool is_text = request.prints_text || asks_for("output") || asks_for("output-device");
   if (command.get_option_no_throw("--json") != nullptr && !is_text) arguments.emplace_back("--json");
   if (request.command == recommend && !asks_for("recommend")) arguments.emplace_back("--recommend");
   put_inputs(request, offered, own, arguments);

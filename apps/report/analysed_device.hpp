@@ -15,13 +15,20 @@ struct AnalysedDevice {
   Device device;
   Analysis analysis;
   std::optional<WallSummary> walls = {};  ///< where they were asked for
-  std::optional<WallRegion> region = {};  ///< of a page
+  std::optional<WallRegion> region = {};  ///< of a page, seen through the filters of the wall to run
 };
 
 /// Throws as analyze() does.
 [[nodiscard]] inline AnalysedDevice analysed_device(Device device, const AnalysisOptions& options = {}) {
   Analysis analysis = analyze(device, options);
   return {std::move(device), std::move(analysis), std::nullopt};
+}
+
+/// The device with another wall.
+[[nodiscard]] inline Device device_with_wall(const Device& device, const Wall& wall) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall = wall;
+  return Device(std::move(parameters));
 }
 
 /// What stands beside the answer where it is asked for.

@@ -82,25 +82,24 @@ TextTable recommended_table(const RecommendedWall& found, Motion motion) {
   return table;
 }
 
+const RecommendedWall* wall_to_run(const AnalysedDevice& analysed) {
+  return analysed.walls && analysed.walls->with_margins ? &*analysed.walls->with_margins : nullptr;
+}
+
 /// The region of stable walls with the one to run, and what that keeps.
 void add_walls(Document& document, const AnalysedDevice& analysed, std::size_t index) {
   if (!document.is_page() || !analysed.region) return;
-  const WallRegion& walls = *analysed.region;
-  const RecommendedWall* const found =
-      analysed.walls && analysed.walls->with_margins ? &*analysed.walls->with_margins : nullptr;
-  document.part("Stable walls, and the one to run");
-  // The region is that of the file's filters: a wall behind others does not belong into it.
-  const bool is_seen_alike = found != nullptr && !found->notch &&
-                             found->wall.velocity_filter_hz == analysed.device.parameters().wall.velocity_filter_hz;
-  if (found != nullptr) {
-    document.table(recommended_table(*found, analysed.device.parameters().motion));
-  }
+  const RecommendedWall* const found = wall_to_run(analysed);
+  document.part(found != nullptr ? "Stable walls, and the one to run" : "Stable walls");
+  if (found != nullptr) document.table(recommended_table(*found, analysed.device.parameters().motion));
+  const std::string_view filters = found != nullptr ? ", with the filters of the wall to run" : "";
   document.figure(
       fmt::format("region{}", index),
-      "Walls of stiffness K and virtual damping B: stable for anyone, and stable alone only. The boundary is exact.",
+      fmt::format("Walls of stiffness K and virtual damping B{}: stable for anyone, and stable alone only.", filters),
       [&] {
-        return draw_region(analysed.device, walls, FigureFormat::svg,
-                           is_seen_alike ? std::optional(found->wall) : std::nullopt);
+        if (found == nullptr) return draw_region(analysed.device, *analysed.region, FigureFormat::svg);
+        return draw_region(device_with_wall(analysed.device, found->wall), *analysed.region, FigureFormat::svg,
+                           found->wall);
       });
 }
 
@@ -260,7 +259,8 @@ std::string analysis_text(std::span<const AnalysedDevice> devices, const Detail&
 }
 
 std::optional<WallRegion> region_of_page(const AnalysedDevice& analysed, const Progress& progress) {
-  const Device& device = analysed.device;
+  const RecommendedWall* const found = wall_to_run(analysed);
+  const Device device = found != nullptr ? device_with_wall(analysed.device, found->wall) : analysed.device;
   if (is_point_wall(device) || device.degrees_of_freedom() > most_bodies_for_wall_summary) return std::nullopt;
   WallRegion walls = region(device, {.approximations = false, .progress = progress});
   if (walls.trust.refused() || !walls.region.stiffest) return std::nullopt;

@@ -203,10 +203,9 @@ std::string rare_sentence(const Study& study) {
                      rare.share, rare.lower, rare.upper, note ? " " + *note : std::string());
 }
 
-std::string study_report(const StudyRun& run, const Study& study, Medium medium) {
+/// What is said first.
+std::string study_answer(const StudyRun& run, const Study& study, Medium medium) {
   Document document(medium);
-  document.verbatim(document.is_page() ? "<div class=\"answer\">\n"
-                                       : shortened(display_name(run.device()), line_width) + "\n");
   document.paragraph(trust_note(study.trust));
   if (study.trust.refused()) return std::move(document).str();
   document.paragraph(yield_sentence(run, study));
@@ -221,7 +220,15 @@ std::string study_report(const StudyRun& run, const Study& study, Medium medium)
   document.paragraph(rare_sentence(study));
   if (!document.is_page()) document.paragraph(worst_sentence(run, study));
   document.paragraph(tightening_sentence(study));
-  if (document.is_page()) document.verbatim("</div>\n");
+  return std::move(document).str();
+}
+
+std::string study_report(const StudyRun& run, const Study& study, Medium medium) {
+  Document document(medium);
+  const std::string answer = study_answer(run, study, medium);
+  document.verbatim(document.is_page() ? answer_element(study.trust.verdict, answer)
+                                       : shortened(display_name(run.device()), line_width) + "\n" + answer);
+  if (study.trust.refused()) return std::move(document).str();
   document.figure("distribution",
                   "Bars: units by their critical stiffness. Line: the yield of a specification at each stiffness.",
                   [&] { return draw_study_distribution(run, study, FigureFormat::svg); });

@@ -68,7 +68,7 @@ class WorkspaceWriter {
 
   [[nodiscard]] std::string page() const {
     Document document(Medium::page);
-    document.verbatim("<div class=\"answer\">\n" + answer() + "</div>\n");
+    document.verbatim(answer_element(workspace_.trust.verdict, answer()));
     if (workspace_.least) {
       document.figure("map", "The least limit at every place of the tip.",
                       [&] { return draw_workspace(device_, workspace_, FigureFormat::svg); });

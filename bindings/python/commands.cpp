@@ -30,12 +30,13 @@ using StudyHeld = std::optional<std::variant<std::string, std::filesystem::path>
 /// Runs a command of the program: the same declarations parse and check its options, the same answer comes back.
 Answer run(const std::string& command, const Options& options, const Device* device,
            const std::vector<std::pair<std::string, Held>>& recordings, const py::object& progress,
-           const StudyHeld& study) {
+           const StudyHeld& study, bool prints_text) {
   cli::RequestBounds bounds;
   bounds.files = FilesBeside::read;
   CommandRequest request;
   request.command = command;
   request.naming = CommandRequest::Naming::keyword;
+  request.prints_text = prints_text;
   for (const auto& [name, values] : options) request.options.push_back({name, values});
   if (device != nullptr) request.device = write_device(device->parameters());
   request.study = study;

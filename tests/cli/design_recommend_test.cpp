@@ -39,6 +39,13 @@ TEST_F(DesignRecommend, WritesADeviceThatAnalyzeConfirms) {
   EXPECT_GE(recommended["alternatives"].size(), 3U);
 }
 
+// Behind its velocity filter the wall is stable; without it this one would lie outside of the region.
+TEST_F(DesignRecommend, DrawsTheWallInTheRegionBehindItsFilter) {
+  const Outcome drawn = run("zwidth design devices/capstan_paddle.toml --recommend --figure wall.svg");
+  ASSERT_EQ(drawn.status, 0) << drawn.errors;
+  EXPECT_THAT(contents("wall.svg"), HasSubstr("recommended: 315.3 mN m/rad"));
+}
+
 TEST_F(DesignRecommend, SaysWhatBoundsItInText) {
   const Outcome outcome = run("zwidth design devices/lhifam.toml --recommend");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;

@@ -58,7 +58,9 @@ TEST_F(Design, SweepsOneNumberIntoFigureAndTable) {
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(contents("fig.svg"), HasSubstr("crossovers of vibration mode 1"));
   EXPECT_THAT(outcome.output, HasSubstr("loop.delay"));
-  ASSERT_EQ(run("zwidth design devices/lhifam.toml --sweep loop.delay=0:8e-3:9 -o all.csv").status, 0);
+  ASSERT_EQ(run("zwidth design devices/lhifam.toml --sweep loop.delay=0:8e-3:9 -o all.csv --csv same.csv").status, 0);
+  EXPECT_EQ(contents("same.csv"), contents("all.csv"));
+  expect_refusal("zwidth design devices/lhifam.toml --target 2x --csv a.csv", "--csv");
   const std::string csv = contents("all.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 10);
 }
@@ -73,6 +75,15 @@ TEST_F(Design, SweepsTwoNumbers) {
   EXPECT_EQ(document["axes"][1]["parameter"], "body.load.mass");
   EXPECT_FALSE(document["points"][0]["any_user_stiffness"].is_null());
   EXPECT_THAT(contents("map.png"), StartsWith("\x89PNG"));
+}
+
+// Lines of equal K_CR in white; the first and the last value are the axis' ends, a tic each.
+TEST_F(Design, DrawsTwoNumbersAsContoursBetweenTheirEnds) {
+  const std::string command = "zwidth design devices/lhifam.toml --sweep loop.delay=0:4e-3:31 ";
+  ASSERT_EQ(run(command + "--sweep link.damping=5:50:5 --figure map.svg").status, 0);
+  const std::string drawn = contents("map.svg");
+  EXPECT_THAT(drawn, HasSubstr("rgb(255, 255, 255)"));
+  for (const char* tic : {">0<", ">4<", ">5<", ">50<"}) EXPECT_THAT(drawn, HasSubstr(tic));
 }
 
 TEST_F(Design, ComparesArchitectures) {

@@ -33,6 +33,14 @@ TEST_F(Diagnose, GivesCauseAndChangesAsJsonAndText) {
   EXPECT_THAT(text.output, HasSubstr("What moves it"));
 }
 
+TEST_F(Diagnose, DrawsTheFrequencyAmongTheCrossovers) {
+  const std::string command = "zwidth diagnose devices/lhifam.toml --oscillates-hz 41 --stiffness 6500 ";
+  const Outcome drawn = run(command + "--figure loop.svg");
+  ASSERT_EQ(drawn.status, 0) << drawn.errors;
+  EXPECT_EQ(drawn.output, run(command).output);
+  for (const char* part : {"41 Hz", "6.5 kN/m", "6.143 Hz"}) EXPECT_THAT(contents("loop.svg"), HasSubstr(part));
+}
+
 // A simulated run, recorded, tells frequency and amplitude.
 TEST_F(Diagnose, ReadsTheFrequencyFromARecording) {
   const Outcome simulated =

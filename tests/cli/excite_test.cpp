@@ -62,6 +62,7 @@ TEST_F(Excite, WritesTimeAndForce) {
   EXPECT_EQ(piped.output, contents("chirp.csv"));
   EXPECT_EQ(piped.errors, outcome.output);  // the summary makes way
   EXPECT_EQ(run("zwidth excite --amplitude 5 --output -").output, contents("chirp.csv"));
+  EXPECT_EQ(run("zwidth excite --amplitude 5 --csv -").output, contents("chirp.csv"));
 }
 
 TEST_F(Excite, SummaryAsJson) {

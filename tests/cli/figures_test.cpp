@@ -215,5 +215,14 @@ TEST_F(Figures, ReproduceRefusals) {
   expect_refusal("echo x > file; timeout 2 zwidth reproduce file/below", 1, "cannot make the directory");
 }
 
+TEST_F(Figures, BodeTakesItsRangeInHertz) {
+  ASSERT_EQ(run("zwidth bode devices/lhifam.toml --from-hz 1 --to-hz 100 --csv hertz.csv").status, 0);
+  ASSERT_EQ(
+      run("zwidth bode devices/lhifam.toml --from 6.283185307179586 --to 628.3185307179587 --output rad.csv").status,
+      0);
+  EXPECT_EQ(contents("hertz.csv"), contents("rad.csv"));
+  expect_refusal("zwidth bode devices/lhifam.toml --from 1 --from-hz 1 --csv a.csv", 2, "--from");
+}
+
 }  // namespace
 }  // namespace zwidth::cli

@@ -311,6 +311,27 @@ TEST(Identification, AnOperatorOfTheStructureIsTheHandOnTheDevice) {
 }
 
 // A wall that buzzes tells the damping of a body whose mass is known.
+// Every holder's limit, judged as the fit is; none of a fit that is refused, though its device has one.
+TEST(Identification, ItsDeviceIsAnalysedWithEveryHolder) {
+  const Device device(late_rotor());
+  Identification found{.source = "", .response = {}, .fit = {.device = device, .misfit = {}}};
+  const Analysis sound = analyze_fit(found);
+  const Analysis alone = analyze(device);
+  ASSERT_TRUE(sound.limits.any_user && alone.limits.any_user);
+  EXPECT_EQ(sound.limits.nobody.critical_stiffness, alone.limits.nobody.critical_stiffness);
+  EXPECT_EQ(sound.limits.any_user->critical_stiffness, alone.limits.any_user->critical_stiffness);
+  EXPECT_EQ(sound.trust, alone.trust);
+  found.trust.doubt({.code = FindingCode::delay_not_shown});
+  const Analysis doubtful = analyze_fit(found);
+  EXPECT_EQ(doubtful.trust, found.trust);
+  EXPECT_EQ(doubtful.limits.nobody.critical_stiffness, alone.limits.nobody.critical_stiffness);
+  EXPECT_FALSE(doubtful.interval);
+  found.trust.refuse({.code = FindingCode::force_unexplained, .evidence = {{"unexplained", 0.9}, {"threshold", 0.5}}});
+  const Analysis refused = analyze_fit(found);
+  EXPECT_EQ(refused.trust, found.trust);
+  EXPECT_TRUE(std::isnan(refused.limits.nobody.critical_stiffness));
+}
+
 TEST(Identification, AMeasuredLimitAloneDeterminesOneNumber) {
   const CriticalStiffness truth = critical_stiffness(Device(late_rotor()));
   DeviceParameters guessed = late_rotor();

@@ -68,6 +68,10 @@ TEST(RigidBodyIdentification, ARigidBodyIsSound) {
     const RigidBodyIdentification found = identify_rigid_body(recorded(body_of_one_kilogram(0.0), 20.0, seed));
     EXPECT_TRUE(found.trust.sound()) << "seed " << seed << (found.trust.sound() ? "" : found.trust.reasons.front());
     EXPECT_NEAR(found.fit.mass.value, 1.0, 0.01) << "seed " << seed;
+    const Analysis analysis = analyze_fit(found);
+    EXPECT_EQ(analysis.trust, found.trust) << "seed " << seed;
+    ASSERT_TRUE(analysis.interval && analysis.limits.any_user) << "seed " << seed;
+    EXPECT_LE(analysis.limits.any_user->critical_stiffness, analysis.critical.stiffness) << "seed " << seed;
   }
 }
 

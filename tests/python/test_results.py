@@ -4,6 +4,7 @@ import json
 import keyword
 import math
 import pickle
+import subprocess
 import warnings
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import numpy as np
 import pandas
 import pytest
 import zwidth
-from conftest import ROOT
+from conftest import PROGRAM, ROOT
 from zwidth._results import CLASSES
 
 
@@ -238,6 +239,17 @@ def test_notebooks_show_a_table(lhifam):
     assert "link" in lhifam._repr_html_() and "<pre>" in lhifam._repr_html_()
     for result in (zwidth.critical_stiffness(lhifam), zwidth.any_user_limit(lhifam), zwidth.region(lhifam)):
         assert "critical_stiffness" in result._repr_html_()
+
+
+def test_an_analysis_prints_as_the_command(lhifam):
+    for options, words in (({}, []), ({"set": "loop.delay=1e-3", "worst_user": True}, ["--set=loop.delay=1e-3", "--worst-user"])):
+        command = [PROGRAM, "analyze", "devices/lhifam.toml", *words]
+        printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        analysis = zwidth.analyze(lhifam, **options)
+        # In lines of 100 letters, where a pipe gets whole paragraphs.
+        assert str(analysis).split() == printed.split()
+        assert max(map(len, str(analysis).splitlines())) < max(map(len, printed.splitlines()))
+        assert repr(analysis).startswith("<Analysis")
 
 
 def test_texts_are_exported(lhifam):

@@ -87,6 +87,15 @@ TEST(HtmlReport, HoldsTheRegionAndTheDayOfWriting) {
   EXPECT_THAT(page, HasSubstr(quantity(*analysed.walls->with_margins->wall.stiffness, "N/m")));
 }
 
+TEST(HtmlReport, TheEdgeOfTheAnswerIsItsVerdicts) {
+  AnalysedDevice analysed = lhifam();
+  EXPECT_THAT(report_of({analysed}), HasSubstr(R"(<div class="answer sound">)"));
+  analysed.analysis.trust.doubt({.code = FindingCode::delay_not_shown});
+  EXPECT_THAT(report_of({analysed}), HasSubstr(R"(<div class="answer doubtful">)"));
+  analysed.analysis.trust.refuse({.code = FindingCode::delay_not_shown});
+  EXPECT_THAT(report_of({analysed}), HasSubstr(R"(<div class="answer refused">)"));
+}
+
 TEST(HtmlReport, JudgesTheWall) {
   const std::string page = report_of({lhifam_with_wall()});
   EXPECT_THAT(page, HasSubstr("The wall of the file"));

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "lhifam.hpp"
@@ -26,6 +27,29 @@ class OnDevice : public testing::TestWithParam<std::uint64_t> {
   Device device = test::bench_device(GetParam());
   SimulatedDriver driver{device, 0.0, false};
 };
+
+// A mode that may oscillate is played: that of the LHIfAM at 98.37 Hz, though its limit is at 6.143 Hz.
+TEST(DefaultMeasurement, ReachesAboveEveryCrossover) {
+  const auto band_of = [](const DeviceParameters& parameters) {
+    const ExcitationOptions excitation = default_measurement(Device(parameters)).excitation;
+    return std::pair(excitation.lowest_hz, excitation.highest_hz);
+  };
+  DeviceParameters parameters = test::lhifam_parameters();
+  const auto [lowest, highest] = band_of(parameters);
+  EXPECT_NEAR(lowest, 6.143 / 5.0, 1e-3);
+  EXPECT_NEAR(highest, 2.5 * 98.37, 0.1);
+  parameters.user.mass = 50.0;  // in hand its crossovers lie elsewhere: those with nobody holding count all the same
+  EXPECT_GE(band_of(parameters).second, highest * (1.0 - 1e-9));
+  parameters.user = {};
+  parameters.loop.sampling_period = 4e-3;
+  EXPECT_LE(band_of(parameters).second, 0.8 * 125.0);
+  parameters = test::lhifam_parameters();
+  parameters.links.clear();
+  parameters.bodies = {{"body", 5.4, 3.5, 0.0, 0.0}};
+  parameters.loop.held = 0;
+  const auto rigid = band_of(parameters);
+  EXPECT_NEAR(rigid.second / rigid.first, 5.0 * 8.0, 1e-9);
+}
 
 TEST_P(OnDevice, TheLimitIsMeasuredWhereItIsPredicted) { expect_limit(device, driver); }
 

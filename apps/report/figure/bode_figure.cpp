@@ -20,6 +20,7 @@ constexpr std::array<LineStyle, most_curves> curve_styles = {
     LineStyle{"#0b4f9e", 2.0, "1"}, LineStyle{"#c2410c", 1.6, "(10,5)"}, LineStyle{"#15803d", 1.8, "(14,4,3,4)"},
     LineStyle{"#7e22ce", 1.8, "(3,4)"}};
 constexpr LineStyle nyquist_style{"#555555", 1.2, "(8,3,2,3,2,3)"};
+constexpr LineStyle observed_style{"#7e22ce", 2.0, "(3,4)"};
 constexpr LineStyle mark_style{"#777777", 0.8, "(2,3)"};
 constexpr LineStyle critical_style{"#b91c1c", 1.2, "1"};
 
@@ -78,6 +79,9 @@ std::vector<LegendEntry> legend(const BodeFigure& figure) {
     entries.push_back(
         {fmt::format("Nyquist, {} rad/s ({} Hz)", number(*figure.nyquist), number(hertz(*figure.nyquist))),
          nyquist_style});
+  }
+  if (figure.observed) {
+    entries.push_back({fmt::format("It oscillates at {} Hz", number(hertz(*figure.observed))), observed_style});
   }
   return entries;
 }
@@ -148,10 +152,14 @@ void draw_mark_lines(Canvas& canvas, const BodeFigure& figure, const Box& box, c
   }
 }
 
-void draw_nyquist(Canvas& canvas, const BodeFigure& figure, const Box& box, double from) {
-  if (!figure.nyquist || *figure.nyquist > figure.range.to) return;
-  const double x = place_on_log_axis(box, frequency_axis(figure), *figure.nyquist);
-  canvas.line(x, from, x, box.bottom, nyquist_style);
+void draw_upright(Canvas& canvas, const BodeFigure& figure, const Box& box, double from) {
+  const auto add = [&](const std::optional<double>& frequency, const LineStyle& style) {
+    if (!frequency || *frequency < figure.range.from || *frequency > figure.range.to) return;
+    const double x = place_on_log_axis(box, frequency_axis(figure), *frequency);
+    canvas.line(x, from, x, box.bottom, style);
+  };
+  add(figure.nyquist, nyquist_style);
+  add(figure.observed, observed_style);
 }
 
 /// The curves and the marks of one frame: `column` of the points with so many digits, `value` of a mark.
@@ -196,7 +204,7 @@ std::string draw(const BodeFigure& figure, FigureFormat format) {
                                  [](const BodeMark& mark) { return -decibels(mark.crossover.stiffness); }),
       .marks = [&](Canvas& canvas, const Box& frame) {
         draw_mark_lines(canvas, figure, frame, magnitude);
-        draw_nyquist(canvas, figure, frame, figure.marks.empty() ? frame.top : frame.top + 24.0);  // below the tags
+        draw_upright(canvas, figure, frame, figure.marks.empty() ? frame.top : frame.top + 24.0);  // below the tags
         canvas.text(0.5 * (frame.left + frame.right), frame.top - 38.0, "Frequency (Hz)", {Anchor::centre, text_size});
       }};
   const Panel of_phase{
@@ -211,7 +219,7 @@ std::string draw(const BodeFigure& figure, FigureFormat format) {
                                    return nearest_crossing_phase(
                                        phase_at(figure.curves[mark.curve], mark.crossover.frequency));
                                  }),
-      .marks = [&](Canvas& canvas, const Box& frame) { draw_nyquist(canvas, figure, frame, frame.top); }};
+      .marks = [&](Canvas& canvas, const Box& frame) { draw_upright(canvas, figure, frame, frame.top); }};
   return draw(Figure{.title = figure.title,
                      .legend = legend(figure),
                      .panels = {of_magnitude, of_phase},

@@ -34,6 +34,7 @@ struct BodeFigure {
   std::vector<BodeCurve> curves;   ///< at most most_curves
   std::vector<BodeMark> marks;     ///< numbered in this order and listed below the diagram
   std::optional<double> nyquist;   ///< rad/s
+  std::optional<double> observed;  ///< rad/s: of an oscillation to explain
   std::vector<std::string> notes;  ///< lines below the list
 };
 

@@ -30,6 +30,7 @@ constexpr std::size_t most_cells = 240;  // of the map, each way
 constexpr LineStyle limit_style{"#1a1a1a", 3.4, "1"};  // in the legend; drawn in its mechanism's colour
 constexpr LineStyle jump_style{"#1a1a1a", 1.0, "(2,3)"};
 constexpr LineStyle branch_edge{"#1a1a1a", 1.3, "1"};
+constexpr LineStyle contour_style{"#ffffff", 1.0, "1"};
 constexpr LineStyle any_user_limit_style{"#15803d", 1.8, "(8,5)"};
 constexpr std::array<std::string_view, 6> mode_colours = {"#0b4f9e", "#c2410c", "#7e22ce",
                                                           "#0e7490", "#a16207", "#9d174d"};
@@ -262,15 +263,21 @@ class MapFigure {
     low /= stiffness.size;
     high /= stiffness.size;
     std::string rows;
-    for (const std::size_t j : second) {
-      for (const std::size_t i : first) {
-        const SweepPoint& point = point_at(i, j);
-        fmt::format_to(std::back_inserter(rows), "{:.9g} {:.9g} {}\n", place(0, i), place(1, j),
+    // In half cells, each of its nearest point: so the picture ends where the numbers do.
+    for (std::size_t v = 0; v < 2 * (second.size() - 1); ++v) {
+      for (std::size_t u = 0; u < 2 * (first.size() - 1); ++u) {
+        const SweepPoint& point = point_at(first[(u + 1) / 2], second[(v + 1) / 2]);
+        fmt::format_to(std::back_inserter(rows), "{:.9g} {:.9g} {}\n", middle_of_half(0, u, first),
+                       middle_of_half(1, v, second),
                        point.limit ? fmt::format("{:.9g}", point.stiffness / stiffness.size) : "NaN");
       }
       rows += "\n";
     }
-    Figure figure{.title = title_};
+    const bool is_decades = high > 10.0 * low;
+    const std::vector<double> levels = contour_levels(low, high, is_decades);
+    const std::string contours = contour_lines(first, second, levels, stiffness);
+    Figure figure{.title = title_,
+                  .subtitle = contours.empty() ? "" : "White lines: equal K_CR, at the values beside the colours."};
     if (!jumps.empty()) {
       figure.legend.push_back({"another crossover limits beyond this line: K_CR may jump", branch_edge});
     }
@@ -279,12 +286,15 @@ class MapFigure {
          .right = 760.0,
          .axes = fmt::format("unset grid\nunset logscale\n{}{}set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
                              "set palette defined ({}) maxcolors 0\n{}set cbrange [{:.9g}:{:.9g}]\nset format cb '%g'",
-                             tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first,
-                             edges(1).second, even_colours, high > 10.0 * low ? "set logscale cb\n" : "", low,
+                             tics("x", 0), tics("y", 1), ends(0).first, ends(0).second, ends(1).first, ends(1).second,
+                             even_colours, (is_decades ? "set logscale cb\n" : "") + level_tics(levels), low,
                              high > low ? high : 1.001 * low),
          .x_label = axis_title(sweep_.axes[0], device_),
          .y_label = axis_title(sweep_.axes[1], device_),
-         .series = {{rows, "image", "1:2:3"}, {jumps, as_lines({"#ffffff", 3.0, "1"})}, {jumps, as_lines(branch_edge)}},
+         .series = {{rows, "image", "1:2:3"},
+                    {contours, as_lines(contour_style)},
+                    {jumps, as_lines({"#ffffff", 3.0, "1"})},
+                    {jumps, as_lines(branch_edge)}},
          .marks = [&](Canvas& canvas, const Box& frame) {
            canvas.colour_box({780.0, 780.0 + 0.02 * canvas_width, frame.top, frame.bottom});
            canvas.text(772.0, frame.top - 10.0,
@@ -327,6 +337,69 @@ class MapFigure {
     return rows;
   }
 
+  /// Steps of 1, 2 or 5 within the limits, in the colours' unit: some six, or three a decade.
+  static std::vector<double> contour_levels(double low, double high, bool is_decades) {
+    std::vector<double> levels;
+    if (is_decades) {
+      for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade < high; decade *= 10.0) {
+        for (const double step : {1.0, 2.0, 5.0}) levels.push_back(step * decade);
+      }
+    } else if (high > low) {
+      const double rough = (high - low) / 6.0;
+      const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+      const double step = decade * (rough < 2.0 * decade ? 2.0 : rough < 5.0 * decade ? 5.0 : 10.0);
+      for (double count = std::ceil(low / step); count * step < high; ++count) levels.push_back(count * step);
+    }
+    std::erase_if(levels, [&](double level) { return level <= low || level >= high; });
+    return levels;
+  }
+
+  static std::string level_tics(const std::vector<double>& levels) {
+    std::string list;
+    for (const double level : levels) list += fmt::format("{}{:.6g}", list.empty() ? "" : ", ", level);
+    return list.empty() ? "set cbtics autofreq\n" : fmt::format("set cbtics ({})\n", list);
+  }
+
+  /// Marching squares between four points whose limits are one branch: across a jump there is no value in between.
+  [[nodiscard]] std::string contour_lines(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second,
+                                          const std::vector<double>& levels, const AxisUnit& stiffness) const {
+    struct Corner {
+      const SweepPoint* point;
+      double x, y, limit;
+    };
+    std::string rows;
+    for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+      for (std::size_t j = 0; j + 1 < second.size(); ++j) {
+        const auto corner = [&](std::size_t right, std::size_t up) {
+          const SweepPoint& point = point_at(first[i + right], second[j + up]);
+          return Corner{&point, place(0, first[i + right]), place(1, second[j + up]), point.stiffness / stiffness.size};
+        };
+        const std::array<Corner, 4> corners{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+        bool is_one_branch = true;
+        for (std::size_t k = 0; k < 4; ++k) is_one_branch &= goes_on(*corners[k].point, *corners[(k + 1) % 4].point);
+        if (!is_one_branch) continue;
+        for (const double level : levels) {
+          std::vector<std::string> crossed;
+          for (std::size_t k = 0; k < 4; ++k) {
+            const Corner& from = corners[k];
+            const Corner& to = corners[(k + 1) % 4];
+            if ((from.limit > level) == (to.limit > level)) continue;
+            const double share = (level - from.limit) / (to.limit - from.limit);
+            crossed.push_back(
+                fmt::format("{:.9g} {:.9g}\n", from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)));
+          }
+          // Of a saddle the lines go round the corners that its middle differs from.
+          const double middle = 0.25 * (corners[0].limit + corners[1].limit + corners[2].limit + corners[3].limit);
+          if (crossed.size() == 4 && (middle > level) != (corners[0].limit > level)) {
+            std::rotate(crossed.begin(), crossed.begin() + 3, crossed.end());
+          }
+          for (std::size_t k = 0; k + 1 < crossed.size(); k += 2) rows += crossed[k] + crossed[k + 1] + "\n";
+        }
+      }
+    }
+    return rows;
+  }
+
   /// Cells of an image are equal: logarithmic axes are drawn in decades.
   [[nodiscard]] double place(std::size_t axis, std::size_t index) const {
     const std::vector<double>& values = sweep_.values[axis];
@@ -339,29 +412,36 @@ class MapFigure {
     return transformed(axis, ends.first) + share * (transformed(axis, ends.last) - transformed(axis, ends.first));
   }
 
+  /// Of the half cells between the axis' ends, counted from 0.
+  [[nodiscard]] double middle_of_half(std::size_t axis, std::size_t half, const std::vector<std::size_t>& shown) const {
+    const double first = place(axis, shown.front());
+    const double halves = 2.0 * static_cast<double>(shown.size() - 1);
+    return first + (static_cast<double>(half) + 0.5) / halves * (place(axis, shown.back()) - first);
+  }
+
   [[nodiscard]] double transformed(std::size_t axis, double value) const {
     const double drawn = value / units_.at(axis).size;
     return is_logarithmic(sweep_.axes[axis]) ? std::log10(drawn) : drawn;
   }
 
-  [[nodiscard]] std::pair<double, double> edges(std::size_t axis) const {
+  /// The axis ends where its numbers do.
+  [[nodiscard]] std::pair<double, double> ends(std::size_t axis) const {
     const double first = transformed(axis, sweep_.axes[axis].first);
     const double last = transformed(axis, sweep_.axes[axis].last);
-    const auto cells = static_cast<double>(std::min(sweep_.values[axis].size(), most_cells));
-    const double half = 0.5 * std::abs(last - first) / (cells - 1.0);
-    return {std::min(first, last) - half, std::max(first, last) + half};
+    return {std::min(first, last), std::max(first, last)};
   }
 
   [[nodiscard]] std::string tics(std::string_view name, std::size_t axis) const {
     if (!is_logarithmic(sweep_.axes[axis])) {
       return fmt::format("set {0}tics autofreq\nset format {0} '%.10g'\n", name);
     }
-    const auto [low, high] = edges(axis);
+    const auto [low, high] = ends(axis);
+    constexpr double rounding = 1e-9;
     std::string list;
     for (int decade = static_cast<int>(std::floor(low)); decade <= static_cast<int>(std::ceil(high)); ++decade) {
       for (const double step : {1.0, 2.0, 5.0}) {
         const double at = std::log10(step) + decade;
-        if (at < low || at > high || (step != 1.0 && high - low > 2.5)) continue;
+        if (at < low - rounding || at > high + rounding || (step != 1.0 && high - low > 2.5)) continue;
         list += fmt::format("{}'{:g}' {:.9g}", list.empty() ? "" : ", ", step * std::pow(10.0, decade), at);
       }
     }

@@ -128,4 +128,19 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
   return figure;
 }
 
+BodeFigure diagnosis_figure(const Device& device, const Diagnosis& diagnosis) {
+  Wall wall = device.parameters().wall;
+  wall.damping = diagnosis.damping;
+  AnalysedDevice analysed = analysed_device(device_with_wall(device, wall), limit_and_wall_only());
+  analysed.analysis.trust.inherit(diagnosis.trust);
+  BodeFigure figure = device_bode_figure({&analysed, 1});
+  figure.observed = diagnosis.frequency;
+  if (diagnosis.stiffness && *diagnosis.stiffness > 0.0) {
+    figure.notes.push_back(fmt::format(
+        "The wall of {} is a magnitude of {:.2f} dB: it is stiffer than the crossovers above that.",
+        quantity(*diagnosis.stiffness, units_of(figure.motion).stiffness), -decibels(*diagnosis.stiffness)));
+  }
+  return figure;
+}
+
 }  // namespace zwidth::report

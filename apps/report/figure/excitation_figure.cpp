@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "report/figure/figure.hpp"
@@ -16,10 +17,12 @@ namespace {
 
 constexpr LineStyle signal_style{"#0b4f9e", 1.2, "1"};
 constexpr std::size_t most_columns = 1500;
+constexpr double first_right = 456.0;  // of the first half second; the last stands beside it
+constexpr double last_left = 516.0;
 constexpr double shown_decibels = 80.0;  // below the highest density
 
 /// Every sample, or columns of time, least and greatest force.
-Series signal_series(const std::vector<double>& samples, double rate) {
+Series signal_series(const std::vector<double>& samples, double rate, double start = 0.0) {
   const bool envelope = samples.size() > 2 * most_columns;
   const std::size_t columns = envelope ? most_columns : samples.size();
   std::string rows;
@@ -28,7 +31,7 @@ Series signal_series(const std::vector<double>& samples, double rate) {
     const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(first);
     const auto end = samples.begin() + static_cast<std::ptrdiff_t>((i + 1) * samples.size() / columns);
     const auto [least, greatest] = std::minmax_element(begin, end);
-    rows += fmt::format("{:.9g} {:.6g} {:.6g}\n", static_cast<double>(first) / rate, *least, *greatest);
+    rows += fmt::format("{:.9g} {:.6g} {:.6g}\n", start + static_cast<double>(first) / rate, *least, *greatest);
   }
   if (!envelope) return {rows, "steps " + gnuplot_line(signal_style)};
   return {rows, fmt::format("filledcurves lc rgb '{}'", signal_style.colour), "1:2:3"};
@@ -98,6 +101,24 @@ std::string draw_excitation(const Excitation& excitation, FigureFormat format) {
                         .x_label = "Time (s)",
                         .y_label = is_rotary ? "Force (N m)" : "Force (N)",
                         .series = {signal_series(excitation.samples, rate)}};
+  // A sweep of many seconds is a block over all of it: its first and last half second show what is sent.
+  constexpr double shown_seconds = 0.5;
+  const auto count = static_cast<std::ptrdiff_t>(std::lround(shown_seconds * rate));
+  const bool shows_ends = excitation.samples.size() > 4 * static_cast<std::size_t>(count) && count > 1;
+  const auto end_of = [&](bool is_first) {
+    const auto begin = is_first ? excitation.samples.begin() : excitation.samples.end() - count;
+    const double start =
+        is_first ? 0.0 : static_cast<double>(excitation.samples.size() - static_cast<std::size_t>(count)) / rate;
+    return Panel{.above = 70.0,
+                 .height = 120.0,
+                 .left = is_first ? frame_left : last_left,
+                 .right = is_first ? first_right : frame_right,
+                 .is_beside = !is_first,
+                 .axes = fmt::format("set xrange [{:.9g}:{:.9g}]", start, start + shown_seconds),
+                 .x_label = is_first ? "Time (s), the first half second" : "Time (s), the last half second",
+                 .y_label = over_time.y_label,
+                 .series = {signal_series({begin, begin + count}, rate, start)}};
+  };
   const Panel density{
       .above = 70.0,
       .height = 210.0,
@@ -109,7 +130,10 @@ std::string draw_excitation(const Excitation& excitation, FigureFormat format) {
       .series = {period.empty() ? Series{rows, as_lines(signal_style)}
                                 : Series{rows, "vectors nohead " + gnuplot_line(signal_style),
                                          fmt::format("1:({0:g}):(0):($2>{0:g}?$2-{0:g}:0)", bottom)}}};
-  return draw(Figure{.title = excitation_title(excitation.options), .panels = {over_time, density}, .below = 60.0},
+  std::vector<Panel> panels{over_time};
+  if (shows_ends) panels.insert(panels.end(), {end_of(true), end_of(false)});
+  panels.push_back(density);
+  return draw(Figure{.title = excitation_title(excitation.options), .panels = std::move(panels), .below = 60.0},
               format);
 }
 

@@ -18,7 +18,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr LineStyle fit_style{"#c2410c", 1.6, "1"};
+constexpr LineStyle fit_style{"#c2410c", 1.0, "1"};
 constexpr std::string_view point_colour = "#0b4f9e";
 constexpr std::string_view fitted_band_colour = "#c7d7ee";
 constexpr LineStyle bound_style{"#555555", 1.0, "(8,4)"};
@@ -75,7 +75,7 @@ double largest_residual(const std::vector<Row>& data) {
   return largest;
 }
 
-std::string dot_marker(std::string_view colour) { return fmt::format("pt 7 ps 0.4 lc rgb '{}'", colour); }
+std::string dot_marker(std::string_view colour) { return fmt::format("pt 7 ps 0.3 lc rgb '{}'", colour); }
 
 /// The measured band and points, and the fitted curve, by their columns.
 std::vector<Series> band_points_and_fit(std::string_view band, int measured, int fitted) {

@@ -39,10 +39,10 @@ std::string limit_table(const AnalysedDevice& analysed) {
 
 std::string answer_box(const AnalysedDevice& analysed) {
   const Trust& trust = analysed.analysis.trust;
-  std::string text = "<div class=\"answer\">\n" + element("p", trust_note(trust).value_or("sound"));
+  std::string text = element("p", trust_note(trust).value_or("sound"));
   if (!trust.refused()) text += springs(analysed) + limit_table(analysed);
   if (const auto interval = interval_note(analysed)) text += element("p", "95 % interval: " + *interval + ".");
-  return text + "</div>\n";
+  return answer_element(trust.verdict, text);
 }
 
 }  // namespace zwidth::report

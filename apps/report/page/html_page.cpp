@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --ink: #1a1a1a; --paper: #fff; --quiet: #555; --line: #d4d4d4; --rule: #888;
-  --mark: #b91c1c; }
+  --sound: #15803d; --doubtful: #b45309; --refused: #b91c1c; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e6e6e6; --paper: #16181b; --quiet: #a8adb3; --line: #3c4148;
-  --rule: #7a808a; --mark: #f87171; } }
+  --rule: #7a808a; --sound: #4ade80; --doubtful: #fbbf24; --refused: #f87171; } }
 body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif; color: var(--ink);
   background: var(--paper); max-width: 1000px; margin: 0 auto; padding: 1.5rem 1rem 3rem; overflow-wrap: break-word; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; }
@@ -27,12 +27,16 @@ h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
 sub { line-height: 0; }
 p, ul { margin: .5rem 0; }
 pre { font-size: .93rem; overflow-x: auto; }
-.answer { border: 1px solid var(--line); border-left: 6px solid var(--mark); border-radius: 4px; padding: .8rem 1.2rem;
+.answer { border: 1px solid var(--line); border-left: 6px solid var(--rule); border-radius: 4px; padding: .8rem 1.2rem;
   margin: 1rem 0; }
+.answer.sound { border-left-color: var(--sound); }
+.answer.doubtful { border-left-color: var(--doubtful); }
+.answer.refused { border-left-color: var(--refused); }
 .answer p { margin: .2rem 0; }
+.answer td:nth-child(-n+2) { min-width: 8.5rem; }
 .holders { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: .3rem 1.5rem; margin: .3rem 0 .6rem; }
 .holders dt { color: var(--quiet); }
-.holders dd { font-size: 1.6rem; font-weight: 600; margin: 0; line-height: 1.2; }
+.holders dd, .answer .value { font-size: 1.6rem; font-weight: 600; margin: 0; line-height: 1.2; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; margin: .6rem 0; font-size: .93rem; }
 th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
@@ -51,7 +55,7 @@ figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; padding-b
 .device { border-top: 1px solid var(--line); margin-top: 2.5rem; padding-top: 1rem; }
 footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); font-size: .85rem; color: var(--quiet); }
 @media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } pre { font-size: .72rem; } th, td { padding: .3rem .45rem; }
-  .answer { padding: .6rem .8rem; } .holders dd { font-size: 1.3rem; } }
+  .answer { padding: .6rem .8rem; } .answer td:nth-child(-n+2) { min-width: 0; } .holders dd, .answer .value { font-size: 1.3rem; } }
 @media print { :root { color-scheme: light; --ink: #1a1a1a; --paper: #fff; --quiet: #555; --line: #d4d4d4; }
   figure { overflow: visible; } figure svg { min-width: 0; } body { max-width: none; padding: 0; font-size: 11pt; } figure, table, .answer { break-inside: avoid; }
   h2, h3 { break-after: avoid; } .device { break-before: page; border: 0; } .wide { overflow: visible; } }
@@ -78,6 +82,13 @@ std::string html_page(std::string_view title, std::string_view body, std::string
       "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}\n"
       "<footer>{}</footer>\n</body>\n</html>\n",
       escape_markup(title), style, body, html_text(written));
+}
+
+std::string answer_element(Trust::Verdict verdict, std::string_view markup) {
+  const std::string_view name = verdict == Trust::Verdict::sound      ? "sound"
+                                : verdict == Trust::Verdict::doubtful ? "doubtful"
+                                                                      : "refused";
+  return fmt::format("<div class=\"answer {}\">\n{}</div>\n", name, markup);
 }
 
 std::string html_table(const TextTable& table) {

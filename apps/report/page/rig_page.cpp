@@ -10,13 +10,12 @@
 
 #include "report/document.hpp"
 #include "report/figure/figures.hpp"
-#include "report/figure/identification_figure.hpp"
 #include "report/figure/record_figure.hpp"
 #include "report/page/answer_box.hpp"
 #include "report/page/html_page.hpp"
+#include "report/page/identification_page.hpp"
 #include "report/text/device_table.hpp"
 #include "report/text/frf_text.hpp"
-#include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/relay_text.hpp"
 #include "report/text/rig_rows.hpp"
@@ -57,14 +56,15 @@ struct Found {
   const Device& device;
   const RigSession& session;
   const Trust& trust;
-  std::vector<Remark> remarks = {};  ///< beside the session's
+  std::vector<Remark> remarks = {};     ///< beside the session's
+  bool is_trust_within_answer = false;  ///< instead of ahead of it
 };
 
 std::string page(const Found& found, const std::function<void(Document&)>& add_answer) {
   const std::string title = fmt::format("Rig {}: {}", found.action, found.device.name());
   Document document(Medium::page);
   document.rows(stopped_rows(found.session));
-  document.paragraph(trust_note(found.trust));
+  if (!found.is_trust_within_answer) document.paragraph(trust_note(found.trust));
   add_answer(document);
   std::vector<Remark> remarks = found.remarks;
   remarks.insert(remarks.end(), found.session.remarks.begin(), found.session.remarks.end());
@@ -104,13 +104,15 @@ std::string rig_page(const Device& device, const RigMeasurement& measurement) {
 std::string rig_page(const Device& device, const RigIdentification& identified) {
   Found found{"identify", device, identified.measurement.session, identified.trust};
   if (identified.identification) found.remarks = identified.identification->remarks;
+  found.is_trust_within_answer = identified.identification.has_value();
   return page(found, [&](Document& document) {
-    if (identified.identification) add_identification(document, *identified.identification);
-    document.part();
+    if (identified.identification) {
+      Identification fit = *identified.identification;
+      fit.trust = identified.trust;  // the fit's, and the device's
+      add_identification(document, fit);
+    }
+    document.part("The response");
     if (identified.measurement.response) add_response_figure(document, device, identified.measurement);
-    if (!identified.identification) return;
-    document.figure("fit", "The fitted device over what was measured.",
-                    [&] { return draw_identification(*identified.identification, FigureFormat::svg); });
   });
 }
 

@@ -47,15 +47,6 @@ std::vector<std::string> motion_quality(std::span<const FittedMotion> motions, M
   return items;
 }
 
-std::vector<std::string> correlations(std::span<const StrongCorrelation> strong, ShownFindings shown) {
-  std::vector<std::string> items;
-  for (const StrongCorrelation& each : strong.first(shown_of(strong.size(), most_beside, shown))) {
-    items.push_back(
-        fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation));
-  }
-  return items;
-}
-
 /// "no damper", "the wall's damper of 5 N s/m closed": what a K_CR is given with.
 std::string basis_text(const StiffnessBasis& basis, Motion motion) {
   std::string text = "no damper";
@@ -102,21 +93,6 @@ std::string rivals_text(const Identification& identified, ShownFindings shown) {
   return text;
 }
 
-/// "sound: critical stiffness 8.849 kN/m, 95 % from 8.7 kN/m to 9.01 kN/m (nobody holding, no damper)".
-std::string limit_line(const Identification& identified) {
-  if (identified.trust.refused()) return "refused: no critical stiffness";
-  const Analysis& analysis = identified.analysis;
-  const Motion motion = identified.fit.device.parameters().motion;
-  const auto value = [&](double stiffness) { return limit_value_text(stiffness, units_of(motion).stiffness); };
-  std::string text = fmt::format("{}: critical stiffness {}", identified.trust.sound() ? "sound" : "doubtful",
-                                 value(analysis.critical.stiffness));
-  if (analysis.interval) {
-    text += fmt::format(", 95 % from {} to {}", value(analysis.interval->lower), value(analysis.interval->upper));
-  }
-  return fmt::format("{} ({}, {})", text, analysis.alone ? "the file's user holding" : "nobody holding",
-                     basis_text(identified.basis, motion));
-}
-
 /// What the limit is of.
 std::optional<std::string> limited_by(const Identification& identified) {
   const auto limit = what_limits(AnalysedDevice{identified.fit.device, identified.analysis});
@@ -131,6 +107,30 @@ std::string paragraphs(const std::vector<std::string>& items, std::size_t indent
 }
 
 }  // namespace
+
+std::string limit_line(const Identification& identified) {
+  if (identified.trust.refused()) return "refused: no critical stiffness";
+  const Analysis& analysis = identified.analysis;
+  const Motion motion = identified.fit.device.parameters().motion;
+  const auto value = [&](double stiffness) { return limit_value_text(stiffness, units_of(motion).stiffness); };
+  std::string text = fmt::format("{}: critical stiffness {}", identified.trust.sound() ? "sound" : "doubtful",
+                                 value(analysis.critical.stiffness));
+  if (analysis.interval) {
+    text += fmt::format(", 95 % from {} to {}", value(analysis.interval->lower), value(analysis.interval->upper));
+  }
+  return fmt::format("{} ({}, {})", text, analysis.alone ? "the file's user holding" : "nobody holding",
+                     basis_text(identified.basis, motion));
+}
+
+std::vector<std::string> hardly_told_apart(const ParameterFit& fit, ShownFindings shown) {
+  const std::span<const StrongCorrelation> strong(fit.correlations);
+  std::vector<std::string> items;
+  for (const StrongCorrelation& each : strong.first(shown_of(strong.size(), most_beside, shown))) {
+    items.push_back(
+        fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation));
+  }
+  return items;
+}
 
 TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion) {
   TextTable table{{Align::left, Align::right, Align::left, Align::right, Align::right, Align::right},
@@ -186,28 +186,12 @@ std::string identification_text(const Identification& identified, ShownFindings 
   text += fmt::format("{}, identified from {}", display_name(fit.device), identified.source);
   text += "\n" + findings.reasons + "\n";
   text += layout(estimate_table(fit.estimates, motion));
-  if (const auto hardly = correlations(fit.correlations, shown); !hardly.empty()) text += "\n" + paragraphs(hardly, 2);
+  if (const auto hardly = hardly_told_apart(fit, shown); !hardly.empty()) text += "\n" + paragraphs(hardly, 2);
   text += rivals_text(identified, shown) + "\n";
   if (const auto limit = limited_by(identified)) text += wrap(*limit, line_width, 0);
   text += paragraphs(motion_quality(identified.motions, motion, shown), 0);
   if (const std::string quality = fit_quality(fit); !quality.empty()) text += wrap(quality, line_width, 0);
   return text + findings.remarks;
-}
-
-void add_identification(Document& document, const Identification& identified) {
-  const ParameterFit& fit = identified.fit;
-  const Motion motion = fit.device.parameters().motion;
-  document.paragraph(limit_line(identified));
-  document.paragraph(limited_by(identified));
-  document.part("The device as identified");
-  document.table(estimate_table(fit.estimates, motion));
-  document.list(correlations(fit.correlations, ShownFindings::all));
-  for (const std::string& each : motion_quality(identified.motions, motion, ShownFindings::all)) {
-    document.paragraph(each);
-  }
-  document.paragraph(fit_quality(fit));
-  document.part("What else explains the record");
-  document.table(rival_table(identified, ShownFindings::all));
 }
 
 std::string identification_text(const RigidBodyIdentification& identified, ShownFindings shown) {

@@ -2,8 +2,8 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
-#include "report/document.hpp"
 #include "report/text/findings_text.hpp"
 #include "report/text/text_table.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -16,12 +16,15 @@ namespace zwidth::report {
 [[nodiscard]] std::string identification_text(const Identification& identified,
                                               ShownFindings shown = ShownFindings::all);
 
-/// The same on a page, without the findings.
-void add_identification(Document& document, const Identification& identified);
-
 /// The numbers of a rigid body with their intervals, how they were found, and the findings.
 [[nodiscard]] std::string identification_text(const RigidBodyIdentification& identified,
                                               ShownFindings shown = ShownFindings::all);
+
+/// "sound: critical stiffness 8.849 kN/m, 95 % from 8.7 kN/m to 9.01 kN/m (nobody holding, no damper)".
+[[nodiscard]] std::string limit_line(const Identification& identified);
+
+/// Pairs of numbers that are: all, or the first few.
+[[nodiscard]] std::vector<std::string> hardly_told_apart(const ParameterFit& fit, ShownFindings shown);
 
 /// Value, unit, standard deviation and 95 % interval of each parameter.
 [[nodiscard]] TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion);

@@ -48,6 +48,7 @@ struct CommandRequest {
   std::string command;
   Naming naming = Naming::document;
   std::vector<Option> options;
+  bool prints_text = false;           ///< for people, instead of its document
   std::optional<std::string> device;  ///< TOML text
   bool device_is_text = false;        ///< it came as that: places in it mean something to who sent it
   std::vector<Recorded> recordings;

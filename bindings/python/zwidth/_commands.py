@@ -144,7 +144,7 @@ def _run(
 ) -> _core.Answer:
     held = [_held(each, number) for number, each in enumerate(recordings)]
     opened = None if device is None else _opened(device)
-    return _core.run(command, _options(options), opened, held, progress, study)
+    return _core.run(command, _options(options), opened, held, progress, study, False)
 
 
 def _result(
@@ -164,8 +164,11 @@ def _result(
 
 
 def analyze(device: DeviceOrFile, *, progress: Progress = None, **options: Option) -> _results.Analysis:
-    """Critical stiffness of a device, what limits it, and the margins of its wall."""
-    result: _results.Analysis = _result("analyze", device, (), progress, options)
+    """Critical stiffness of a device, what limits it, and the margins of its wall. print() of it is the command's text."""
+    opened = _opened(device)
+    result: _results.Analysis = _result("analyze", opened, (), progress, options)
+    given = _options(options)
+    result._tell = lambda: _core.run("analyze", given, opened, [], None, None, True).printed
     return result
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Type
+from typing import Any, Callable, Dict, Optional, Type
 
 from . import _core, _documents
 from ._errors import Error, InputError
@@ -17,7 +17,17 @@ def _device_of(result: Result, none: str) -> _core.Device:
 
 
 class Analysis(_documents.Analysis):
-    """What a device renders stably: docs/analysis_json.md."""
+    """What a device renders stably: docs/analysis_json.md. str() of it is what the command prints."""
+
+    _tell: Optional[Callable[[], str]] = None
+    _told: Optional[str] = None
+
+    def __str__(self) -> str:
+        if self._tell is None:
+            return repr(self)
+        if self._told is None:  # more is computed for it: the walls with a damper
+            self._told = self._tell()
+        return self._told
 
 
 class Bode(_documents.Bode):

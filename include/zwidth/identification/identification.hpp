@@ -152,4 +152,9 @@ struct Identification {
 /// Throws Error (invalid_argument) where there is none.
 [[nodiscard]] Identification identify_from_limits(const Device& structure, const IdentifyOptions& options);
 
+/// What the fitted device renders with every holder: analyze() of it, judged as the fit is.
+///
+/// Without an interval: Identification::analysis has the one that covers the rivals too. Throws as analyze() does.
+[[nodiscard]] Analysis analyze_fit(const Identification& identified);
+
 }  // namespace zwidth

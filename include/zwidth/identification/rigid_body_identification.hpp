@@ -10,6 +10,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/signal/recording.hpp"
+#include "zwidth/stability/analysis.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -50,5 +51,10 @@ struct RigidBodyIdentification {
 [[nodiscard]] RigidBodyIdentification identify_rigid_body(const Recording& recording,
                                                           const RigidBodyOptions& options = {},
                                                           const Progress& progress = {});
+
+/// What the fitted body renders with every holder: analyze() of it with its interval, judged as the fit is.
+///
+/// Throws as analyze() does.
+[[nodiscard]] Analysis analyze_fit(const RigidBodyIdentification& identified);
 
 }  // namespace zwidth
