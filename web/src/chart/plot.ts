@@ -1,5 +1,6 @@
 export interface Series {
   name: string
+  means?: string // in the legend, beside its name
   x: readonly number[]
   y: readonly (number | null)[]
   look: number // colour and dashes

@@ -91,15 +91,43 @@ export function axisUnit(scale: Scale, unit: string): AxisUnit {
   return { text, number: (tick) => shifted(String(Number(tick.toPrecision(6))), -places) }
 }
 
-/** An SVG path through the points; of many in one pixel column only first, lowest, highest and last. */
+type Point = [number, number]
+
+/** Squared, from a point to the straight piece between two others. */
+function apart([px, py]: Point, [ax, ay]: Point, [bx, by]: Point): number {
+  const [dx, dy] = [bx - ax, by - ay]
+  const square = dx * dx + dy * dy
+  const share = square > 0 ? Math.min(1, Math.max(0, ((px - ax) * dx + (py - ay) * dy) / square)) : 0
+  return (px - ax - share * dx) ** 2 + (py - ay - share * dy) ** 2
+}
+
+const straight = 0.2 // pixels that a corner which is left out may lie beside the line
+const mostLeftOut = 64 // in a row: the time that a straight curve takes stays in proportion to its points
+
+/**
+ * An SVG path through the points; of many in one pixel column only first, lowest, highest and last, and none of these that lies on the
+ * line between those beside it.
+ */
 export function pathOf(xs: readonly number[], ys: readonly (number | null)[], x: Scale, y: Scale): string {
   const parts: string[] = []
-  let open = false
   let column = NaN
-  let inColumn: [number, number][] = []
-  const put = ([px, py]: [number, number]): void => {
-    parts.push((open ? 'L' : 'M') + Math.round(px * 10) / 10 + ' ' + Math.round(py * 10) / 10)
-    open = true
+  let inColumn: Point[] = []
+  let corner: Point | null = null // the last that is drawn
+  let onWay: Point[] = [] // after it
+  const draw = (point: Point): void => {
+    parts.push((corner ? 'L' : 'M') + Math.round(point[0] * 10) / 10 + ' ' + Math.round(point[1] * 10) / 10)
+    corner = point
+    onWay = []
+  }
+  const put = (point: Point): void => {
+    if (!corner) return draw(point)
+    const isCorner = onWay.length === mostLeftOut || onWay.some((each) => apart(each, corner!, point) > straight ** 2)
+    if (isCorner) draw(onWay.at(-1)!)
+    onWay.push(point)
+  }
+  const endPiece = (): void => {
+    if (onWay.length > 0) draw(onWay.at(-1)!)
+    corner = null
   }
   const flush = (): void => {
     if (inColumn.length === 0) return
@@ -125,7 +153,7 @@ export function pathOf(xs: readonly number[], ys: readonly (number | null)[], x:
     const py = value === null || value === undefined ? NaN : pixel(y, value)
     if (!Number.isFinite(px) || !Number.isFinite(py)) {
       flush()
-      open = false
+      endPiece()
       continue
     }
     if (Math.floor(px * 2) !== column) flush()
@@ -133,6 +161,7 @@ export function pathOf(xs: readonly number[], ys: readonly (number | null)[], x:
     inColumn.push([px, Math.max(-1e5, Math.min(1e5, py))])
   }
   flush()
+  endPiece()
   return parts.join('')
 }
 

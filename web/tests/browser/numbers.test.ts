@@ -50,6 +50,18 @@ it('shows the numbers of every document', async () => {
     say(region.stiffest.stiffness, K, 3),
   ])
 
+  // The two limits of the answer are beside the wall's own damper; the bar has them both.
+  const analysis = documentOf('analyze', ...wall) as unknown as {
+    limits: Record<'nobody' | 'any_user', { critical_stiffness: number }>
+  }
+  expect(await page.locator('[data-answer="at-damping"]').innerText()).toContain(say(4, B))
+  expect(await page.locator('[data-answer="of-both"]').count()).toBe(1)
+  for (const [bar, holder] of [
+    ['nobody', 'nobody'],
+    ['any-user', 'any_user'],
+  ] as const)
+    expect(await page.locator(`[data-bar="${bar}"]`).textContent()).toBe(say(analysis.limits[holder].critical_stiffness, K))
+
   interface Option {
     wall: { stiffness: number; damping: number } | null
     margins: { gain_margin_db: number | null } | null

@@ -52,6 +52,51 @@ describe('scale', () => {
     expect(path).toMatch(/ 10(L|$)/)
     expect(path.length).toBeLessThan(100_000)
   })
+
+  it('leaves out what lies on the line between its neighbours, and no more', () => {
+    const upright: Scale = { log: false, from: -1, to: 1, start: 200, end: 10 }
+    const cornersOf = (path: string): [number, number][] =>
+      [...path.matchAll(/[ML](\S+) ([^ML]+)/g)].map(([, x, y]) => [Number(x), Number(y)])
+    /** Of a point from the drawn curve. */
+    const farFrom = (corners: [number, number][], [px, py]: [number, number]): number =>
+      Math.min(
+        ...corners.slice(1).map(([bx, by], i) => {
+          const [ax, ay] = corners[i]!
+          const square = (bx - ax) ** 2 + (by - ay) ** 2
+          const share = square > 0 ? Math.min(1, Math.max(0, ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / square)) : 0
+          return Math.hypot(px - ax - share * (bx - ax), py - ay - share * (by - ay))
+        }),
+      )
+    const xs = Array.from({ length: 20_000 }, (_, i) => i / 2000)
+    const curves = [
+      (x: number) => Math.exp(-x / 2) * Math.sin(20 * x), // rings down
+      (x: number) => 0.8 * Math.sin(3 * x) + 0.1 * Math.sin(31 * x),
+      (x: number) => 1e-3 * x, // straight
+      (x: number) => (x < 4 ? 0 : x < 6 ? 0.5 * (x - 4) : 1), // with corners
+      (x: number) => 2 / (1 + Math.exp(40 * (x - 5))) - 1, // steep
+    ]
+    for (const [which, curve] of curves.entries()) {
+      const corners = cornersOf(pathOf(xs, xs.map(curve), linear, upright))
+      expect(corners.length, `curve ${which}`).toBeLessThan(900)
+      const far = Math.max(
+        ...xs
+          .filter((_, i) => i % 97 === 0 || i === xs.length - 1)
+          .map((x) => farFrom(corners, [pixel(linear, x), pixel(upright, curve(x))])),
+      )
+      expect(far, `curve ${which}`).toBeLessThan(0.3)
+    }
+    // There and back along one line: both ends stay.
+    const back: Scale = { ...linear, start: 0, end: 100 }
+    expect(cornersOf(pathOf([0, 5, 9, 4, 1], [0, 0, 0, 0, 0], back, upright)).map(([x]) => x)).toEqual([0, 90, 10])
+    // One that buzzes keeps the lowest and the highest of each column.
+    const buzz = xs.map((_, i) => (i % 2 === 0 ? 0.6 : -0.6) * (1 + (i % 5) / 50))
+    const corners = cornersOf(pathOf(xs, buzz, linear, upright))
+    expect(corners.length).toBeGreaterThan(1500)
+    const far = Math.max(
+      ...xs.filter((_, i) => i % 97 === 0).map((x, i) => farFrom(corners, [pixel(linear, x), pixel(upright, buzz[97 * i]!)])),
+    )
+    expect(far).toBeLessThan(0.6) // as wide as a column
+  })
 })
 
 describe('labels of marks', () => {
@@ -93,8 +138,8 @@ describe('a band', () => {
   const y: Scale = { log: false, from: 0, to: 10, start: 100, end: 0 }
   it('is one closed piece per run, down to the axis where it has no lower end', () => {
     // x 0 to 4: pixels 50, 90, ... ; the lower end of the third is none, the fourth is not measured at all.
-    expect(bandOf([0, 1, 2, 3, 4], [1, 2, null, null, 3], [3, 4, 5, null, 6], linear, y)).toBe(
-      'M50 90L90 80L130 100L130 50L90 60L50 70ZM210 70L210 40Z',
+    expect(bandOf([0, 1, 2, 3, 4], [1, 2, null, null, 3], [3, 4.5, 5, null, 6], linear, y)).toBe(
+      'M50 90L90 80L130 100L130 50L90 55L50 70ZM210 70L210 40Z',
     )
   })
 })
