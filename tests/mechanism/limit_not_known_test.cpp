@@ -68,12 +68,12 @@ TEST(LimitNotKnown, NoWallRestsOnIt) {
 TEST(LimitNotKnown, WhereRoundingHidesTheSlowestCorner) {
   for (const double period : {1.387e-4, 5e-5}) {
     SCOPED_TRACE(period);
+    MechanismFile file;
+    file.path = ZWIDTH_SOURCE_DIR "/tests/mechanism/slow_corner_arm.xml";
+    file.tip = "tip";
+    file.pose = {{"j0", 0.238767}, {"j1", -0.901774}, {"j2", -0.927779}, {"j3", 0.075798}, {"j4", -0.949302}};
     DeviceParameters parameters;
-    parameters.mechanism = MechanismDirection{
-        {.path = ZWIDTH_SOURCE_DIR "/tests/mechanism/slow_corner_arm.xml",
-         .tip = "tip",
-         .pose = {{"j0", 0.238767}, {"j1", -0.901774}, {"j2", -0.927779}, {"j3", 0.075798}, {"j4", -0.949302}}},
-        {-0.181062, -0.936842, -0.299238}};
+    parameters.mechanism = MechanismDirection{file, {-0.181062, -0.936842, -0.299238}};
     parameters.loop.sampling_period = period;
     const Analysis analysis = analyze(device_of_mechanism(std::move(parameters)));
     EXPECT_GT(analysis.critical.stiffness, 6000.0);
