@@ -1,4 +1,4 @@
-import { afterEach, describe, expect, it, vi } from 'vitest'
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest'
 import { Answer } from '../../src/api/answer.svelte'
 import { Problem } from '../../src/api/client'
 
@@ -17,8 +17,14 @@ const install = (): void => {
     )
   })
 }
-const turn = (): Promise<void> => new Promise((done) => setTimeout(done, 5))
-afterEach(() => vi.unstubAllGlobals())
+// The time is the test's, however busy the machine is.
+const pause = async (ms: number): Promise<void> => void (await vi.advanceTimersByTimeAsync(ms))
+const turn = (): Promise<void> => pause(5)
+beforeEach(() => void vi.useFakeTimers())
+afterEach(() => {
+  vi.useRealTimers()
+  vi.unstubAllGlobals()
+})
 
 describe('answer', () => {
   it('has one request in flight, and the newest wins', async () => {
@@ -70,7 +76,7 @@ describe('answer', () => {
     const answer = new Answer()
     answer.ask({ path: 'analyze', toml: 'a' })
     asked[0]!.reply(503, { error: { what: 'busy' } })
-    await new Promise((done) => setTimeout(done, 150))
+    await pause(150)
     expect(asked).toHaveLength(2)
     asked[1]!.reply(200, { n: 1 })
     await turn()
@@ -135,7 +141,6 @@ describe('answer', () => {
   it('lags where what it shows is of another question for more than 50 ms, and not while it follows', async () => {
     install()
     const answer = new Answer<{ n: number }>()
-    const pause = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms))
     answer.ask({ path: 'analyze', toml: '0' })
     asked[0]!.reply(200, { n: 0 })
     await turn()
@@ -178,7 +183,7 @@ describe('answer', () => {
     await turn()
     answer.seen('out')
     answer.ask({ path: 'bode', toml: 'c' })
-    await new Promise((done) => setTimeout(done, 350))
+    await pause(350)
     expect(asked.map((each) => each.toml)).toEqual(['b', 'c'])
   })
 
