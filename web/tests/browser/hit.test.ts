@@ -23,7 +23,7 @@ it('hits the wall as fast as it is told, and draws its surface', async () => {
     '--start-velocity',
     '0.05',
   ) as { peak_penetration: number }
-  await expect.poll(() => page.locator('#body-time').innerText()).toContain(`Deepest in the wall: ${say(hit.peak_penetration, 'm')}`)
+  await expect.poll(() => page.locator('[data-time="deepest"]').innerText()).toBe(say(hit.peak_penetration, 'm'))
   const figure = page.locator('svg[aria-label="Position over time"]')
   await expect.poll(() => figure.locator('line.level').count()).toBe(1)
   await expect.poll(() => figure.textContent()).toContain('surface of the wall')
