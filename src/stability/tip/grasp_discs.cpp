@@ -93,6 +93,8 @@ std::vector<ComplexNumber> motion_poles(const Eigen::MatrixXd& stiffness, const 
 template <typename Real>
 struct OwnForms {
   Eigen::Matrix<std::complex<Real>, 3, 3> plant;  // G(pushed -> sensed)
+  Eigen::Matrix<std::complex<Real>, 3, 3> sensed;
+  Eigen::Matrix<std::complex<Real>, 3, 3> pushed;
   Eigen::Matrix<std::complex<Real>, 3, 3> shift;
   Eigen::Matrix<std::complex<Real>, 3, 3> left;
   Eigen::Matrix<std::complex<Real>, 3, 3> right;
@@ -132,17 +134,18 @@ OwnForms<Real> own_forms(const TipCoordinates& of, const Eigen::MatrixXd& tip, c
     }
     const Real rest = damped.col(i).norm();
     if (!(rest > static_cast<Real>(undamped_below) * own)) {
-      forms.shift = forms.left = forms.right = Eigen::Matrix<Complex, 3, 3>::Constant(HUGE_VAL);
+      forms.sensed = forms.pushed = Eigen::Matrix<Complex, 3, 3>::Constant(HUGE_VAL);
+      forms.shift = forms.left = forms.right = forms.sensed;
       return forms;
     }
     damped.col(i) /= rest;
     both.row(i) /= rest;
   }
-  const Eigen::Matrix<Complex, 3, 3> left = both.template leftCols<3>();
-  const Eigen::Matrix<Complex, 3, 3> right = both.template rightCols<3>();
-  forms.shift = left.adjoint().lazyProduct(right);
-  forms.left = left.adjoint().lazyProduct(left);
-  forms.right = right.adjoint().lazyProduct(right);
+  forms.sensed = both.template leftCols<3>();
+  forms.pushed = both.template rightCols<3>();
+  forms.shift = forms.sensed.adjoint().lazyProduct(forms.pushed);
+  forms.left = forms.sensed.adjoint().lazyProduct(forms.sensed);
+  forms.right = forms.pushed.adjoint().lazyProduct(forms.pushed);
   return forms;
 }
 
@@ -188,10 +191,11 @@ GraspDiscs::GraspDiscs(const TipMotion& motion, const DeviceParameters& loop, co
 
 GraspDiscs::Alias GraspDiscs::alias(double frequency) const {
   const OwnForms<double> forms = own_forms<double>(of_, basis_, dampers_, frequency, false);
-  Alias alias{1.0, forms.shift, forms.left, forms.right};
+  Alias alias{1.0, forms.shift, forms.left, forms.right, forms.sensed, forms.pushed};
   if (!drive_.is_ideal()) {
     const ComplexNumber passed = drive_.response(frequency);
     alias.shift *= passed;
+    alias.pushed *= passed;
     alias.right *= std::norm(passed);
   }
   return alias;
@@ -203,13 +207,36 @@ void GraspDiscs::add_low(Sample& sample) const {
   const OwnForms<Real> forms = own_forms<Real>(of_, of_.tip, dampers_, frequency, true);
   const ComplexNumber drive = drive_.is_ideal() ? 1.0 : drive_.response(frequency);
   const Complex passed(drive);
-  sample.centre = passed * (forms.plant / Complex(0, static_cast<Real>(frequency)) - forms.shift);
   // Even and odd in the angle.
   Eigen::Matrix3cd others = others_plant_;
   others.imag() *= sample.angle / low_angle;
-  sample.centre += others.cast<Complex>();
+  sample.plant = passed * forms.plant / Complex(0, static_cast<Real>(frequency)) + others.cast<Complex>();
+  sample.centre = sample.plant - passed * forms.shift;
   sample.left = forms.left.real();
   sample.right = std::norm(passed) * forms.right.real();
+  sample.sensed = forms.sensed;
+  sample.pushed = passed * forms.pushed;
+}
+
+void GraspDiscs::add_own(Sample& sample) const {
+  using Complex = std::complex<Real>;
+  const Eigen::Index m = of_.tip.rows();
+  const double frequency = sample.angle / period_;
+  constexpr double beside =
+      1.0 + 1e-9;  // a lossless point, where R = 0 though what the discs limit goes through it smoothly
+  OwnForms<double> forms = own_forms<double>(of_, basis_, dampers_, frequency, false);
+  if (!forms.left.allFinite()) forms = own_forms<double>(of_, basis_, dampers_, frequency * beside, false);
+  const ComplexNumber passed = drive_.is_ideal() ? 1.0 : drive_.response(frequency);
+  sample.own = {1.0,          passed * forms.shift, forms.left, std::norm(passed) * forms.right,
+                forms.sensed, passed * forms.pushed};
+  Eigen::Matrix3cd plant = Eigen::Matrix3cd::Zero();
+  plant.topLeftCorner(m, m) = response_.at(sample.angle);
+  sample.plant = (plant / sample.shared).cast<Complex>();
+  sample.centre = sample.plant - sample.own.shift.cast<Complex>();
+  sample.left = sample.own.left.real().cast<Real>();
+  sample.right = sample.own.right.real().cast<Real>();
+  sample.sensed = sample.own.sensed.cast<Complex>();
+  sample.pushed = sample.own.pushed.cast<Complex>();
 }
 
 // Columns: an orthonormal basis of the motions in which the tip stands still.
@@ -290,22 +317,13 @@ double GraspDiscs::slowest_corner() const {
 }
 
 GraspDiscs::Sample GraspDiscs::own_at(double angle) const {
-  const Eigen::Index m = of_.tip.rows();
   Sample sample;
   sample.angle = angle;
   const double sine = std::sin(0.5 * angle);
   sample.shared =
       2.0 * sine / period_ * ComplexNumber(sine, std::cos(0.5 * angle)) * std::polar(1.0, -angle * delay_ / period_);
-  sample.own = alias(angle / period_);
-  if (angle < low_angle) {
-    add_low(sample);
-    return sample;
-  }
-  Eigen::Matrix3cd plant = Eigen::Matrix3cd::Zero();
-  plant.topLeftCorner(m, m) = response_.at(angle);
-  sample.centre = (plant / sample.shared - sample.own.shift).cast<std::complex<Real>>();
-  sample.left = sample.own.left.real().cast<Real>();
-  sample.right = sample.own.right.real().cast<Real>();
+  add_own(sample);
+  if (angle < low_angle) add_low(sample);
   return sample;
 }
 
@@ -317,13 +335,16 @@ GraspDiscs::Others GraspDiscs::others_at(double angle) const {
     const AliasSumQuadrature::Node& node = rule_.nodes[i];
     for (const double side : {1.0, -1.0}) {
       Alias other = alias(node.number * spacing + side * angle / period_);
-      const Eigen::Matrix3cd shift = node.turning * other.shift;
-      others.shift += side > 0.0 ? shift : shift.conjugate();
+      other.shift *= node.turning;
       other.weight = node.still;
       if (side < 0.0) {  // of the negative frequency
         other.left = other.left.conjugate().eval();
         other.right = other.right.conjugate().eval();
+        other.shift = other.shift.conjugate().eval();
+        other.sensed = other.sensed.conjugate().eval();
+        other.pushed = other.pushed.conjugate().eval();
       }
+      others.shift += other.shift;
       others.blocks.push_back(other);
     }
   }

@@ -29,11 +29,13 @@ class GraspDiscs {
     Eigen::Matrix3cd shift;
     Eigen::Matrix3cd left;
     Eigen::Matrix3cd right;
+    Eigen::Matrix3cd sensed;  // L^-1 h_s^H, R = L L^H: left = sensed^H sensed
+    Eigen::Matrix3cd pushed;  // L^-1 h_a: right = pushed^H pushed, shift = sensed^H pushed
   };
   // All aliases but the frequency's own.
   struct Others {
     Eigen::Matrix3cd shift = Eigen::Matrix3cd::Zero();
-    std::vector<Alias> blocks;  // without shift
+    std::vector<Alias> blocks;  // shifts as they count in the sum
     // A row each: n' weight^2 left n and n' right n by products_of(n).
     Eigen::Matrix<double, Eigen::Dynamic, 6> left_forms;
     Eigen::Matrix<double, Eigen::Dynamic, 6> right_forms;
@@ -44,9 +46,12 @@ class GraspDiscs {
   struct Sample {
     double angle = 0.0;
     std::complex<double> shared;                     // (1 - e^{-jwT}) e^{-jwt_d}/T
-    Eigen::Matrix<std::complex<Real>, 3, 3> centre;  // without the shift of the other aliases
+    Eigen::Matrix<std::complex<Real>, 3, 3> plant;   // P
+    Eigen::Matrix<std::complex<Real>, 3, 3> centre;  // of it less the own shift, without that of the other aliases
     Eigen::Matrix<Real, 3, 3> left;                  // of the own alias, real part
     Eigen::Matrix<Real, 3, 3> right;
+    Eigen::Matrix<std::complex<Real>, 3, 3> sensed;
+    Eigen::Matrix<std::complex<Real>, 3, 3> pushed;
     Alias own;
     Others others;
   };
@@ -85,6 +90,7 @@ class GraspDiscs {
 
  private:
   [[nodiscard]] Alias alias(double frequency) const;
+  void add_own(Sample& sample) const;
   // (P/shared - own shift) below low_angle, and both forms.
   void add_low(Sample& sample) const;
   [[nodiscard]] Eigen::MatrixXd still_motions() const;

@@ -14,6 +14,7 @@ namespace {
 using std::numbers::pi;
 using ComplexNumber = std::complex<double>;
 using PartsRow = Eigen::Matrix<double, 5, 1>;
+using PartsOfProbes = Eigen::Matrix<double, Eigen::Dynamic, 5>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double widest_own = 0.7;    // half of a panel, of the angle's logarithm: e^{jwT} turns, too
@@ -22,6 +23,7 @@ constexpr double resolved_to = 1e-6;  // relative
 constexpr double rounded_to = 1e-13;  // relative, of what cancels
 constexpr std::size_t most_panels = 300;
 constexpr int points_per_panel = 40;
+constexpr int points_that_err = 5;        // of a panel whose discs are looked at themselves
 constexpr std::size_t points_a_node = 2;  // of a point wall, whose discs are looked at themselves
 constexpr double at_low_end = 1.001;      // times the lowest angle
 constexpr double usual_lowest = 1e-3;     // rad a sample, of the scan
@@ -86,6 +88,10 @@ std::vector<Eigen::Matrix<double, 6, 1>> probes(Eigen::Index m) {
 
 double constant_of(const GainCondition& condition) { return condition.constant; }
 
+double point_of(const Panel& panel, int i, int count) { return panel.first() + 2.0 * panel.half * i / count; }
+
+double angle_of(const Panel& panel, int i, int count) { return std::min(std::exp(point_of(panel, i, count)), pi); }
+
 const Eigen::Matrix<double, points_per_panel, panel_nodes>& to_points() {
   static const Eigen::Matrix<double, points_per_panel, panel_nodes> weights = [] {
     Eigen::Matrix<double, points_per_panel, panel_nodes> rows;
@@ -108,9 +114,6 @@ PartsRow parts_of(GraspDiscs::Real real, GraspDiscs::Real imaginary, GraspDiscs:
   return {centre.real(), centre.imag(), scale * static_cast<double>((size - radius) * (size + radius)),
           scale * static_cast<double>(square), std::abs(shared) * others};
 }
-
-// What a panel's polynomials are of, along each of the probes.
-using PartsOfProbes = Eigen::Matrix<double, Eigen::Dynamic, 5>;
 
 // Relative, where the polynomials say something else than the functions; more than 1: too far.
 double error_of(const PartsRow& is, const PartsRow& said, const PartsRow& largest) {
@@ -169,9 +172,8 @@ GraspSearch::GraspSearch(const TipMotion& motion, const DeviceParameters& loop, 
   add_others(poles.others);
   add_own(poles.own);
   for (const OwnPanel& own : panels_) {
-    for (int i = 0; i < points_per_panel; ++i) {
-      points_.push_back(own.panel.centre + own.panel.half * (-1.0 + 2.0 * i / points_per_panel));
-    }
+    const int count = own.errs() ? points_that_err : points_per_panel;
+    for (int i = 0; i < count; ++i) points_.push_back(point_of(own.panel, i, count));
   }
   points_.push_back(panels_.back().panel.last());
   for (double& point : points_) point = std::min(point, std::log(pi));
@@ -223,6 +225,31 @@ GraspSearch::OwnForms GraspSearch::own_forms(double angle) const {
           std::polar(1.0, delay_angle_ * angle) * sample.shared};
 }
 
+// Whether an error of the other aliases' polynomials drowns what limits a wall: the square of their radius is then that much more.
+bool GraspSearch::others_drown(const OwnPanel& own, const std::vector<PartsOfProbes>& at_nodes) const {
+  constexpr double most = 100.0;
+  const auto directions = probes(discs_.directions());
+  for (std::size_t probe = 0; probe < directions.size(); ++probe) {
+    double radius = 0.0;
+    double power = 0.0;
+    for (std::size_t i = 0; i < at_nodes.size(); ++i) {
+      const auto node = static_cast<Eigen::Index>(i);
+      const OthersPanel& others = others_[own.others[i]];
+      double sum = 0.0;
+      for (int k = 0; k < panel_nodes; ++k) {
+        sum += own.others_weights(node, k) *
+               radius_of_others(others.at_nodes[static_cast<std::size_t>(k)], directions[probe]);
+      }
+      sum *= std::abs(own.shared[i]);
+      const auto& parts = at_nodes[i].row(static_cast<Eigen::Index>(probe));
+      radius = std::max(radius, sum);
+      power = std::max(power, std::abs(parts[2] - sum * (2.0 * std::sqrt(parts[3]) + sum)));
+    }
+    if (radius * radius > most * power) return true;
+  }
+  return false;
+}
+
 void GraspSearch::add_own(const std::vector<ComplexNumber>& poles) {
   const auto directions = probes(discs_.directions());
   std::vector<Eigen::Matrix<GraspDiscs::Real, 6, 1>> precise;
@@ -256,7 +283,11 @@ void GraspSearch::add_own(const std::vector<ComplexNumber>& poles) {
       at_nodes.push_back(parts(forms));
     }
     const auto at_end = [&](double x) { return parts(own_forms(std::min(std::exp(x), pi))); };
-    if (may_halve && !is_resolved(panel, at_nodes, at_end)) return false;
+    const bool is_exact = is_resolved(panel, at_nodes, at_end);
+    if (!is_exact && may_halve) return false;
+    if (!is_exact || others_drown(own, at_nodes)) {
+      for (int i = 0; i < points_that_err; ++i) own.at_points.push_back(discs_.at(angle_of(panel, i, points_that_err)));
+    }
     panels_.push_back(std::move(own));
     return true;
   });
@@ -293,6 +324,8 @@ GraspSearch::Along::Along(const GraspSearch& search, const Eigen::Vector3d& norm
       parts.row(i) = parts_of(real[i], imaginary[i], left[i], right[i], own.shared[static_cast<std::size_t>(i)], others)
                          .transpose();
     }
+    for (const GraspDiscs::Sample& each : own.at_points) at_points_.push_back(disc_along(each, normal));
+    if (own.errs()) continue;
     const Eigen::Matrix<double, points_per_panel, 5> at_points = to_points() * parts;
     for (int i = 0; i < points_per_panel; ++i) {
       at_points_.push_back(disc(at_points.row(i).transpose(), search.delays_[at_points_.size()]));
@@ -311,6 +344,7 @@ TerminationDiscs::Disc GraspSearch::Along::disc_near(double x) const {
   const std::vector<OwnPanel>& panels = search_->panels_;
   const auto after = std::ranges::upper_bound(panels, x, {}, [](const OwnPanel& each) { return each.panel.first(); });
   const std::size_t at = after == panels.begin() ? 0 : static_cast<std::size_t>(after - panels.begin()) - 1;
+  if (panels[at].errs()) return disc_along(search_->discs_.at(std::min(std::exp(x), pi)), normal_);
   const PartsRow parts = panels_[at].transpose() * weights_at(panels[at].panel, x);
   return disc(parts, std::polar(1.0, -search_->delay_angle_ * std::exp(x)));
 }
@@ -392,7 +426,7 @@ GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
     if (each.gain > worth_refining_exactly * quick) continue;
     if (each.gain == 0.0) {
       take(least_towards(each.before, each.after, exact_bits, condition, constant_of));
-      if (least.gain == 0.0) return least;
+      if (least.gain == 0.0) return search_->known(least);
     }
     if (take(least_beside(each.before, each.x, each.after, exact_bits, condition))) continue;
     // Only the polynomials leave a gain at x: the discs beside it, or within what the polynomials err.

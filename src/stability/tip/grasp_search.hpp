@@ -102,6 +102,8 @@ class GraspSearch {
     std::array<std::complex<double>, panel_nodes> shared;
     std::vector<std::size_t> others;  // which panel of them each node lies in
     Eigen::Matrix<double, panel_nodes, panel_nodes> others_weights;
+    std::vector<GraspDiscs::Sample> at_points;  // where the polynomials err: beside a lossless point on the axis
+    [[nodiscard]] bool errs() const { return !at_points.empty(); }
   };
   // Over `shared`, which is before the delay.
   struct OwnForms {
@@ -116,6 +118,9 @@ class GraspSearch {
   void add_others(const std::vector<std::complex<double>>& poles);
   void add_own(const std::vector<std::complex<double>>& poles);
   [[nodiscard]] std::size_t others_panel_of(double angle) const;
+  // `at_nodes`: what the panel's polynomials are of, along each of the probes.
+  [[nodiscard]] bool others_drown(const OwnPanel& own,
+                                  const std::vector<Eigen::Matrix<double, Eigen::Dynamic, 5>>& at_nodes) const;
   [[nodiscard]] OwnForms own_forms(double angle) const;
   [[nodiscard]] Least least_at(double gain, double x) const;
   [[nodiscard]] Least known(const Least& least) const;

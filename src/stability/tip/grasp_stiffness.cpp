@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "eigenvalues.hpp"
 #include "linear_systems.hpp"
@@ -12,6 +13,8 @@
 namespace zwidth::internal {
 namespace {
 
+constexpr double half_plane =
+    1e24;                         // of a centre to the plant without the alias, squared: beyond, it is a lossless point
 constexpr double real_to = 1e-9;  // an eigenvalue's imaginary part, relative
 
 // Whether d [c + L U R] leaves the loop without a spring at the verge for some |U| <= 1: |R (1 + d c)^-1 d L| >= 1.
@@ -46,6 +49,58 @@ double least_of_block(const Eigen::MatrixXcd& centre, const Eigen::MatrixXcd& le
   return least;
 }
 
+using Real = GraspDiscs::Real;
+using LongComplex = std::complex<Real>;
+
+// One alias along a normal: u^H v, |u| |v| and |u|^2 |v|^2 - |u^H v|^2.
+struct OneAlias {
+  LongComplex shift;
+  Real radius = 0;
+  Real apart = 0;
+};
+
+class AlongNormal {
+ public:
+  explicit AlongNormal(const Eigen::Vector3d& normal) : normal_(normal.cast<LongComplex>()) {}
+
+  template <typename Columns>
+  [[nodiscard]] Eigen::Matrix<LongComplex, 3, 1> of(const Columns& columns) const {
+    return columns.template cast<LongComplex>() * normal_;
+  }
+  template <typename Form>
+  [[nodiscard]] LongComplex of_form(const Form& form) const {
+    return (normal_.transpose() * form.template cast<LongComplex>() * normal_).value();
+  }
+  template <typename Columns>
+  [[nodiscard]] OneAlias alias(const Columns& sensed, const Columns& pushed) const {
+    const auto u = of(sensed);
+    const auto v = of(pushed);
+    Real apart = 0;  // Lagrange's identity: nothing large cancels
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < i; ++j) apart += std::norm(u(i) * v(j) - u(j) * v(i));
+    }
+    return {u.dot(v), u.norm() * v.norm(), apart};
+  }
+
+ private:
+  Eigen::Matrix<LongComplex, 3, 1> normal_;
+};
+
+// A plant less the shift of one alias, with its radius and `radius` of all else. Beside a lossless point of the alias its shift and
+// radius grow alike, and |p - s|^2 - r^2 = |p|^2 - 2 Re(conj(p) s) - (r^2 - |s|^2) has their digits.
+TerminationDiscs::Disc disc_of(std::complex<double> shared, LongComplex plant, LongComplex centre, const OneAlias& one,
+                               Real radius) {
+  const Real all = one.radius + radius;
+  const Real power = std::norm(centre) <= std::norm(plant)
+                         ? (std::abs(centre) - all) * (std::abs(centre) + all)
+                         : std::norm(plant) - 2 * (std::conj(plant) * one.shift).real() - one.apart -
+                               radius * (2 * one.radius + radius);
+  const double size = std::abs(shared);
+  const bool is_half_plane = std::norm(centre) > static_cast<Real>(half_plane) * std::norm(plant);
+  return {shared * std::complex<double>(centre), size * static_cast<double>(all),
+          size * size * static_cast<double>(power), is_half_plane ? 0.0 : 1.0};
+}
+
 }  // namespace
 
 double radius_of_others(const GraspDiscs::Others& others, const Eigen::Matrix<double, 6, 1>& products) {
@@ -58,18 +113,35 @@ double radius_of_others(const GraspDiscs::Others& others, const Eigen::Matrix<do
 }
 
 TerminationDiscs::Disc disc_along(const GraspDiscs::Sample& sample, const Eigen::Vector3d& normal) {
-  using Real = GraspDiscs::Real;
-  const Eigen::Matrix<Real, 3, 1> n = normal.cast<Real>();
-  const std::complex<Real> shift((normal.transpose() * sample.others.shift * normal).value());
-  const std::complex<Real> centre = (n.transpose() * sample.centre.real() * n).value() - shift +
-                                    std::complex<Real>(0, 1) * (n.transpose() * sample.centre.imag() * n).value();
-  const Real left = n.dot(sample.left * n);
-  const Real right = n.dot(sample.right * n);
-  const Real radius = std::sqrt(std::max(left * right, Real(0))) + radius_of_others(sample.others, products_of(normal));
-  const double size = std::abs(sample.shared);
-  const Real power = (std::abs(centre) - radius) * (std::abs(centre) + radius);
-  return {sample.shared * std::complex<double>(centre), size * static_cast<double>(radius),
-          size * size * static_cast<double>(power), 1.0};
+  const AlongNormal n(normal);
+  const OneAlias own = n.alias(sample.sensed, sample.pushed);
+  const std::vector<GraspDiscs::Alias>& others = sample.others.blocks;
+  std::vector<Real> radii;
+  radii.reserve(others.size());
+  Real radius = 0;
+  for (const GraspDiscs::Alias& each : others) {
+    radii.push_back(static_cast<Real>(each.weight) * n.of(each.sensed).norm() * n.of(each.pushed).norm());
+    radius += radii.back();
+  }
+  const auto widest = std::ranges::max_element(radii);
+  const bool is_own = widest == radii.end() || *widest <= own.radius;
+  if (is_own) {
+    const LongComplex plant = n.of_form(sample.plant) - n.of_form(sample.others.shift);
+    const LongComplex centre = n.of_form(sample.centre) - n.of_form(sample.others.shift);
+    return disc_of(sample.shared, plant, centre, own, radius);
+  }
+  const auto at = static_cast<std::size_t>(widest - radii.begin());
+  LongComplex plant = n.of_form(sample.centre);
+  radius = own.radius;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (i == at) continue;
+    plant -= n.of_form(others[i].shift);
+    radius += radii[i];
+  }
+  OneAlias one = n.alias(others[at].sensed, others[at].pushed);
+  const auto weight = static_cast<Real>(others[at].weight);
+  one = {n.of_form(others[at].shift), weight * one.radius, weight * weight * one.apart};
+  return disc_of(sample.shared, plant, plant - one.shift, one, radius);
 }
 
 PointStiffness least_stiffness_of_point(const GraspDiscs::Sample& sample, Eigen::Index m, VirtualDamper damper,
