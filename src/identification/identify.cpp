@@ -76,11 +76,12 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
   const bool drowned = is_drowned(measured.response, structure, options);
   if (!fit.contradictions.empty() || (drowned && measured.response.points.size() < least_lines)) return unfitted();
   const bool is_start = options.fit.start == ParameterFitOptions::Start::from_structure;
-  const auto fitted = fit_motion(recordings, measured.response, structure,
-                                 {{options.fit.free, options.fit.locked, frees_lateness(options), is_start},
-                                  options.segment,
-                                  options.limits,
-                                  tell});
+  const auto fitted =
+      fit_motion(recordings, measured.response, structure,
+                 {{options.fit.free, options.fit.locked, frees_lateness(options), is_start, knows_structure(options)},
+                  options.segment,
+                  options.limits,
+                  tell});
   // A spring that stiffens scatters the lines of a motion that is all the force's.
   if (drowned && !(fitted && follows_force(fitted->motions))) return unfitted();
   if (!fitted || !told_limit(fitted->found.best.interval))

@@ -70,6 +70,14 @@ std::vector<Noise> first_noise(const MotionStart& start) {
   return noise;
 }
 
+/// Of all samples: the logarithm of what one has that those before do not. Maximum likelihood makes it small.
+double innovations_of(const TimeEvidence& evidence) {
+  double sum = 0.0;
+  for (const Segment& each : evidence.segments())
+    sum += static_cast<double>(each.count) * std::log(evidence.noise()[each.record].deviation);
+  return sum;
+}
+
 /// The records in segments as a likelihood, and a search in it.
 class Search {
  public:
@@ -120,13 +128,7 @@ class Search {
     evidence_->set_noise(*std::move(noise));
     return true;
   }
-  /// Of all samples: the logarithm of what one has that those before do not. Maximum likelihood makes it small.
-  [[nodiscard]] double innovations() const {
-    double sum = 0.0;
-    for (const Segment& each : evidence_->segments())
-      sum += static_cast<double>(each.count) * std::log(evidence_->noise()[each.record].deviation);
-    return sum;
-  }
+  [[nodiscard]] double innovations() const { return innovations_of(*evidence_); }
 
  private:
   [[nodiscard]] double rows() const {
@@ -214,10 +216,8 @@ struct Whole {
   std::unique_ptr<Search> search;
 };
 
-}  // namespace
-
-std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
-                                        const MotionSearchOptions& options) {
+std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<std::string>& locked,
+                                    const std::vector<Segment>& long_ones, const MotionSearchOptions& options) {
   constexpr double frictions[] = {0.0, 0.05, 0.2};  // of the force
   constexpr int most_rounds = 6;
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
@@ -225,7 +225,6 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked);
-  const std::vector<Segment> long_ones = thinned(segments_of(start.records, options.segment), most_samples_whole, {});
   const auto whole_at = [&](int substeps) {
     Whole made;
     made.model = std::make_unique<MotionModel>(family, parts.terms, start.records, substeps);
@@ -288,6 +287,38 @@ std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vec
   }
   return FoundMotion{std::move(whole.model), whole.search->take_evidence(), whole.search->take_likelihood(),
                      *std::move(best)};
+}
+
+/// From the structure itself, all that is free in it free, at the finest substeps.
+std::optional<FoundMotion> from_structure(const MotionStart& start, const std::vector<std::string>& locked,
+                                          const std::vector<Segment>& segments, const MotionSearchOptions& options) {
+  constexpr int most_rounds = 4;
+  constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
+  const DeviceFamily family(start.device, start.parts.numbers, locked);
+  auto model = std::make_unique<MotionModel>(family, start.parts.terms, start.records, most_substeps);
+  Search search(*model, segments, start, options);
+  search.set_noise(first_noise(start));
+  Eigen::VectorXd x = family.coordinates_of(*start.known);
+  x.tail(x.size() - family.of_device()).setZero();  // but for its friction no rival is the structure's
+  for (const Body& body : start.known->bodies) {
+    const auto place = std::ranges::find(family.numbers(), friction_key(body.name), &Number::key);
+    if (place != family.numbers().end()) x(place - family.numbers().begin()) = place->coordinate(body.coulomb);
+  }
+  auto best = search.from(search.with_states(x), most_rounds, fine);
+  if (!best || !search.take_noise(best->z)) return std::nullopt;
+  return FoundMotion{std::move(model), search.take_evidence(), search.take_likelihood(), *std::move(best)};
+}
+
+}  // namespace
+
+std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
+                                        const MotionSearchOptions& options) {
+  const std::vector<Segment> segments = thinned(segments_of(start.records, options.segment), most_samples_whole, {});
+  auto found = searched(start, locked, segments, options);
+  if (!start.known || start.known->links.empty() || (found && !rubs(*found->model, found->best))) return found;
+  auto known = from_structure(start, locked, segments, options);
+  const bool is_likelier = known && (!found || innovations_of(*known->evidence) < innovations_of(*found->evidence));
+  return is_likelier ? std::move(known) : std::move(found);
 }
 
 }  // namespace zwidth::internal

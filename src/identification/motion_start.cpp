@@ -15,11 +15,11 @@ namespace {
 
 bool holds(const std::vector<std::string>& keys, const char* key) { return std::ranges::count(keys, key) > 0; }
 
-/// A delay that the file gives.
-Number given_delay(const DeviceParameters& device, double period) {
+/// A delay that the file gives; where the lag is a number too, that of both (DeviceFamily).
+Number given_delay(const DeviceParameters& device, bool frees_lag, double period) {
   return {.key = key_of_delay,
           .unit = period,
-          .expected = (device.loop.delay + device.actuator.time_constant) / period,
+          .expected = (device.loop.delay + (frees_lag ? device.actuator.time_constant : 0.0)) / period,
           .prior_deviation = deviation_of_given_delay};
 }
 
@@ -57,8 +57,10 @@ MotionStart motion_start(std::span<const Recording> recordings, const FrequencyR
   for (const std::string& key : keys) {
     if (key != key_of_lag) start.parts.numbers.push_back(device_number(key, start.device, typical));
   }
-  if (!holds(keys, key_of_delay)) start.parts.numbers.push_back(given_delay(structure.parameters(), period));
+  if (!holds(keys, key_of_delay))
+    start.parts.numbers.push_back(given_delay(structure.parameters(), setting.frees_lag, period));
   start.rivals = add_rivals(setting, start.parts);
+  if (free.is_known) start.known = structure.parameters();
   return start;
 }
 

@@ -19,6 +19,7 @@ struct FreeNumbers {
   std::vector<std::string> locked = {};  ///< bodies held still, by name
   bool lateness = false;                 ///< delay and lag are looked for
   bool is_start = false;                 ///< the structure's values are where the search begins
+  bool is_known = false;                 ///< the structure is a device's, and no mere name
 };
 
 /// The records, what is fitted to them, and the linear device that the search begins at.
@@ -29,6 +30,7 @@ struct MotionStart {
   DeviceParameters device;
   ModelParts parts = {};
   std::vector<AddedRival> rivals = {};
+  std::optional<DeviceParameters> known = {};  ///< the structure, where it is a device's
 };
 
 /// Deviation of a delay that is given, sampling periods: who states one has counted or measured it to a fiftieth of one.

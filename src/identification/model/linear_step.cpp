@@ -60,8 +60,7 @@ std::vector<Eigen::MatrixXd> motion_slopes(const DeviceFamily& family, const Eig
   return slopes;
 }
 
-LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::MatrixXd>& slopes, double length,
-                       int count) {
+LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::MatrixXd>& slopes, double length) {
   const Eigen::Index rows = columns.rows();
   const Eigen::Index size = columns.cols();
   const auto square = [&](const Eigen::MatrixXd& of) {
@@ -75,7 +74,7 @@ LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::
   const auto numbers = static_cast<Eigen::Index>(slopes.size());
   ExponentialWithDerivatives whole = exponential_with_derivatives(square(columns), squares);
   whole.minus_one.diagonal().array() += 1.0;
-  LinearStep step{count, whole.minus_one.topRows(rows), Rows::Zero(rows * size, padded(numbers)), length};
+  LinearStep step{whole.minus_one.topRows(rows), Rows::Zero(rows * size, padded(numbers)), length};
   for (Eigen::Index d = 0; d < numbers; ++d) {
     const Eigen::MatrixXd changes = whole.derivatives[static_cast<std::size_t>(d)].topRows(rows);
     step.slopes.col(d) = changes.reshaped();

@@ -18,12 +18,11 @@ namespace zwidth::internal {
 
 /// The linear device over a time of constant forces, exactly: x -> [e^{Ah} B C] (x, u, f).
 struct LinearStep {
-  int count = 0;  ///< how many follow each other
   Rows columns;
   Rows slopes;  ///< d columns / dx, a row per element, column by column; a column per number of the device, padded
-  double length = 0.0;  ///< s, of one
+  double length = 0.0;  ///< s
 };
 [[nodiscard]] LinearStep linear_step(const Eigen::MatrixXd& columns, const std::vector<Eigen::MatrixXd>& slopes,
-                                     double length, int count);
+                                     double length);
 
 }  // namespace zwidth::internal

@@ -6,6 +6,11 @@
 #include "model/loop_keys.hpp"
 
 namespace zwidth::internal {
+namespace {
+
+constexpr int finest_substeps = 64;  // of a sampling period: where a body among others stops, starts or turns
+
+}  // namespace
 
 PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms, const std::vector<std::string>& bodies,
                            std::size_t record, double largest_force, double period, int substeps,
@@ -63,13 +68,19 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
   input = columns.col(columns.rows());
   const std::vector<Eigen::MatrixXd> slopes = with_slopes ? motion_slopes(family, x) : std::vector<Eigen::MatrixXd>{};
   const int wanted = forces.empty() && frictions.empty() ? 1 : substeps;
-  const auto step = [&](double length) {
-    if (length < least) return LinearStep{};
-    const int count = std::max(1, static_cast<int>(std::lround(length * wanted)));
-    return linear_step(columns, slopes, length * period / count, count);
+  // Forces on one body hardly change within a step, and its stops are exact (friction_step()).
+  const int finest = rubbing > 0 && bodies.size() > 1 ? finest_substeps : wanted;
+  const auto steps = [&](double length) {
+    Steps made;
+    if (length < least) return made;
+    made.count = std::max(1, static_cast<int>(std::lround(length * wanted)));
+    double each = length * period / made.count;
+    for (int parts = wanted; parts <= finest; parts *= 2, each *= 0.5)
+      made.halves.push_back(linear_step(columns, slopes, each));
+    return made;
   };
-  before = step(share);
-  after = step(1.0 - share);
+  before = steps(share);
+  after = steps(1.0 - share);
 }
 
 }  // namespace zwidth::internal

@@ -36,9 +36,16 @@ struct PlayedDevice {
     double length = 0.0;     ///< m or rad
     Eigen::Index bend = -1;  ///< its place among those whose bend moves the body: none where the limit is 0
   };
+  /// Equal steps, one after the other.
+  struct Steps {
+    int count = 0;
+    std::vector<LinearStep> halves = {};  ///< one of them, its half, its quarter, ...
+  };
+  [[nodiscard]] const LinearStep& step() const { return (before.count > 0 ? before : after).halves.front(); }
+
   bool with_slopes = false;
-  LinearStep before;                 ///< until the command changes
-  LinearStep after;                  ///< from then on
+  Steps before;                      ///< until the command changes
+  Steps after;                       ///< from then on
   std::ptrdiff_t delay_samples = 0;  ///< of the command from then on
   Eigen::VectorXd input;             ///< b
   std::vector<std::pair<Eigen::Index, double>>

@@ -28,6 +28,7 @@ SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Ei
       with_slopes_(device.with_slopes),
       forces_(bodies),
       bends_(device.frictions.size()),
+      held_(device.frictions.size()),
       ends_(device.frictions.size()) {
   if (!with_slopes_) return;
   const Eigen::Index rows = x.size() + device.bends;
@@ -35,7 +36,7 @@ SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Ei
   forces_at_ = command_at_ + 1;
   frictions_at_ = forces_at_ + bodies;
   numbers_at_ = padded(frictions_at_ + frictions_);
-  const Eigen::Index width = numbers_at_ + std::max(device.before.slopes.cols(), device.after.slopes.cols());
+  const Eigen::Index width = numbers_at_ + device.step().slopes.cols();
   slopes = Rows::Zero(rows, padded(columns));
   next_slopes_ = slopes;
   ends_slopes_ = Rows::Zero(rows, width);
@@ -94,7 +95,9 @@ void SegmentPlayer::bend_as_recorded(const ForceMotionRecord& record, std::size_
   }
 }
 
-void SegmentPlayer::move(const LinearStep& step, const DriveForce& command, double share) {
+void SegmentPlayer::move(const std::vector<LinearStep>& halves, std::size_t halved, const DriveForce& command,
+                         double share) {
+  const LinearStep& step = halves[halved];
   const Eigen::Index n = x.size();
   before_ = x;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -110,6 +113,12 @@ void SegmentPlayer::move(const LinearStep& step, const DriveForce& command, doub
   }
   if (device_.rubbing > 0 || (with_slopes_ && !device_.frictions.empty())) {
     add_frictions(step);
+    if (halved + 1 < halves.size() && changes()) {
+      x = before_;
+      for (int half = 0; half < 2; ++half) move(halves, halved + 1, command, share);
+      return;
+    }
+    take_frictions();
     if (with_slopes_) add_friction_slopes(step);
     if (device_.rubbing > 0) apply(step);
   }
@@ -186,7 +195,24 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
   }
   for (Eigen::Index i = 0; i < frictions_; ++i) {
     if (with_slopes_ && !rubs(i)) rub(step, i, true);  // no force, but one by the limit
-    bends_[static_cast<std::size_t>(i)] = end(i).bend.value;
+  }
+}
+
+bool SegmentPlayer::changes() const {
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    const PlayedDevice::Friction& friction = device_.frictions[i];
+    if (friction.limit <= 0.0 || friction.length_number) continue;
+    const double after = ends_[i].velocity.value;
+    const bool was_held = held_[i] != 0;
+    if (was_held != (after == 0.0) || (!was_held && before_(bodies_ + friction.body) * after < 0.0)) return true;
+  }
+  return false;
+}
+
+void SegmentPlayer::take_frictions() {
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    bends_[i] = ends_[i].bend.value;
+    held_[i] = ends_[i].velocity.value == 0.0 ? 1 : 0;
   }
 }
 

@@ -37,8 +37,10 @@ class SegmentPlayer {
   [[nodiscard]] DriveForce given(const ForceMotionRecord& record, std::ptrdiff_t sample, double share) const;
   /// Friction that bends, bent as the recorded motion before a sample leaves it.
   void bend_as_recorded(const ForceMotionRecord& record, std::size_t sample);
-  /// One part; `share` of the record is over.
-  void move(const LinearStep& step, const DriveForce& command, double share);
+  /// One of the steps; `share` of the record is over. Halved again and again where a body stops, starts or turns within.
+  void move(const PlayedDevice::Steps& steps, const DriveForce& command, double share) {
+    move(steps.halves, 0, command, share);
+  }
 
   State x;
   Rows slopes;  ///< of x, then of the bends; columns padded
@@ -56,6 +58,10 @@ class SegmentPlayer {
     double slope = 0.0;
   };
 
+  void move(const std::vector<LinearStep>& halves, std::size_t halved, const DriveForce& command, double share);
+  /// Whether a friction holds its body at the step's end where it did not before, or the other way round, or turns it.
+  [[nodiscard]] bool changes() const;
+  void take_frictions();
   [[nodiscard]] DriveForce through_drive(double command) const;
   [[nodiscard]] const PlayedDevice::Friction& friction(Eigen::Index i) const {
     return device_.frictions[static_cast<std::size_t>(i)];
@@ -88,6 +94,7 @@ class SegmentPlayer {
   State before_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_bodies, 1> forces_;
   std::vector<double> bends_;         ///< of frictions
+  std::vector<char> held_;            ///< whether a friction holds its body
   std::vector<PreslidingStep> ends_;  ///< of frictions
 
   // Slopes of a part, by: state and bends, from 0 on; command; force on each body; of each friction; numbers of the device.

@@ -31,7 +31,7 @@ double sample_at(std::span<const double> samples, std::ptrdiff_t at) {
 /// Positions of the sensed body under forces from rest: x[k + 1] = e^{AT} x[k] + C f[k], a column of forces each.
 Eigen::MatrixXd positions_under(const Device& device, double period, const Eigen::MatrixXd& forces) {
   const auto sensed = static_cast<Eigen::Index>(device.parameters().loop.sensed);
-  const LinearStep step = linear_step(motion_columns(device), {}, period, 1);
+  const LinearStep step = linear_step(motion_columns(device), {}, period);
   const Eigen::Index states = step.columns.rows();
   const Eigen::VectorXd input = step.columns.col(states + 1 + sensed);
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(states, forces.cols());
