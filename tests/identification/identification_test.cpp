@@ -188,6 +188,23 @@ TEST(Identification, ADelayThatAFilesStructureLacksIsFitted) {
   expect_holds(found, true_stiffness(late_rotor()));
 }
 
+// Of a file that gives delay and lag, neither free: the record shows both once.
+TEST(Identification, ADelayAndALagThatAreGivenCountOnce) {
+  DeviceParameters device = late_rotor();
+  device.loop.sampling_period = 1e-3;
+  device.loop.delay = 1e-3;
+  device.actuator.time_constant = 2e-3;
+  IdentifyOptions options;
+  options.fit.free = {"body.rotor.mass", "body.rotor.damping"};
+  const Recording record =
+      test::simulated_record(device, test::commanded(ExcitationKind::multisine, 1.0, 1.0, 60.0, 4.0), {});
+  const Identification found = identify(record, Device(device), options);
+  EXPECT_TRUE(found.trust.sound());
+  EXPECT_NEAR(found.fit.device.loop().delay, 1e-3, 1e-4);
+  EXPECT_EQ(found.fit.device.parameters().actuator.time_constant, 2e-3);
+  expect_holds(found, true_stiffness(device));
+}
+
 TEST(Identification, SeparatesFrictionFromDamping) {
   const DeviceParameters truth = rubbing_motor();
   const Recording recording = of_rubbing_motor(5.0, 7);

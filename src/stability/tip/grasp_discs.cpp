@@ -311,7 +311,8 @@ double GraspDiscs::slowest_corner() const {
   const auto rest = static_cast<std::size_t>(still_at_rest());
   if (rest < poles.size()) slowest = std::abs(poles[rest]);
   for (const ComplexNumber& s : lossless_points()) slowest = std::min(slowest, std::abs(s));
-  const double told = rest > 0 ? told_from_rest : told_from_rounding;
+  // Without any spring the points at rest are as many independent motions, which rounding moves by no root.
+  const double told = rest > 0 && !of_.stiffness.isZero(0.0) ? told_from_rest : told_from_rounding;
   const bool is_rounding = !poles.empty() && slowest < told * std::abs(poles.back());
   return is_rounding ? 0.0 : slowest;
 }
