@@ -35,6 +35,7 @@ constexpr double enough_for_point = 0.03;
 constexpr double worth_refining = 1.3;            // times the least of the points
 constexpr double damper_nearly_beaten = 0.5;      // of the condition without a spring
 constexpr double worth_refining_exactly = 1.001;  // times the least of the polynomials
+constexpr int most_rounds = 4;
 constexpr int exact_bits = 26;
 constexpr int quick_bits = 16;
 
@@ -349,7 +350,7 @@ TerminationDiscs::Disc GraspSearch::Along::disc_near(double x) const {
   return disc(parts, std::polar(1.0, -search_->delay_angle_ * std::exp(x)));
 }
 
-std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall) const {
+std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall, double bound) const {
   const std::vector<double>& points = search_->points_;
   std::vector<GainCondition> conditions;
   std::vector<double> gains;
@@ -360,7 +361,7 @@ std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall) 
     gains.push_back(real_gain(conditions.back()));
   }
   std::vector<Low> lows;
-  const double least = std::ranges::min(gains);
+  const double least = std::max(std::ranges::min(gains), bound);
   if (least == 0.0) {
     const auto beaten = std::ranges::min_element(conditions, {}, &GainCondition::constant) - conditions.begin();
     const auto i = static_cast<std::size_t>(beaten);
@@ -401,7 +402,7 @@ std::vector<GraspSearch::Along::Low> GraspSearch::Along::lows(const Wall& wall) 
 GraspSearch::Least GraspSearch::Along::quickly_least(const Wall& wall) const {
   if (panels_.empty()) return {0.0, 0.0, false};
   Low least;
-  for (const Low& each : lows(wall)) {
+  for (const Low& each : lows(wall, 0.0)) {
     if (each.gain < least.gain) least = each;
   }
   const auto gain_at = [&](double x) { return real_gain(gain_condition(disc_near(x), wall.at(std::exp(x)))); };
@@ -410,9 +411,6 @@ GraspSearch::Least GraspSearch::Along::quickly_least(const Wall& wall) const {
 
 GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
   if (panels_.empty()) return {0.0, 0.0, false};
-  const std::vector<Low> found = lows(wall);
-  double quick = infinity;
-  for (const Low& each : found) quick = std::min(quick, each.gain);
   const auto condition = [&](double x) {
     const double angle = std::min(std::exp(x), pi);
     return gain_condition(disc_along(search_->discs_.at(angle), normal_), wall.at(angle));
@@ -422,16 +420,25 @@ GraspSearch::Least GraspSearch::Along::least(const Wall& wall) const {
     if (looked.gain < least.gain) least = search_->least_at(looked.gain, looked.x);
     return std::isfinite(looked.gain);
   };
-  for (const Low& each : found) {
-    if (each.gain > worth_refining_exactly * quick) continue;
-    if (each.gain == 0.0) {
-      take(least_towards(each.before, each.after, exact_bits, condition, constant_of));
-      if (least.gain == 0.0) return search_->known(least);
+  double bound = 0.0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<Low> found = lows(wall, bound);
+    double quick = infinity;
+    for (const Low& each : found) quick = std::min(quick, each.gain);
+    quick = std::max(quick, bound);
+    for (const Low& each : found) {
+      if (each.gain > worth_refining_exactly * quick) continue;
+      if (each.gain == 0.0) {
+        take(least_towards(each.before, each.after, exact_bits, condition, constant_of));
+        if (least.gain == 0.0) return search_->known(least);
+      }
+      if (take(least_beside(each.before, each.x, each.after, exact_bits, condition))) continue;
+      // Only the polynomials leave a gain at x: the discs beside it, or within what the polynomials err.
+      const Looked beside = least_towards(each.before, each.after, exact_bits, condition, openness);
+      take(std::isfinite(beside.gain) ? beside : Looked{each.gain, each.x});
     }
-    if (take(least_beside(each.before, each.x, each.after, exact_bits, condition))) continue;
-    // Only the polynomials leave a gain at x: the discs beside it, or within what the polynomials err.
-    const Looked beside = least_towards(each.before, each.after, exact_bits, condition, openness);
-    take(std::isfinite(beside.gain) ? beside : Looked{each.gain, each.x});
+    if (!(least.gain > worth_refining * quick)) break;
+    bound = least.gain;  // the polynomials said less than the discs leave: what lies in between is looked at too
   }
   return search_->known(
       followed_to_rest(least, std::log(search_->lowest_), [&](double x) { return real_gain(condition(x)); }));

@@ -65,7 +65,8 @@ class GraspSearch {
     [[nodiscard]] static TerminationDiscs::Disc disc(const Eigen::Matrix<double, 5, 1>& parts,
                                                      std::complex<double> delay);
     [[nodiscard]] TerminationDiscs::Disc disc_near(double x) const;
-    [[nodiscard]] std::vector<Low> lows(const Wall& wall) const;
+    // What may be the least: 1.3 times the least of the points or `bound`, whatever is more.
+    [[nodiscard]] std::vector<Low> lows(const Wall& wall, double bound) const;
 
     const GraspSearch* search_;
     Eigen::Vector3d normal_;
