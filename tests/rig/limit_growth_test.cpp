@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "campaign.hpp"
 #include "rig/rig_actions.hpp"
 #include "rig/rig_devices.hpp"
 #include "rig/simulated_driver.hpp"
@@ -59,24 +60,49 @@ TEST(LimitGrowth, WhatTheEncoderMakesOfItIsNoGrowth) {
   EXPECT_LE(sound, 14);
 }
 
+/// The limit of a bench device with a random encoder, measured as its file without friction promises. `friction`: of the force.
+struct MeasuredLimit {
+  double truth = 0.0;  ///< without friction
+  LimitMeasurement measured;
+};
+MeasuredLimit limit_of(std::uint64_t seed, double friction) {
+  DeviceParameters parameters = test::bench_device(seed).parameters();
+  const double truth = critical_stiffness(Device(parameters)).stiffness;
+  const double force = default_force(Device(parameters));
+  std::mt19937_64 engine(seed + 1000);
+  const double share = std::exp(std::uniform_real_distribution(std::log(1e-4), std::log(0.1))(engine));
+  parameters.sensor.resolution = share * force / truth;
+  parameters.bodies[0].coulomb = friction * force;
+  const Device device(parameters);
+  SimulatedDriver driver{device, 0.0, false};
+  return {truth, measure_limit(device, driver, {}, default_limit(device), {}).measured};
+}
+
 TEST(LimitGrowth, NoneOfRandomDevicesIsSoundAndWrong) {
-  int sound = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  const std::uint64_t devices = test::by_tier(40U, 300U);
+  std::uint64_t sound = 0;
+  for (std::uint64_t seed = 1; seed <= devices; ++seed) {
     SCOPED_TRACE(seed);
-    DeviceParameters parameters = test::bench_device(seed).parameters();
-    const double truth = critical_stiffness(Device(parameters)).stiffness;
-    std::mt19937_64 engine(seed + 1000);
-    const double share = std::exp(std::uniform_real_distribution(std::log(1e-4), std::log(0.1))(engine));
-    parameters.sensor.resolution = share * default_force(Device(parameters)) / truth;
-    const Device device(parameters);
-    SimulatedDriver driver{device, 0.0, false};
-    const LimitMeasurement measured = measure_limit(device, driver, {}, default_limit(device), {}).measured;
+    const auto [truth, measured] = limit_of(seed, 0.0);
     if (!measured.trust.sound()) continue;
     ++sound;
     ASSERT_TRUE(measured.stiffness);
     EXPECT_NEAR(*measured.stiffness / truth, 1.0, 0.02);
   }
-  EXPECT_GT(sound, 20);
+  EXPECT_GT(sound, devices / 2);
+}
+
+// Friction of 0.05 to 5 % of the force holds back an oscillation above the limit that the device has without it.
+TEST(LimitGrowth, NoneThatRubsIsSoundAndWrong) {
+  for (std::uint64_t seed = 1; seed <= test::by_tier(10U, 100U); ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 engine(seed + 2000);
+    const double friction = std::exp(std::uniform_real_distribution(std::log(5e-4), std::log(5e-2))(engine));
+    const auto [truth, measured] = limit_of(seed, friction);
+    if (!measured.trust.sound()) continue;
+    ASSERT_TRUE(measured.stiffness);
+    EXPECT_NEAR(*measured.stiffness / truth, 1.0, 0.02) << friction;
+  }
 }
 
 /// Positions of an oscillation of 5 Hz at 1 kHz with this growth rate, as an encoder of 1e-3 of its swing tells them.
