@@ -216,6 +216,7 @@ struct Whole {
   std::unique_ptr<Search> search;
 };
 
+/// From the linear fit of the response, with several frictions.
 std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<std::string>& locked,
                                     const std::vector<Segment>& long_ones, const MotionSearchOptions& options) {
   constexpr double frictions[] = {0.0, 0.05, 0.2};  // of the force

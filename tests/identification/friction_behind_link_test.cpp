@@ -10,22 +10,15 @@
 #include "identification/model/rivals/rival.hpp"
 #include "identification/simulated_record.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/io/device_file.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
 namespace {
 
-/// devices/capstan_paddle.toml: a third of the force is friction, the link swings at 950 Hz.
+/// A third of the force is friction, the link swings at 950 Hz.
 DeviceParameters capstan() {
-  DeviceParameters device;
-  device.name = "capstan";
-  device.motion = Motion::rotary;
-  device.bodies = {{"motor", 1.498e-4, 1.44e-4}, {"paddle", 5e-4, 1e-3}};
-  device.bodies[0].coulomb = 10.4e-3;
-  device.links = {{0, 1, 4100.0, 0.05}};
-  device.loop = {0, 0, 1, 1e-3, 1e-4};
-  device.actuator.time_constant = 160e-6;
-  return device;
+  return read_device_file(ZWIDTH_SOURCE_DIR "/devices/capstan_paddle.toml").value().parameters();
 }
 
 std::vector<double> swept(double duration) {
@@ -58,7 +51,7 @@ TEST(FrictionBehindLink, IsPlayedAsASimulatorOfItsOwnDoes) {
   }
 }
 
-/// A fit that stops short of the friction's own place calls what it misses damping: once 2.20 [2.02, 2.40] for 1.51 N m/rad.
+/// What a fit misses of stops and starts it calls damping.
 TEST(FrictionBehindLink, FitFindsTheLinkThatTheForceDoesNotExcite) {
   const DeviceParameters device = capstan();
   const double truth = critical_stiffness(Device(device)).stiffness;

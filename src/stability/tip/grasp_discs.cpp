@@ -222,13 +222,10 @@ void GraspDiscs::add_own(Sample& sample) const {
   using Complex = std::complex<Real>;
   const Eigen::Index m = of_.tip.rows();
   const double frequency = sample.angle / period_;
-  constexpr double beside =
-      1.0 + 1e-9;  // a lossless point, where R = 0 though what the discs limit goes through it smoothly
-  OwnForms<double> forms = own_forms<double>(of_, basis_, dampers_, frequency, false);
-  if (!forms.left.allFinite()) forms = own_forms<double>(of_, basis_, dampers_, frequency * beside, false);
-  const ComplexNumber passed = drive_.is_ideal() ? 1.0 : drive_.response(frequency);
-  sample.own = {1.0,          passed * forms.shift, forms.left, std::norm(passed) * forms.right,
-                forms.sensed, passed * forms.pushed};
+  constexpr double beside = 1.0 + 1e-9;
+  sample.own = alias(frequency);
+  // At a lossless point R = 0, and what the discs limit goes through it smoothly.
+  if (!sample.own.left.allFinite()) sample.own = alias(frequency * beside);
   Eigen::Matrix3cd plant = Eigen::Matrix3cd::Zero();
   plant.topLeftCorner(m, m) = response_.at(sample.angle);
   sample.plant = (plant / sample.shared).cast<Complex>();
