@@ -19,6 +19,7 @@
 #include "design/synthesis/drive_damper.hpp"
 #include "design/synthesis/followed_numbers.hpp"
 #include "design/synthesis/limit_along_parameter.hpp"
+#include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
 #include "model/known_structure.hpp"
 #include "stability/users/any_grasp.hpp"
