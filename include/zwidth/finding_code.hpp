@@ -24,6 +24,7 @@ enum class FindingCode : std::uint16_t {
 
   // stability
   wall_not_surely_stable,         ///< the wall lies within the interval of the critical stiffness
+  wall_poorly_damped,             ///< the wall is stable with a small phase margin: what hits it rings for long
   interval_open,                  ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
   second_route_contradicts,       ///< two computations contradict each other on one wall's stability
   second_route_undecided,         ///< no second computation confirms one wall's stability

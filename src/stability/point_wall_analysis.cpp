@@ -11,6 +11,7 @@
 #include "stability/tip/gain_march.hpp"
 #include "stability/tip/tip_states.hpp"
 #include "stability/users/any_grasp.hpp"
+#include "stability/wall_judgement.hpp"
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/device_user.hpp"
@@ -76,6 +77,7 @@ void judge_point_wall(const TipMotion& motion, const DeviceParameters& loop, con
     analysis.remarks.push_back(note({.code = FindingCode::point_margins_left_out}));
   } else if (margins.stable) {
     confirm(motion, loop, analysis);
+    judge_damping_of_wall(analysis);
   }
   StableFor& holders = analysis.wall_stable_for.emplace();
   holders.nobody = margins.stable;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "stability/limit/guarded_stiffness.hpp"
 #include "stability/limit/two_rate_stiffness.hpp"
@@ -82,6 +83,17 @@ void judge_two_rate_wall(const Device& device, Analysis& analysis) {
   if (wall.stable && !(wall.delay_margin && wall.spring_delay_margin && wall.damper_delay_margin)) {
     analysis.remarks.push_back(left_out_beside_damper_loop("long_delays"));
   }
+}
+
+// A damping ratio is about a hundredth of the phase margin in degrees (Franklin, Powell & Emami-Naeini, sec. 6.4).
+void judge_damping_of_wall(Analysis& analysis) {
+  constexpr double least = 20.0;
+  if (!analysis.wall || !analysis.wall->stable || !analysis.wall->phase_margin) return;
+  const double phase_margin = *analysis.wall->phase_margin * 180.0 / std::numbers::pi;
+  if (phase_margin >= least) return;
+  analysis.remarks.push_back(note({.code = FindingCode::wall_poorly_damped,
+                                   .evidence = {{"phase_margin", phase_margin}, {"least", least}},
+                                   .key = "wall.stiffness"}));
 }
 
 Remark left_out_beside_damper_loop(const char* what) {

@@ -22,6 +22,9 @@ void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCoun
 /// The same of a damper in a loop of its own.
 void judge_two_rate_wall(const Device& device, Analysis& analysis);
 
+/// Whether what hits the wall rings for long, though it is stable.
+void judge_damping_of_wall(Analysis& analysis);
+
 /// What is known of one loop alone.
 [[nodiscard]] Remark left_out_beside_damper_loop(const char* what);
 

@@ -12,6 +12,10 @@ std::span<const Phrase> stability_phrases() {
           wall_not_surely_stable, "wall_not_surely_stable", doubt,
           "the wall of {stiffness} is not surely stable: the 95 % interval of the critical stiffness begins at {lower}",
           "", "stay below that, or identify the device more closely"},
+      Phrase{wall_poorly_damped, "wall_poorly_damped", note,
+             "the wall is stable, and poorly damped: its phase margin of {phase_margin:.1f} degrees is less than "
+             "{least:.0f}",
+             "what hits it rings for long", "make the wall softer, or ask for one with margins"},
       Phrase{
           interval_open, "interval_open", doubt,
           "the uncertainty of the parameters in the file leaves the critical stiffness open within more than a factor "

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "exact_closed_loop.hpp"
@@ -283,6 +285,26 @@ TEST(Analysis, AWallAboveTheLimitWithAnyUserIsSaid) {
 }
 
 // With a damper closed the gain margin is of the whole wall, the stiffness margin of K alone.
+TEST(Analysis, AWallThatRingsForLongIsSaid) {
+  std::size_t said = 0;
+  for (const double damping : {0.0, 20.0, 40.0, 60.0, 80.0, 100.0}) {
+    DeviceParameters device = test::lhifam_parameters();
+    device.wall = {.stiffness = 3000.0, .damping = damping};
+    const Analysis analysis = analyze(Device(device));
+    ASSERT_TRUE(analysis.wall && analysis.wall->stable && analysis.wall->phase_margin) << damping;
+    const auto found = std::ranges::find_if(analysis.remarks, [](const Remark& each) {
+      return each.finding && each.finding->code == FindingCode::wall_poorly_damped;
+    });
+    const double degrees = *analysis.wall->phase_margin * 180.0 / std::numbers::pi;
+    EXPECT_EQ(found != analysis.remarks.end(), degrees < 20.0) << damping;
+    if (found == analysis.remarks.end()) continue;
+    EXPECT_NEAR(found->finding->evidence.front().value, degrees, 1e-9);
+    ++said;
+  }
+  EXPECT_GT(said, 0U);
+  EXPECT_LT(said, 6U);
+}
+
 TEST(Analysis, StiffnessMarginIsOfTheStiffnessAlone) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.wall = {2000.0, 5.0, 0.0};

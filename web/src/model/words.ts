@@ -116,10 +116,7 @@ export const marginWord = {
   delay: (of: Analysis): string => (of.wall?.stable ? marginText(of, 'delay', of.wall.delay_margin_s, (delay) => say(delay, 's', 3)) : '–'),
 }
 
-/** Below it what a stable wall is hit by rings for long: the damping ratio is about a hundredth of the margin in degrees. */
-const poorPhaseMargin = (20 * Math.PI) / 180
-export const isPoorlyDamped = ({ stable, phase_margin_rad: margin }: Pick<NonNullable<Analysis['wall']>, 'stable' | 'phase_margin_rad'>) =>
-  stable && margin !== null && margin < poorPhaseMargin
+export const isPoorlyDamped = ({ findings }: Pick<Analysis, 'findings'>): boolean => findings.some((each) => each.code === 'wall_poorly_damped')
 
 /** Beside numbers that are not yet those of what the page shows. */
 export const stale = 'of the device before; computing …'

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
 import { groupsOf, inWords } from '../../src/model/keys'
 import { scan } from '../../src/model/toml'
-import { asListed, intervalWord, isPoorlyDamped, limitWord, remarkLine, wallWord } from '../../src/model/words'
+import { asListed, intervalWord, limitWord, remarkLine, wallWord } from '../../src/model/words'
 
 const finding = (text: string) => ({
   code: 'stated',
@@ -24,12 +24,6 @@ describe('findings', () => {
 })
 
 describe('words', () => {
-  it('call a stable wall poorly damped below 20 degrees of phase margin', () => {
-    const of = (stable: boolean, degrees: number | null) =>
-      isPoorlyDamped({ stable, phase_margin_rad: degrees === null ? null : (degrees * Math.PI) / 180 })
-    expect([of(true, 19.9), of(true, 20.1), of(true, null), of(false, 5)]).toEqual([true, false, false, false])
-  })
-
   it('say what is stable where there is no limit', () => {
     expect(limitWord({ status: 'none_stable', stable_intervals: [] })).toBe('none: no wall is stable, however soft')
     expect(limitWord({ status: 'none_stable', stable_intervals: null })).toBe('none: no wall is stable, however soft')
