@@ -18,6 +18,7 @@
 #include "cli/subcommand.hpp"
 #include "report/analysed_device.hpp"
 #include "report/analysis_report.hpp"
+#include "report/figure/figures.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/analysis_json.hpp"
 #include "zwidth/io/message_words.hpp"
@@ -27,7 +28,7 @@ namespace {
 
 struct AnalyzeOptions {
   DeviceArguments devices;
-  OutputArguments output;
+  OutputArguments output{.figure_option = "--figure"};
   std::string report;
   bool worst_user = false;
   bool require_stable = false;
@@ -177,15 +178,28 @@ void check_walls(const AnalyzeOptions& options, const std::vector<report::Analys
 
 void run_analyze(const AnalyzeOptions& options) {
   Outputs outputs(*options.devices.command);
+  outputs.add(options.output);
   outputs.add("--report", options.report, Ending::page);
   outputs.keep(options.devices.files, "device file");
+  if (!options.output.figure.empty() && options.devices.files.size() > 1) {
+    throw BadInput("--figure", "shows one device", "give one FILE; zwidth bode draws several");
+  }
   const std::vector<report::AnalysedDevice> analysed = analysed_devices(options);
   if (options.require_stable) check_walls(options, analysed);
   for (const report::AnalysedDevice& each : analysed) {
-    if (options.report.empty() || !each.analysis.point_wall) continue;
-    throw BadInput("--report", "a wall in every direction has no page", "leave it out, or give one normal");
+    if (!each.analysis.point_wall) continue;
+    constexpr const char* remedy = "leave it out, or give one normal";
+    if (!options.report.empty()) throw BadInput("--report", "a wall in every direction has no page", remedy);
+    if (!options.output.figure.empty()) throw BadInput("--figure", "a wall in every direction has none", remedy);
   }
   outputs.put("--report", [&] { return report::html_report(analysed); });
+  outputs.draw("--figure",
+               [&](report::FigureFormat format) { return report::draw_stiffness_axis(analysed.front(), format); });
+  outputs.put("--csv", [&] {
+    results::LimitTable table;
+    for (const report::AnalysedDevice& each : analysed) table.add(each.device, each.analysis);
+    return table.text();
+  });
   outputs.commit();
   if (options.output.json) {
     std::string lines;
@@ -206,7 +220,9 @@ void add_analyze(CLI::App& app) {
   auto options = std::make_shared<AnalyzeOptions>();
   CLI::App* command = app.add_subcommand("analyze", "Critical stiffness, what limits it, and the margins of a wall");
   add_device_arguments(*command, options->devices, FileCount::several);
-  add_output_options(*command, options->output, {.json = "Print one JSON document per device, one per line"});
+  add_output_options(*command, options->output, {.json = "Print one JSON document per device, one per line",
+                      .csv = "Also write the limits, a row per device",
+                      .figure = "Also draw which stiffness is stable, of one device: .svg, .png\nor .pdf"});
   command->add_option("--report", options->report, "Also write one self-contained page with figures")
       ->type_name("OUT.html");
   command->add_flag("--worst-user", options->worst_user,

@@ -80,8 +80,9 @@ void check_recording(const CLI::App& command, const IdentifyArguments& arguments
       throw BadInput(option->get_name(), "is for a recording", "name the recording, or leave the option out");
     }
   }
-  if (!arguments.output.figure.empty()) {
-    throw BadInput("--figure", "draws the response of a recording", "name the recording, or leave the option out");
+  for (const char* option : {"--figure", "--csv"}) {
+    if (command.count(option) == 0) continue;
+    throw BadInput(option, "is of the response of a recording", "name the recording, or leave the option out");
   }
 }
 
@@ -198,6 +199,7 @@ void put(const IdentifyArguments& arguments, Outputs& outputs, const Identified&
          const std::string& device) {
   outputs.put("--output-device", [&] { return device; });
   hand_over_device(*arguments.response.command, device);
+  outputs.put("--csv", [&] { return results::identification_csv(identified); });
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
   outputs.put("--report", [&] { return report::identification_page(identified); });
@@ -282,7 +284,9 @@ void add_identify(CLI::App& app) {
   command->add_option("--output-device", arguments->output_device, "Write the fitted device; - is standard output")
       ->type_name("FILE.toml");
   add_output_options(*command, arguments->output,
-                     {.figure = "Draw data, fit and residual (.svg, .png, .pdf)", .explain = explain_help});
+                     {.csv = "Also write what was measured and fitted",
+                      .figure = "Draw data, fit and residual (.svg, .png, .pdf)",
+                      .explain = explain_help});
   command->add_option("--report", arguments->report, "Also write one self-contained page with limits and figure")
       ->type_name("OUT.html");
   command->add_flag("--points", arguments->points, "Measured and fitted response in the JSON document")

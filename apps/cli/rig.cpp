@@ -16,6 +16,7 @@
 #include "cli/progress_line.hpp"
 #include "cli/rig_arguments.hpp"
 #include "cli/subcommand.hpp"
+#include "report/figure/rig_figures.hpp"
 #include "report/page/rig_page.hpp"
 #include "report/text/rig_text.hpp"
 #include "report/text/text_medium.hpp"
@@ -123,6 +124,10 @@ void answer(
   try {
     put();
     rig.outputs.put("--report", [&] { return report::rig_page(rig.device, result); });
+    if constexpr (requires { report::draw_rig(rig.device, result, report::FigureFormat::svg); }) {
+      rig.outputs.draw("--figure",
+                       [&](report::FigureFormat format) { return report::draw_rig(rig.device, result, format); });
+    }
     rig.outputs.commit();
   } catch (const report::OutputFailed& failure) {
     lost = failure.what();

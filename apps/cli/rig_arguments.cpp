@@ -22,7 +22,7 @@ struct OptionOfActions {
   std::string_view actions;
 };
 
-constexpr std::array<OptionOfActions, 16> options_of_actions{
+constexpr std::array<OptionOfActions, 17> options_of_actions{
     {{"--amplitude", "measure identify relay wall limit "},
      {"--duration", "check measure identify relay wall limit "},
      {"--lowest-hz", "measure identify "},
@@ -38,7 +38,8 @@ constexpr std::array<OptionOfActions, 16> options_of_actions{
      {"--seek-limit", "relay "},
      {"--recording", "measure identify "},
      {"--output-device", "check identify "},
-     {"--delays", "check "}}};
+     {"--delays", "check "},
+     {"--figure", "measure identify relay wall limit "}}};
 
 void add_work_options(CLI::App& command, RigArguments& arguments) {
   const auto add = [&](const char* name, auto& value, const char* what, const char* type) {
@@ -117,7 +118,8 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
   command.add_flag("--real-time", arguments.real_time, "Keep the clock with a simulated device too");
   add_work_options(command, arguments);
   add_safety_options(command, arguments);
-  add_output_options(command, arguments.output, {});
+  add_output_options(command, arguments.output,
+                     {.figure = "All but check: also draw what was found: .svg, .png or .pdf"});
   const auto file = [&](const char* name, std::string& value, const char* what) {
     command.add_option(name, value, what)->type_name("FILE");
   };

@@ -40,7 +40,7 @@ struct RigArguments {
   std::string output_device;
   std::string delays;
   std::string report;
-  OutputArguments output;
+  OutputArguments output{.figure_option = "--figure"};
 };
 
 /// Declares the options; `arguments` must outlive the parsing.

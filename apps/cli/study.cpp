@@ -15,6 +15,7 @@
 #include "cli/refused_answer.hpp"
 #include "cli/request_context.hpp"
 #include "cli/subcommand.hpp"
+#include "report/figure/study_figures.hpp"
 #include "report/study_report.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/study_json.hpp"
@@ -41,7 +42,7 @@ struct StudyArguments {
   std::string report;
   std::string worst;
   bool resume = false;
-  OutputArguments output;
+  OutputArguments output{.figure_option = "--figure"};
 };
 
 constexpr std::pair<std::string_view, std::string_view> options_of_study[] = {
@@ -120,6 +121,7 @@ std::optional<Study> studied(const StudyRun& run, const StudyArguments& argument
 void run_study(const StudyArguments& arguments) {
   Outputs outputs(*arguments.devices.command);
   outputs.add("--output", arguments.result, Ending::hdf5);
+  outputs.add(arguments.output);
   outputs.add("--report", arguments.report, Ending::page);
   outputs.add("--output-device", arguments.worst);
   outputs.keep(arguments.devices.files, "device file");
@@ -149,11 +151,17 @@ void run_study(const StudyArguments& arguments) {
   if (study->trust.refused()) {
     return print_refused(outputs, study->trust, run.device().name(),
                          arguments.output.json ? results::line(results::study_json(run, *study)) : "",
-                         {arguments.report, arguments.worst});
+                         {arguments.report, arguments.worst, arguments.output.csv, arguments.output.figure});
   }
   if (!arguments.worst.empty() && !study->worst)
     throw WorkFailed("--output-device: no unit has a limit: there is no worst one");
   outputs.put("--report", [&] { return report::study_page(run, *study); });
+  outputs.put("--csv", [&] { return results::study_csv(*study); });
+  outputs.draw("--figure", [&](report::FigureFormat format) {
+    std::optional<std::string> figure = report::draw_study_distribution(run, *study, format);
+    if (!figure) throw WorkFailed("--figure: the finite limits of the units do not differ: there is nothing to draw");
+    return std::move(*figure);
+  });
   outputs.put("--output-device", [&] { return report::worst_device_file(*study); });
   if (study->worst) hand_over_device(*arguments.devices.command, report::worst_device_file(*study));
   outputs.commit();
@@ -196,7 +204,9 @@ void add_study(CLI::App& app) {
   command->add_option("--report", arguments->report, "Also write a page with figures: .html")->type_name("FILE");
   command->add_option("--output-device", arguments->worst, "Also write the worst unit as a device file")
       ->type_name("FILE");
-  add_output_options(*command, arguments->output, {});
+  add_output_options(*command, arguments->output,
+                     {.csv = "Also write units, at most 2000 of them, evenly apart",
+                      .figure = "Also draw how the limit varies: .svg, .png or .pdf"});
   command->footer(
       "Examples:\n"
       "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml\n"

@@ -178,4 +178,17 @@ Json analysis_json(const Device& analysed, const Analysis& analysis, const std::
   return json;
 }
 
+void LimitTable::add(const Device& device, const Analysis& analysis) {
+  const auto limit_of = [](const std::optional<HolderLimit>& holder) {
+    return holder ? std::optional(holder->critical_stiffness) : std::nullopt;
+  };
+  const HoldingLimits& limits = analysis.limits;
+  const CriticalStiffness& critical = analysis.critical;
+  const bool is_refused = analysis.trust.refused();
+  csv_.row(device.name(), critical.stiffness, name_of(is_refused ? StiffnessStatus::refused : critical.status),
+           limits.nobody.critical_stiffness, limit_of(limits.user), limit_of(limits.any_user),
+           critical.limit ? std::optional(hertz(critical.limit->frequency)) : std::nullopt,
+           units_of(device.parameters().motion).stiffness, analysis.trust);
+}
+
 }  // namespace zwidth::results

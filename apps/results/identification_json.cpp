@@ -128,4 +128,24 @@ Json identification_json(const RigidBodyIdentification& identified) {
   return json;
 }
 
+std::string identification_csv(const Identification& identified) {
+  const ParameterFit& fit = identified.fit;
+  Csv csv({"frequency_hz", "real", "imaginary", "fitted_real", "fitted_imaginary", "trust"});
+  for (std::size_t i = 0; i < fit.frequencies.size(); ++i) {
+    const std::complex<double> measured = fit.fitted[i] + fit.residuals[i];
+    csv.row(hertz(fit.frequencies[i]), measured.real(), measured.imag(), fit.fitted[i].real(), fit.fitted[i].imag(),
+            identified.trust);
+  }
+  return csv.text();
+}
+
+std::string identification_csv(const RigidBodyIdentification& identified) {
+  const RigidBodyFit& fit = identified.fit;
+  Csv csv({"time_s", "force", "fitted_force", "trust"});
+  for (std::size_t i = 0; i < fit.times.size(); ++i) {
+    csv.row(Rounded{fit.times[i], 12}, fit.forces[i], fit.forces[i] - fit.residual_forces[i], identified.trust);
+  }
+  return csv.text();
+}
+
 }  // namespace zwidth::results

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "results/json.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
@@ -14,5 +16,12 @@ void to_json(Json& json, const StiffnessBasis& basis);
 
 /// That of inverse dynamics, schema zwidth.inverse_dynamics/1 (docs/inverse_dynamics.md).
 [[nodiscard]] Json identification_json(const RigidBodyIdentification& identified);
+
+// What `identify --csv` writes, the numbers of its figure: measured and fitted.
+
+/// The response, line by line.
+[[nodiscard]] std::string identification_csv(const Identification& identified);
+/// The force behind the low-pass over time.
+[[nodiscard]] std::string identification_csv(const RigidBodyIdentification& identified);
 
 }  // namespace zwidth::results

@@ -1,7 +1,10 @@
 #include "results/study_json.hpp"
 
 #include <cmath>
+#include <optional>
+#include <string>
 
+#include "results/csv.hpp"
 #include "results/units.hpp"
 
 namespace zwidth::results {
@@ -159,6 +162,20 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["worst_any_user"] = worst_json(study, study.worst_any_user);
   add_findings(json, study);
   return json;
+}
+
+std::string study_csv(const Study& study) {
+  Csv csv;
+  csv.cell("sample");
+  for (const std::string& key : study.keys) csv.cell(key);
+  for (const char* name : {"critical_stiffness", "status", "mode", "trust"}) csv.cell(name);
+  csv.end_row();
+  for (const StudyPoint& each : study.points) {
+    csv.cell(each.sample);
+    for (const double value : each.values) csv.cell(value);
+    csv.row(each.stiffness, name_of(each.status), each.mode >= 0 ? std::optional(each.mode) : std::nullopt, study.trust);
+  }
+  return csv.text();
 }
 
 }  // namespace zwidth::results

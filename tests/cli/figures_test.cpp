@@ -40,6 +40,52 @@ std::vector<double> numbers_of(const std::string& line) {
   return numbers;
 }
 
+// A picture and a table have the same options everywhere.
+TEST_F(Figures, EveryCommandWithAPictureDrawsIt) {
+  const std::string locked = "identify recordings/locked_chirp.csv --force force --position position --method ";
+  const std::string study = "study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 200 --index-samples 0";
+  ASSERT_EQ(run("cp -r " ZWIDTH_SOURCE_DIR "/recordings .").status, 0);
+  for (const std::string& command :
+       {std::string("analyze devices/lhifam.toml"), study,
+        locked + "frequency-response --structure devices/lhifam.toml --free link.stiffness --locked handle",
+        std::string("rig measure devices/lhifam.toml --duration 1"), std::string("rig relay devices/lhifam.toml"),
+        std::string("rig wall devices/lhifam.toml --stiffness 3000 --duration 1"),
+        std::string("rig limit devices/lhifam.toml")}) {
+    SCOPED_TRACE(command);
+    const Outcome outcome = run("rm -f a.svg && zwidth " + command + " --figure a.svg");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_THAT(contents("a.svg"), HasSubstr("</svg>"));
+    expect_refusal("zwidth " + command + " --figure a.bmp", 2, "unknown extension");
+  }
+  expect_refusal("zwidth rig check devices/lhifam.toml --figure a.svg", 2, "--figure: is not for rig check");
+  expect_refusal("zwidth analyze devices/lhifam.toml devices/lhifam_rigid.toml --figure a.svg", 2, "--figure: ");
+}
+
+TEST_F(Figures, EveryCommandWithATableWritesIt) {
+  ASSERT_EQ(run("zwidth analyze devices/lhifam.toml devices/capstan_paddle.toml --csv limits.csv && "
+                "zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 200 --index-samples 0 "
+                "--csv units.csv")
+                .status,
+            0);
+  const auto lines_of = [&](const std::string& name) {
+    std::istringstream rows(contents(name));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(rows, line);) lines.push_back(line);
+    return lines;
+  };
+  const std::vector<std::string> limits = lines_of("limits.csv");
+  ASSERT_EQ(limits.size(), 3U);
+  EXPECT_EQ(limits.front(),
+            "device,critical_stiffness,status,nobody,user,any_user,frequency_hz,stiffness_unit,trust");
+  const auto document = nlohmann::json::parse(run("zwidth analyze devices/lhifam.toml --json").output);
+  EXPECT_THAT(limits[1], HasSubstr(fmt::format(",{:.17g},finite,", document["critical_stiffness"].get<double>())));
+  EXPECT_THAT(limits[1], ::testing::EndsWith(",N/m,sound"));
+  const std::vector<std::string> units = lines_of("units.csv");
+  ASSERT_EQ(units.size(), 201U);
+  EXPECT_THAT(units.front(), StartsWith("sample,"));
+  EXPECT_THAT(units.front(), ::testing::EndsWith(",critical_stiffness,status,mode,trust"));
+}
+
 TEST_F(Figures, BodeListsCrossoversWithoutAnOutput) {
   const Outcome outcome = run("zwidth bode devices/lhifam.toml");
   EXPECT_EQ(outcome.status, 0) << outcome.errors;

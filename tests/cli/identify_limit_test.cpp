@@ -50,7 +50,7 @@ TEST_F(IdentifyLimit, StandsBesideARecordingOrInItsPlace) {
                  "FILE: missing; a recording to fit to, or a measured limit");
   expect_refusal(on_lhifam + "--limit K=8000 --force force", "--force: is for a recording");
   expect_refusal(on_lhifam + "--limit K=8000 --method time-domain", "--method: is for a recording");
-  expect_refusal(on_lhifam + "--limit K=8000 --figure fit.svg", "--figure: draws the response of a recording");
+  expect_refusal(on_lhifam + "--limit K=8000 --figure fit.svg", "--figure: is of the response of a recording");
   expect_refusal(
       "zwidth identify recordings/free_motion.csv --force force --position position --method inverse-dynamics --limit "
       "K=8000",

@@ -68,7 +68,8 @@ TEST_F(IdentifyRigidBody, TellsItInWords) {
 }
 
 TEST_F(IdentifyRigidBody, DrawsForceModelAndResidual) {
-  ASSERT_EQ(run(std::string(example) + "--figure force.svg").status, 0);
+  ASSERT_EQ(run(std::string(example) + "--figure force.svg --csv force.csv").status, 0);
+  EXPECT_THAT(contents("force.csv"), ::testing::StartsWith("time_s,force,fitted_force,trust\n"));
   const std::string figure = contents("force.svg");
   EXPECT_THAT(figure, AllOf(HasSubstr("free_motion.csv: zoom on"), HasSubstr("Residual (mN)"), HasSubstr("Force (N)"),
                             HasSubstr("low-pass of")));

@@ -3,14 +3,12 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <ctime>
 #include <functional>
 #include <string_view>
 
 #include "report/document.hpp"
-#include "report/figure/figures.hpp"
-#include "report/figure/record_figure.hpp"
+#include "report/figure/rig_figures.hpp"
 #include "report/page/answer_box.hpp"
 #include "report/page/html_page.hpp"
 #include "report/page/identification_page.hpp"
@@ -80,7 +78,7 @@ std::string page(const Found& found, const std::function<void(Document&)>& add_a
 
 void add_response_figure(Document& document, const Device& device, const RigMeasurement& measurement) {
   document.figure("response", "Measured from the commanded force to the position, with 95 % bands.",
-                  [&] { return draw_frf(*measurement.response, results::frf_units(device), FigureFormat::svg); });
+                  [&] { return draw_rig(device, measurement, FigureFormat::svg); });
 }
 
 }  // namespace
@@ -122,37 +120,27 @@ std::string rig_page(const Device& device, const RigRelay& found) {
     add_relay(document, *found.relay);
     document.part();
     document.figure("relay", "The end of the first trial that oscillates: force of the relay, and position.",
-                    [&] { return draw_relay(*found.relay, FigureFormat::svg); });
+                    [&] { return draw_rig(device, found, FigureFormat::svg); });
   });
 }
 
 std::string rig_page(const Device& device, const RigWall& wall) {
   return page({"wall", device, wall.session, wall.trust}, [&](Document& document) {
     document.rows(rig_rows(device, wall));
-    if (wall.recording.channels.empty() || wall.recording.channels[0].samples.empty()) return;
-    const Units units = units_of(device.parameters().motion);
-    document.figure("wall", "Force that was sent, and position as sensed, from the first cycle.", [&] {
-      return draw_record("Wall on the rig: " + device.name(),
-                         fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
-                                     quantity(wall.controller.damping, units.damping)),
-                         {.force = wall.recording.channels[0].samples,
-                          .position = wall.recording.channels[1].samples,
-                          .sampling_period = device.loop().sampling_period,
-                          .motion = device.parameters().motion},
-                         FigureFormat::svg);
-    });
+    if (!has_figure(wall)) return;
+    document.figure("wall", "Force that was sent, and position as sensed, from the first cycle.",
+                    [&] { return draw_rig(device, wall, FigureFormat::svg); });
   });
 }
 
 std::string rig_page(const Device& device, const RigLimit& limit) {
   return page({"limit", device, limit.session, limit.trust, limit.remarks}, [&](Document& document) {
     document.rows(rig_rows(device, limit));
-    const auto is_read = [](const LimitTrial& trial) { return trial.ring.has_value(); };
-    if (std::ranges::any_of(limit.measured.trials, is_read)) {
+    if (has_figure(limit)) {
       document.figure("limit",
                       "Below the grey line the oscillation after a knock decays: the wall is stable. Where the growth "
                       "passes through zero is the critical stiffness of the device on the rig.",
-                      [&] { return draw_limit_trials(device, limit, FigureFormat::svg); });
+                      [&] { return draw_rig(device, limit, FigureFormat::svg); });
     }
     const Units units = units_of(device.parameters().motion);
     document.part(fmt::format("Trials, each after a knock of {}", quantity(limit.impulse, units.force)));
