@@ -234,11 +234,13 @@ void run_target(const DesignArguments& arguments) {
 }
 
 void run_design(const CLI::App& command, const DesignArguments& arguments) {
+  OutputArguments figure_alone = arguments.output;
+  figure_alone.ending = Ending::figure;
   if (!arguments.output.csv.empty() && arguments.sweeps.empty()) {
     throw BadInput("--csv", "is for a sweep", "add --sweep KEY=FIRST:LAST:COUNT");
   }
   if (arguments.recommend.wanted) {
-    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output);
+    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, figure_alone);
   }
   if (arguments.recommend.quantisation_force) throw BadInput("--ripple", "is for a recommendation", "add --recommend");
   if (arguments.notch.wanted) {
@@ -247,7 +249,7 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
     }
     if (arguments.devices.files.size() != 1) throw BadInput("--notch", "takes one device file");
     if (arguments.target) throw BadInput("--notch", "excludes --target");
-    return run_notch(arguments.devices, arguments.notch, arguments.output);
+    return run_notch(arguments.devices, arguments.notch, figure_alone);
   }
   refuse_notch_options(command, arguments.target.has_value());
   if (!arguments.sweeps.empty()) return run_sweep(arguments);

@@ -103,7 +103,7 @@ void refuse_notch_options(const CLI::App& command, bool goal_is_used) {
 
 void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const OutputArguments& output) {
   Outputs outputs(*devices.command);
-  outputs.add("--output", output.figure, Ending::figure);
+  outputs.add(output);
   outputs.add("--write", arguments.write);
   outputs.keep(devices.files, "device file");
   const Device device = read_devices(devices).front();

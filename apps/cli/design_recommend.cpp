@@ -86,7 +86,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
   const RecommendationOptions options = recommendation_options(arguments, shared);
   Outputs outputs(command);
   outputs.add("--write", shared.write);
-  outputs.add("--output", output.figure, Ending::figure);
+  outputs.add(output);
   outputs.keep(devices.files, "device file");
   const std::string& file = devices.files.front();
   const Device device = read_devices(devices).front();

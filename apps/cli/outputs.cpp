@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "cli/option_units.hpp"
 #include "cli/request_context.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
@@ -35,6 +36,14 @@ bool same_file(const std::string& one, const std::string& other) {
          fs::equivalent(one, other, one_is_missing);
 }
 
+double paper_width(const std::string& text) {
+  const double width = measured_number("--width", text, Measure::position, Motion::linear);
+  if (width >= report::least_paper_width && width <= report::largest_paper_width) return width;
+  throw BadInput("--width", fmt::format("is {:g} mm", 1e3 * width),
+                 fmt::format("{:g} to {:g} mm, with its unit: 85mm", 1e3 * report::least_paper_width,
+                             1e3 * report::largest_paper_width));
+}
+
 }  // namespace
 
 void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help) {
@@ -46,7 +55,10 @@ void add_output_options(CLI::App& command, OutputArguments& arguments, const Out
   }
   if (help.figure.empty()) return;
   const std::string names = arguments.figure_option == "--output" ? "-o,--output,--figure" : arguments.figure_option;
-  command.add_option(names, arguments.figure, help.figure)->type_name("FILE");
+  CLI::Option* figure = command.add_option(names, arguments.figure, help.figure)->type_name("FILE");
+  command.add_option("--width", arguments.width, "Of the figure on paper, its letters of 8 pt: 85mm")
+      ->type_name("LENGTH")
+      ->needs(figure);
 }
 
 Outputs::Outputs(const CLI::App& command) : request_(request_of(command)) {}
@@ -75,6 +87,9 @@ void Outputs::warn(std::span<const Remark> remarks) const {
 void Outputs::add(const OutputArguments& arguments) {
   add("--csv", arguments.csv);
   add(arguments.figure_option, arguments.figure, arguments.ending);
+  if (arguments.width.empty()) return;
+  if (!outputs_.back().figure) throw BadInput("--width", "is for a figure, not for its numbers", ".svg, .png or .pdf");
+  outputs_.back().figure->paper_width = paper_width(arguments.width);
 }
 
 void Outputs::add(const std::string& option, const std::string& path, Ending ending) {

@@ -26,6 +26,7 @@ struct OutputArguments {
   report::ShownFindings findings = report::ShownFindings::three;  ///< of the text
   std::string csv = {};                                           ///< --csv; empty: none
   std::string figure = {};                                        ///< empty: none
+  std::string width = {};                                         ///< of the figure on paper; empty: for a screen
   std::string figure_option = "--output";                         ///< the option that names it
   Ending ending = Ending::figure;                                 ///< of that file
 };
@@ -40,8 +41,8 @@ struct OutputHelp {
   std::string explain = {};
 };
 
-/// Declares --json, --csv, --explain and the figure's option (--output is -o and --figure, too); `arguments` must outlive the
-/// parsing.
+/// Declares --json, --csv, --explain, the figure's option (--output is -o and --figure, too) and --width; `arguments` must
+/// outlive the parsing.
 void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help);
 
 /// What a command gives out. The files, each asked for with an option: checked before the work, written after it, all or

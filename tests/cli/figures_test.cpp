@@ -61,6 +61,22 @@ TEST_F(Figures, EveryCommandWithAPictureDrawsIt) {
   expect_refusal("zwidth analyze devices/lhifam.toml devices/lhifam_rigid.toml --figure a.svg", 2, "--figure: ");
 }
 
+TEST_F(Figures, AWidthIsThatOnPaper) {
+  const std::string bode = "zwidth bode devices/lhifam.toml --figure ";
+  ASSERT_EQ(run(bode + "a.svg --width 85mm && " + bode + "a.pdf --width 8.5cm && " + bode + "a.png --width 85mm").status, 0);
+  EXPECT_THAT(contents("a.svg"), HasSubstr("<svg width=\"85mm\" height=\""));
+  EXPECT_THAT(contents("a.pdf"), HasSubstr("/MediaBox [ 0 0 241 ")) << "points";
+  const std::string png = contents("a.png");
+  ASSERT_GT(png.size(), 20U);
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(png[at])); };
+  EXPECT_NEAR(byte(18) * 256U + byte(19), 85.0 / 25.4 * 600.0, 1.0) << "600 dots per inch";
+  expect_refusal(bode + "a.svg --width 85", 2, "--width: is 85000 mm");
+  expect_refusal(bode + "a.svg --width 10mm", 2, "--width: is 10 mm");
+  expect_refusal(bode + "a.svg --width 85kg", 2, "--width: ");
+  expect_refusal(bode + "a.csv --width 85mm", 2, "--width: is for a figure");
+  expect_refusal("zwidth bode devices/lhifam.toml --width 85mm", 2, "--width");
+}
+
 TEST_F(Figures, EveryCommandWithATableWritesIt) {
   ASSERT_EQ(run("zwidth analyze devices/lhifam.toml devices/capstan_paddle.toml --csv limits.csv && "
                 "zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 200 --index-samples 0 "

@@ -102,7 +102,7 @@ std::vector<Tag> tag_positions(const BodeFigure& figure, const Box& frame) {
   }
   std::sort(tags.begin(), tags.end(), [](const Tag& a, const Tag& b) { return a.x < b.x; });
   for (std::size_t i = 1; i < tags.size(); ++i) tags[i].x = std::max(tags[i].x, tags[i - 1].x + apart);
-  double limit = frame_right - apart / 2;
+  double limit = frame.right - apart / 2;
   for (auto tag = tags.rbegin(); tag != tags.rend(); ++tag, limit -= apart) tag->x = std::min(tag->x, limit);
   return tags;
 }
@@ -148,7 +148,7 @@ void draw_mark_lines(Canvas& canvas, const BodeFigure& figure, const Box& box, c
     canvas.text(tag.x, tag_y, std::to_string(tag.mark + 1), {Anchor::centre, text_size, style.colour});
     canvas.line(tag.x, tag_y + 9.0, x, tag_y + 16.0, style);
     canvas.line(x, tag_y + 16.0, x, is_critical(mark) ? box.bottom + between_panels + phase_height : y, style);
-    if (is_critical(mark)) canvas.line(frame_left, y, x, y, mark_style);
+    if (is_critical(mark)) canvas.line(box.left, y, x, y, mark_style);
   }
 }
 

@@ -12,25 +12,33 @@
 namespace zwidth::report {
 namespace {
 
-std::string terminal(FigureFormat format, double width, double height) {
+constexpr double metres_per_inch = 0.0254;
+
+std::string terminal(const FigureFormat& format, double width, double height) {
   constexpr double px_per_inch = 96.0;
-  constexpr double sharp_on_paper = 2.0;
   // Text is drawn as it is but for symbols: gnuplot_text() says of each which.
   // Our font sizes are px; the Cairo terminals count in points.
   constexpr double point_per_px = 0.75;
   constexpr double pdf_font_scale = 0.56;  // as measured: pdfcairo scales once more
-  switch (format) {
-    case FigureFormat::svg:
+  const double on_paper = format.paper_width ? px_on_paper * px_per_inch / metres_per_inch : 1.0;
+  switch (format.kind) {
+    case FigureFormat::Kind::svg:
       return fmt::format("svg size {},{} dynamic enhanced font 'Helvetica,13' background '#ffffff'", width, height);
-    case FigureFormat::png:
+    case FigureFormat::Kind::png: {
+      constexpr double dots_per_inch = 600.0;
+      constexpr double sharp_on_screen = 2.0;
+      const double dots = format.paper_width ? px_on_paper / metres_per_inch * dots_per_inch : sharp_on_screen;
       return fmt::format(
-          "pngcairo size {0},{1} enhanced font 'Helvetica,13' fontscale {3} linewidth {2} pointscale {2} background "
+          "pngcairo size {0:.0f},{1:.0f} enhanced font 'Helvetica,13' fontscale {3} linewidth {2} pointscale {2} "
+          "background '#ffffff'",
+          dots * width, dots * height, dots, dots * point_per_px);
+    }
+    case FigureFormat::Kind::pdf:
+      return fmt::format(
+          "pdfcairo size {}in,{}in enhanced font 'Helvetica,13' fontscale {} linewidth {} pointscale {} background "
           "'#ffffff'",
-          sharp_on_paper * width, sharp_on_paper * height, sharp_on_paper, sharp_on_paper * point_per_px);
-    case FigureFormat::pdf:
-      return fmt::format(
-          "pdfcairo size {}in,{}in enhanced font 'Helvetica,13' fontscale {} linewidth 1.5 background '#ffffff'",
-          width / px_per_inch, height / px_per_inch, pdf_font_scale);
+          on_paper * width / px_per_inch, on_paper * height / px_per_inch, on_paper * pdf_font_scale, on_paper * 1.5,
+          on_paper);
   }
   return {};
 }
@@ -53,13 +61,13 @@ std::optional<FigureFormat> figure_format(std::string_view path) {
   return std::nullopt;
 }
 
-double point_radius(FigureFormat format) {
-  switch (format) {
-    case FigureFormat::svg:
+double point_radius(const FigureFormat& format) {
+  switch (format.kind) {
+    case FigureFormat::Kind::svg:
       return 4.9;
-    case FigureFormat::png:
+    case FigureFormat::Kind::png:
       return 3.05;
-    case FigureFormat::pdf:
+    case FigureFormat::Kind::pdf:
       break;
   }
   return 4.0;
@@ -115,11 +123,17 @@ void Canvas::plot(const Box& frame, std::string_view what) {
   commands(fmt::format("plot {}\nunset label\nunset arrow\nunset object", what));
 }
 
-std::string Canvas::draw(FigureFormat format) const {
+std::string Canvas::draw(const FigureFormat& format) const {
   std::string picture =
       run_gnuplot(fmt::format("set encoding utf8\nset terminal {}\nunset key\nset multiplot\n{}unset multiplot\n",
                               terminal(format, width_, height_), script_));
-  if (format == FigureFormat::svg) {
+  if (format.kind == FigureFormat::Kind::svg) {
+    if (format.paper_width) {
+      constexpr double millimetres = 1e3 * px_on_paper;
+      replace_all(picture, "<svg \n", "<svg ");
+      replace_all(picture, "<svg ",
+                  fmt::format("<svg width=\"{:.4g}mm\" height=\"{:.4g}mm\" ", millimetres * width_, millimetres * height_));
+    }
     replace_all(picture, "<title>Gnuplot</title>", fmt::format("<title>{}</title>", escape_markup(title_)));
     // Cells of a map have edges, which a viewer would blur.
     replace_all(picture, "<image ", "<image style='image-rendering:pixelated' ");

@@ -7,13 +7,31 @@
 
 namespace zwidth::report {
 
-enum class FigureFormat { svg, png, pdf };
+/// The kind of file that a figure is in, and for whom: a screen, or paper of a width.
+struct FigureFormat {
+  enum class Kind { svg, png, pdf };
+  Kind kind = Kind::svg;
+  std::optional<double> paper_width = {};  ///< m; letters then have 8 pt. Absent: 900 px
+  [[nodiscard]] bool operator==(const FigureFormat&) const = default;
+  static const FigureFormat svg;
+  static const FigureFormat png;
+  static const FigureFormat pdf;
+};
+inline const FigureFormat FigureFormat::svg{Kind::svg};
+inline const FigureFormat FigureFormat::png{Kind::png};
+inline const FigureFormat FigureFormat::pdf{Kind::pdf};
+
+/// m, of a px: 12 px, the size of most letters, are 8 pt.
+inline constexpr double px_on_paper = 8.0 / 72.0 * 0.0254 / 12.0;
+/// Of paper, m: less has no room for the letters.
+inline constexpr double least_paper_width = 0.06;
+inline constexpr double largest_paper_width = 1.0;
 
 /// The format that a file name asks for by its extension (any case), if it is one of figures.
 [[nodiscard]] std::optional<FigureFormat> figure_format(std::string_view path);
 
 /// Radius of gnuplot's point of size 1, px, as measured.
-[[nodiscard]] double point_radius(FigureFormat format);
+[[nodiscard]] double point_radius(const FigureFormat& format);
 
 enum class Anchor { left, centre, right };
 
@@ -61,7 +79,7 @@ class Canvas {
   void plot(const Box& frame, std::string_view what);
 
   /// The picture's bytes, by gnuplot. Throws OutputFailed.
-  [[nodiscard]] std::string draw(FigureFormat format) const;
+  [[nodiscard]] std::string draw(const FigureFormat& format) const;
 
   /// Width of text in px, on the safe side.
   [[nodiscard]] static double text_width(std::string_view content, double size);

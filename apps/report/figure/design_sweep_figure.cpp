@@ -296,8 +296,8 @@ class MapFigure {
                     {jumps, as_lines({"#ffffff", 3.0, "1"})},
                     {jumps, as_lines(branch_edge)}},
          .marks = [&](Canvas& canvas, const Box& frame) {
-           canvas.colour_box({780.0, 780.0 + 0.02 * canvas_width, frame.top, frame.bottom});
-           canvas.text(772.0, frame.top - 10.0,
+           canvas.colour_box({frame.right + 20.0, frame.right + 38.0, frame.top, frame.bottom});
+           canvas.text(frame.right + 12.0, frame.top - 10.0,
                        fmt::format("K_CR ({}{})", stiffness.prefix, units_of(motion_).stiffness), {Anchor::left, 12.0});
          }});
     return report::draw(figure, format);

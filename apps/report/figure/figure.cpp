@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "report/figure/gnuplot.hpp"
 
 namespace zwidth::report {
@@ -26,14 +29,37 @@ std::string plotted(Canvas& canvas, const std::vector<Series>& series) {
   return what + "NaN notitle";
 }
 
-void draw_panel(Canvas& canvas, const Panel& panel, const Box& frame) {
+/// Where the frames are on a page of that width, as they are laid out for one of 900 px.
+std::vector<Box> frames_of(const std::vector<Panel>& panels, double bottom, const Page& page) {
+  constexpr double least_below = 70.0;  // with the axis of the panel above
+  std::vector<Box> frames;
+  for (const Panel& panel : panels) {
+    const bool is_beside = panel.is_beside && !page.is_narrow();
+    const double above = panel.is_beside ? std::max(panel.above, least_below) : panel.above;
+    const double top = is_beside ? frames.back().top : bottom + above;
+    bottom = top + panel.height;
+    double left = page.left + panel.left - frame_left;
+    double right = page.width - (canvas_width - panel.right);
+    if (panel.is_placed) left = panel.left, right = panel.right;
+    // Of those that stood beside each other each has the whole width.
+    const auto next = frames.size() + 1;
+    const bool is_one_of_two = panel.is_beside || (next < panels.size() && panels[next].is_beside);
+    if (page.is_narrow() && is_one_of_two && !panel.is_placed) left = page.left, right = page.right;
+    frames.push_back({left, right, top, bottom});
+  }
+  return frames;
+}
+
+void draw_panel(Canvas& canvas, const Panel& panel, const Box& frame, const Page& page) {
   const std::string what = plotted(canvas, panel.series);
   if (!panel.axes.empty()) canvas.commands(panel.axes);
   if (!panel.y_label.empty()) {
     canvas.commands(fmt::format("set ylabel {} font ',12' offset 0.5,0", gnuplot_text(panel.y_label)));
   }
   if (!panel.x_label.empty()) {
-    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, panel.x_label, {Anchor::centre, text_size});
+    const double half = 0.5 * Canvas::text_width(panel.x_label, text_size);
+    const double middle = std::max(std::min(0.5 * (frame.left + frame.right), page.width - half), half);
+    canvas.text(middle, frame.bottom + 42.0, panel.x_label, {Anchor::centre, text_size});
   }
   if (panel.marks) panel.marks(canvas, frame);
   canvas.plot(frame, what);
@@ -49,24 +75,29 @@ std::string as_area(std::string_view colour) {
   return fmt::format("filledcurves fc rgb '{}' fs solid noborder", colour);
 }
 
-std::string draw(const Figure& figure, FigureFormat format) {
-  const Heading heading(figure.title, figure.legend, figure.subtitle);
-  std::vector<Box> frames;
-  double bottom = heading.bottom();
-  for (const Panel& panel : figure.panels) {
-    const double top = panel.is_beside ? frames.back().top : bottom + panel.above;
-    bottom = top + panel.height;
-    frames.push_back({panel.left, panel.right, top, bottom});
-  }
-  double note = bottom + figure.below;
-  Canvas canvas(figure.title, canvas_width, note + row_height * static_cast<double>(figure.notes.size()));
-  heading.draw(canvas);
+std::string draw(const Figure& figure, const FigureFormat& format) {
+  const Page page = page_of(format);
+  const Heading heading(figure.title, figure.legend, figure.subtitle, page);
+  const std::vector<Box> frames = frames_of(figure.panels, heading.bottom(), page);
+  const double left = page.is_narrow() ? 0.5 * row_height : page.left;
+  std::vector<Note> notes;
   for (const Note& each : figure.notes) {
-    canvas.text(frame_left, note, each.text, {Anchor::left, text_size, each.colour});
+    if (!page.is_narrow()) notes.push_back(each);
+    if (!page.is_narrow()) continue;
+    constexpr std::size_t most_lines = 4;
+    for (std::string& line : Canvas::broken(each.text, text_size, page.width - 2.0 * left, most_lines)) {
+      notes.push_back({std::move(line), each.colour});
+    }
+  }
+  double note = frames.back().bottom + figure.below;
+  Canvas canvas(figure.title, page.width, note + row_height * static_cast<double>(notes.size()));
+  heading.draw(canvas);
+  for (const Note& each : notes) {
+    canvas.text(left, note, each.text, {Anchor::left, text_size, each.colour});
     note += row_height;
   }
   canvas.commands(axes_look());
-  for (std::size_t i = 0; i < frames.size(); ++i) draw_panel(canvas, figure.panels[i], frames[i]);
+  for (std::size_t i = 0; i < frames.size(); ++i) draw_panel(canvas, figure.panels[i], frames[i], page);
   return canvas.draw(format);
 }
 

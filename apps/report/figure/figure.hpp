@@ -28,7 +28,8 @@ struct Panel {
   double height = 0.0;  ///< px
   double left = frame_left;
   double right = frame_right;
-  bool is_beside = false;  ///< the panel before, instead of below it
+  bool is_beside = false;  ///< the panel before, instead of below it; on narrow paper below, too
+  bool is_placed = false;  ///< left and right are those of the page; else they are moved to it
   std::string axes = {};   ///< gnuplot's commands
   std::string x_label = {};
   std::string y_label = {};
@@ -54,6 +55,6 @@ struct Figure {
 };
 
 /// Draws the figure. Throws OutputFailed as gnuplot does.
-[[nodiscard]] std::string draw(const Figure& figure, FigureFormat format);
+[[nodiscard]] std::string draw(const Figure& figure, const FigureFormat& format);
 
 }  // namespace zwidth::report

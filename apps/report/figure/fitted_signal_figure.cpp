@@ -97,7 +97,10 @@ void add_signal_panels(std::vector<Panel>& panels, const Signal& signal) {
                                        quantity(root_mean_square(signal.residuals), std::string(signal.unit)));
   const std::string rows = signal_rows(signal, from, shown);
   const auto note = [](const std::string& text) {
-    return [text](Canvas& canvas, const Box& frame) { canvas.text(frame_left, frame.top - 14.0, text); };
+    return [text](Canvas& canvas, const Box& frame) {
+      constexpr double size = TextStyle{}.size;
+      canvas.text(frame.left, frame.top - 14.0, Canvas::fitted(text, size, frame.right - frame.left), {.size = size});
+    };
   };
   panels.push_back({.above = 30.0,
                     .height = 180.0,

@@ -177,6 +177,7 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
   const std::string rows = rows_of(points, magnitude.low);
   const std::string band = fmt::format("filledcurves lc rgb '{}'", interval_colour);
   const std::string curve = as_lines(response_style);
+  const Page page = page_of(format);
   return draw(
       Figure{.title = std::filesystem::path(frf.source).filename().string() + std::string(trust_mark(frf.trust)),
              .subtitle = "Measured response, from commanded force to sensed position",
@@ -185,7 +186,7 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
                          .axes = fmt::format(
                              "set logscale x\nset xrange [{}:{}]\n{}\nset format x ''\nset style fill solid "
                              "1.0 noborder\nset yrange [{}:{}]\nset ytics {}",
-                             axis.low, axis.high, decade_ticks("x", axis.low, axis.high), magnitude.low, magnitude.high,
+                             axis.low, axis.high, decade_ticks("x", axis.low, axis.high, page.right - page.left), magnitude.low, magnitude.high,
                              tick_step(magnitude, 10.0, 10.0)),
                          .y_label = fmt::format("Magnitude (dB re 1 {})", units.compliance()),
                          .series = {{rows, band, "1:3:4"}, {std::nullopt, curve}},

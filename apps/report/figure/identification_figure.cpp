@@ -120,9 +120,11 @@ std::string draw_identification(const Identification& identified, const Identifi
                           10.0 * std::floor((lowest - 1.0) / 10.0), 10.0 * std::ceil((highest + 1.0) / 10.0)),
       .y_label = fmt::format("Magnitude (dB re 1 {})", compliance),
       .series = band_points_and_fit("3:4", 2, 8)};
+  const Page page = page_of(format);
+  const double room = page.right - page.left;
   Panel phase{.above = 22.0,
               .height = 190.0,
-              .axes = "set autoscale y\nset ytics 90\n" + decade_ticks("x", data.front().hz, data.back().hz),
+              .axes = "set autoscale y\nset ytics 90\n" + decade_ticks("x", data.front().hz, data.back().hz, room),
               .y_label = "Phase (degrees)",
               .series = band_points_and_fit("6:7", 5, 9)};
   Panel residual{.above = 22.0,

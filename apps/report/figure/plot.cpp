@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace zwidth::report {
 namespace {
@@ -21,25 +24,35 @@ constexpr std::size_t most_lines = 3;
 
 std::string ring_marker(std::string_view colour) { return fmt::format("pt 6 ps 0.7 lw 1.3 lc rgb '{}'", colour); }
 
-Heading::Heading(const std::string& title, std::vector<LegendEntry> legend, const std::string& subtitle)
-    : title_(Canvas::broken(title, title_size, frame_right - frame_left, most_lines)) {
-  if (!subtitle.empty()) subtitle_ = Canvas::broken(subtitle, text_size, frame_right - frame_left, most_lines);
+Page page_of(const FigureFormat& format) {
+  if (!format.paper_width) return {};
+  constexpr double left_on_paper = 70.0;
+  const double width = *format.paper_width / px_on_paper;
+  return {width, left_on_paper, width - (canvas_width - frame_right)};
+}
+
+Heading::Heading(const std::string& title, std::vector<LegendEntry> legend, const std::string& subtitle,
+                 const Page& page)
+    : left_(page.is_narrow() ? 0.5 * row_height : page.left) {
+  const double room = page.right - left_;
+  title_ = Canvas::broken(title, title_size, room, most_lines);
+  if (!subtitle.empty()) subtitle_ = Canvas::broken(subtitle, text_size, room, page.is_narrow() ? 2 * most_lines : most_lines);
   bottom_ = 12.0 + title_row * static_cast<double>(title_.size());
   if (!subtitle_.empty()) bottom_ += 4.0 + row_height * static_cast<double>(subtitle_.size());
   bool beside = false;  // the second place of the row is free
   for (LegendEntry& entry : legend) {
-    const bool is_short = Canvas::text_width(entry.text, text_size) <= column - text_after - 6.0;
+    const bool is_short = !page.is_narrow() && Canvas::text_width(entry.text, text_size) <= column - text_after - 6.0;
     if (beside && is_short) {
-      legend_.push_back({std::move(entry), frame_left + column, bottom_ - 0.5 * row_height, {}});
+      legend_.push_back({std::move(entry), left_ + column, bottom_ - 0.5 * row_height, {}});
       legend_.back().lines = {legend_.back().entry.text};
       beside = false;
       continue;
     }
-    std::vector<std::string> lines =
-        is_short ? std::vector<std::string>{entry.text}
-                 : Canvas::broken(entry.text, text_size, frame_right - frame_left - text_after, most_lines);
+    std::vector<std::string> lines = is_short
+                                         ? std::vector<std::string>{entry.text}
+                                         : Canvas::broken(entry.text, text_size, room - text_after, most_lines);
     const double height = row_height * static_cast<double>(lines.size());
-    legend_.push_back({std::move(entry), frame_left, bottom_ + 0.5 * row_height, std::move(lines)});
+    legend_.push_back({std::move(entry), left_, bottom_ + 0.5 * row_height, std::move(lines)});
     bottom_ += height;
     beside = is_short;
   }
@@ -47,11 +60,11 @@ Heading::Heading(const std::string& title, std::vector<LegendEntry> legend, cons
 
 void Heading::draw(Canvas& canvas) const {
   for (std::size_t i = 0; i < title_.size(); ++i) {
-    canvas.text(frame_left, 18.0 + title_row * static_cast<double>(i), title_[i], {Anchor::left, title_size});
+    canvas.text(left_, 18.0 + title_row * static_cast<double>(i), title_[i], {Anchor::left, title_size});
   }
   double y = 18.0 + title_row * static_cast<double>(title_.size()) + 2.0;
   for (const std::string& line : subtitle_) {
-    canvas.text(frame_left, y, line, {Anchor::left, text_size});
+    canvas.text(left_, y, line, {Anchor::left, text_size});
     y += row_height;
   }
   for (const Placed& each : legend_) {
@@ -95,17 +108,26 @@ std::string_view axes_look() {
          "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back";
 }
 
-std::string decade_ticks(std::string_view axis, double low, double high) {
+std::string decade_ticks(std::string_view axis, double low, double high, double room) {
   constexpr double rounding = 1e-9;
-  std::string ticks;
-  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
-    for (const double step : {1.0, 2.0, 5.0}) {
-      const double at = step * decade;
-      if (at < low * (1.0 - rounding) || at > high * (1.0 + rounding)) continue;
-      ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", at);
+  constexpr double room_of_tick = 30.0;
+  const auto ticks_at = [&](std::span<const double> steps) {
+    std::vector<std::string> ticks;
+    for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
+      for (const double step : steps) {
+        const double at = step * decade;
+        if (at < low * (1.0 - rounding) || at > high * (1.0 + rounding)) continue;
+        ticks.push_back(fmt::format("{:.6g}", at));
+      }
     }
+    return ticks;
+  };
+  constexpr std::array steps{1.0, 2.0, 5.0};
+  std::vector<std::string> ticks = ticks_at(steps);
+  if (room_of_tick * static_cast<double>(ticks.size()) > room && high > 100.0 * low) {
+    ticks = ticks_at(std::span(steps).first(1));
   }
-  return fmt::format("set {}tics ({})", axis, ticks);
+  return fmt::format("set {}tics ({})", axis, fmt::join(ticks, ", "));
 }
 
 }  // namespace zwidth::report

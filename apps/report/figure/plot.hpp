@@ -16,6 +16,16 @@ inline constexpr double frame_right = 876.0;
 inline constexpr double row_height = 20.0;
 inline constexpr double text_size = 12.0;
 
+/// What a figure's width leaves to its frames, px. Figures are laid out for the first one; draw() moves their frames to any.
+struct Page {
+  double width = canvas_width;
+  double left = frame_left;
+  double right = frame_right;
+  /// Frames do not stand beside each other, nor do entries of a legend.
+  [[nodiscard]] bool is_narrow() const { return width < 700.0; }
+};
+[[nodiscard]] Page page_of(const FigureFormat& format);
+
 inline constexpr std::string_view ink = "#1a1a1a";
 inline constexpr std::string_view blue = "#0b4f9e";
 inline constexpr std::string_view orange = "#c2410c";
@@ -44,7 +54,7 @@ struct LegendEntry {
 /// that three lines hold.
 class Heading {
  public:
-  Heading(const std::string& title, std::vector<LegendEntry> legend, const std::string& subtitle = {});
+  Heading(const std::string& title, std::vector<LegendEntry> legend, const std::string& subtitle, const Page& page);
 
   /// px from the top: where the next thing may begin.
   [[nodiscard]] double bottom() const { return bottom_; }
@@ -57,6 +67,7 @@ class Heading {
     double y = 0.0;
     std::vector<std::string> lines;
   };
+  double left_ = 0.0;
   std::vector<std::string> title_;
   std::vector<std::string> subtitle_;
   std::vector<Placed> legend_;
@@ -87,7 +98,8 @@ struct AxisRange {
 /// gnuplot commands that every frame begins with: size of the tics, border, grid behind the curves.
 [[nodiscard]] std::string_view axes_look();
 
-/// `set xtics` of the axis "x" at 1, 2 and 5 of every decade: less than one has too few tics otherwise.
-[[nodiscard]] std::string decade_ticks(std::string_view axis, double low, double high);
+/// `set xtics` of the axis "x" at 1, 2 and 5 of every decade where `room` px hold them: less than one has too few tics otherwise.
+[[nodiscard]] std::string decade_ticks(std::string_view axis, double low, double high,
+                                       double room = frame_right - frame_left);
 
 }  // namespace zwidth::report

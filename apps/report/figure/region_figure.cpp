@@ -107,8 +107,7 @@ class RegionFigure {
     if (shown.size() > 1) {
       figure.panels.back().is_beside = true;
       figure.panels.back().marks = [](Canvas& canvas, const Box& frame) {
-        canvas.text(frame.left, frame.top - 12.0, "Zoom: the corner at the origin of the panel on the left",
-                    {Anchor::left, 12.0, grey});
+        canvas.text(frame.left, frame.top - 12.0, "Zoom: the corner at the origin", {Anchor::left, 12.0, grey});
       };
     }
     return report::draw(figure, format);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr Box bar_sides{40.0, 860.0, 0.0, 0.0};
+constexpr double bar_side = 40.0;  // px, left of the bar and right of it
 constexpr double bar_height = 40.0;
 constexpr double text_gap = 5.0;
 constexpr std::string_view alone_colour = "#dbe7f6";
@@ -110,12 +111,12 @@ AxisRange axis_of(const std::vector<Label>& labels) {
 
 /// Each text stands left of its leader, like a flag, in the lowest row above every leader that it passes: so no leader
 /// crosses a text. Returns whether all texts keep inside the canvas.
-bool place(std::vector<Label>& labels, const AxisRange& axis) {
+bool place(std::vector<Label>& labels, const AxisRange& axis, const Box& bar) {
   std::ranges::sort(labels, {}, &Label::stiffness);
   bool inside = true;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     Label& label = labels[i];
-    label.x = place_on_log_axis(bar_sides, axis, label.stiffness);
+    label.x = place_on_log_axis(bar, axis, label.stiffness);
     label.row = 0;
     const double left = label.x - text_gap - Canvas::text_width(label.text, text_size);
     for (std::size_t j = 0; j < i; ++j) {
@@ -127,25 +128,24 @@ bool place(std::vector<Label>& labels, const AxisRange& axis) {
 }
 
 /// Lowers the axis until the leftmost texts have room.
-AxisRange place_with_room(std::vector<Label>& labels) {
+AxisRange place_with_room(std::vector<Label>& labels, const Box& bar) {
   constexpr int most_decades = 4;
   AxisRange axis = axis_of(labels);
-  for (int i = 0; i < most_decades && !place(labels, axis); ++i) axis.low /= 10.0;
+  for (int i = 0; i < most_decades && !place(labels, axis, bar); ++i) axis.low /= 10.0;
   return axis;
 }
 
-/// The three words and their colours, at the right end of the title's line.
-void draw_legend(Canvas& canvas) {
+/// The three words and their colours, at the right end of a line.
+void draw_legend(Canvas& canvas, double right, double y) {
   constexpr double size = 11.0;
   constexpr double gap = 18.0;
-  double right = bar_sides.right;
   for (const auto& [stability, colour] : {std::pair{WallStability::unstable, unstable_colour},
                                           {WallStability::alone_only, alone_colour},
                                           {WallStability::anyone, anyone_colour}}) {
     const std::string_view name = words_of(stability);
     const double left = right - Canvas::text_width(name, text_size);
-    canvas.text(left, 16.0, name, {Anchor::left, text_size});
-    canvas.rectangle({left - size - text_gap, left - text_gap, 16.0 - 0.5 * size, 16.0 + 0.5 * size}, colour);
+    canvas.text(left, y, name, {Anchor::left, text_size});
+    canvas.rectangle({left - size - text_gap, left - text_gap, y - 0.5 * size, y + 0.5 * size}, colour);
     right = left - size - text_gap - gap;
   }
 }
@@ -153,16 +153,24 @@ void draw_legend(Canvas& canvas) {
 }  // namespace
 
 std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat format) {
+  constexpr double title_size = 15.0;
+  constexpr double title_y = 16.0;
+  const Page page = page_of(format);
   std::vector<Label> labels = labels_of(analysed);
-  const AxisRange axis = place_with_room(labels);
+  const AxisRange axis = place_with_room(labels, {bar_side, page.width - bar_side, 0.0, 0.0});
+  const std::vector<std::string> title = Canvas::broken("Wall stiffness K: where the sampled loop is stable",
+                                                        title_size, page.width - 2.0 * bar_side, 3);
+  const double title_bottom = title_y + row_height * (static_cast<double>(title.size()) - 1.0);
+  const double legend_y = page.is_narrow() ? title_bottom + 1.2 * row_height : title_y;
   std::size_t rows = 0;
   for (const Label& label : labels) rows = std::max(rows, label.row + 1);
-  const double bar_top = 48.0 + row_height * static_cast<double>(rows);
-  const Box bar{bar_sides.left, bar_sides.right, bar_top, bar_top + bar_height};
-  Canvas canvas("Stable wall stiffness", canvas_width, bar.bottom + 66.0);
-  canvas.text(bar.left, 16.0, "Wall stiffness K: where the sampled loop is stable", {Anchor::left, 15.0});
-
-  draw_legend(canvas);
+  const double bar_top = legend_y + 32.0 + row_height * static_cast<double>(rows);
+  const Box bar{bar_side, page.width - bar_side, bar_top, bar_top + bar_height};
+  Canvas canvas("Stable wall stiffness", page.width, bar.bottom + 66.0);
+  for (std::size_t i = 0; i < title.size(); ++i) {
+    canvas.text(bar.left, title_y + row_height * static_cast<double>(i), title[i], {Anchor::left, title_size});
+  }
+  draw_legend(canvas, page.is_narrow() ? page.width - text_gap : bar.right, legend_y);
   canvas.rectangle(bar, unstable_colour);
   double unstable_from = bar.left;
   const auto name_segment = [&](double left, double right, std::string_view name) {

@@ -344,7 +344,9 @@ class WorkspaceFigure {
     };
     Panel panel{.above = 34.0,
                 .height = height,
-                .right = frame_left + width,
+                .left = page_.left,
+                .right = page_.left + width,
+                .is_placed = true,
                 .axes = axis("x", across, width) + axis("y", up, height) + "set xtics autofreq\nset ytics autofreq\n" +
                         palette(),
                 .x_label = axis_text(view.across),
@@ -357,7 +359,7 @@ class WorkspaceFigure {
 
   [[nodiscard]] Panel whole_map() const {
     const MapView view = widest_view();
-    const double width = map_right - frame_left;
+    const double width = page_.width - (canvas_width - map_right) - page_.left;
     const double wide = extent(view.across);
     const double shape = wide > 0.0 ? extent(view.up) / wide : 1.0;
     const double height = std::clamp(width * shape, least_height, most_height);
@@ -370,13 +372,13 @@ class WorkspaceFigure {
       panel.series.push_back({curves, as_lines(direction_curve)});
     }
     add_worst(panel, view, 0.5 * apart);
-    panel.marks = [this](Canvas& canvas, const Box& frame) { add_scale(canvas, frame, map_right + 22.0); };
+    panel.marks = [this](Canvas& canvas, const Box& frame) { add_scale(canvas, frame, frame.right + 22.0); };
     return panel;
   }
 
   /// The directions of a wall at the worst pose, seen along z: n and -n are one, so half a sphere shows all.
   [[nodiscard]] Panel directions_of_worst() const {
-    Panel panel{.height = small_side,
+    Panel panel{.height = small_side_on_page(),
                 .axes = "set xrange [-1.12:1.12]\nset yrange [-1.12:1.12]\nset xtics 0.5\nset ytics 0.5",
                 .x_label = "x of the normal",
                 .y_label = "y of the normal"};
@@ -404,16 +406,24 @@ class WorkspaceFigure {
     return panel;
   }
 
+  /// With room for the scale of colours.
+  [[nodiscard]] double small_side_on_page() const {
+    constexpr double room_of_scale = 100.0;
+    return std::min(small_side, page_.width - page_.left - room_of_scale);
+  }
+
   /// Seen along each axis of the world, and every direction at the worst pose.
   void add_views(Figure& figure) const {
     static constexpr std::array<MapView, 3> views{MapView{0, 1}, MapView{0, 2}, MapView{1, 2}};
     static constexpr double between = 120.0;
+    const double side = small_side_on_page();
     const auto put = [&](Panel panel, std::string heading, bool has_scale) {
-      const bool is_beside = figure.panels.size() % 2 == 1;
+      const bool is_beside = !page_.is_narrow() && figure.panels.size() % 2 == 1;
       panel.is_beside = is_beside;
       panel.above = figure.panels.empty() ? 40.0 : 84.0;
-      panel.left = frame_left + (is_beside ? small_side + between : 0.0);
-      panel.right = panel.left + small_side;
+      panel.left = page_.left + (is_beside ? side + between : 0.0);
+      panel.right = panel.left + side;
+      panel.is_placed = true;
       panel.marks = [this, heading, has_scale](Canvas& canvas, const Box& frame) {
         canvas.text(frame.left, frame.top - 12.0, heading, {Anchor::left, 12.0, grey});
         if (has_scale) add_scale(canvas, frame, frame.right + 40.0);
@@ -422,7 +432,7 @@ class WorkspaceFigure {
       figure.panels.push_back(std::move(panel));
     };
     for (const MapView& view : views) {
-      Panel panel = map(view, small_side, small_side);
+      Panel panel = map(view, side, side);
       add_worst(panel, view, 0.18 * std::max(extent(view.across), extent(view.up)));
       const int depth = 3 - view.across - view.up;
       put(std::move(panel),
@@ -435,6 +445,7 @@ class WorkspaceFigure {
   const Device& device_;
   const Workspace& workspace_;
   FigureFormat format_;
+  Page page_ = page_of(format_);
   bool is_any_user_ = false;
   std::vector<TipPlace> places_;
   std::vector<Eigen::Vector3d> reached_;                  // where the tip is, in every pose

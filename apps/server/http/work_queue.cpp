@@ -1,14 +1,17 @@
 #include "server/http/work_queue.hpp"
 
 #include <sys/resource.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace zwidth::server {
 namespace {
 
-constexpr int nicer_per_lane = 2;
+constexpr int nicer_per_lane = 5;
 
 /// Of this thread, and of those that it starts.
 void lower_priority(int by) {
@@ -49,6 +52,8 @@ bool WorkQueue::add(std::size_t lane, std::function<void()> work) {
 void WorkQueue::run(std::size_t lane) {
   lower_priority(nicer_per_lane * static_cast<int>(lane));
   Lane& own = lanes_[lane];
+  // Threads of TBB keep the priority that they began with, whoever they work for: one core is kept from what takes long.
+  tbb::task_arena arena(lane == 0 ? tbb::task_arena::automatic : std::max(1, tbb::info::default_concurrency() - 1));
   std::unique_lock lock(mutex_);
   for (;;) {
     own.changed.wait(lock, [&] { return ends_ || !own.waiting.empty(); });
@@ -57,7 +62,7 @@ void WorkQueue::run(std::size_t lane) {
     own.waiting.pop_front();
     --own.idle;
     lock.unlock();
-    work();
+    arena.execute(work);
     lock.lock();
     ++own.idle;
   }
