@@ -221,9 +221,10 @@ std::vector<OfferedOption> RequestCommands::options(const std::string& command) 
     for (const OptionDescription& option : each.options) {
       const std::string& name = option.names.back();
       const bool is_input = name == offered->recording || name == offered->device;
-      const bool is_of_text =
-          name == "--explain" || name == "--formulas" || (name == "--db" && offered->name == "analyze");
-      if (name == "--json" || name == "--help" || name == "--list" || is_of_text || (option.takes_file && !is_input))
+      constexpr std::array of_text_and_figures{"--explain", "--formulas", "--width"};
+      const bool is_no_matter = std::ranges::count(of_text_and_figures, name) > 0 ||
+                                (name == "--db" && offered->name == "analyze");
+      if (name == "--json" || name == "--help" || name == "--list" || is_no_matter || (option.takes_file && !is_input))
         continue;
       options.push_back({name.substr(2), option.value, option.text});
     }
