@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,6 +36,7 @@ struct Label {
   LineStyle style;
   double x = 0.0;       ///< of the leader
   std::size_t row = 0;  ///< from the bar upwards
+  bool is_right = false;  ///< the text stands right of its leader
 };
 
 /// The walls that are stable with nobody holding and with the file's user, by rising K.
@@ -110,43 +113,67 @@ AxisRange axis_of(const std::vector<Label>& labels) {
 }
 
 /// Each text stands left of its leader, like a flag, in the lowest row above every leader that it passes: so no leader
-/// crosses a text. Returns whether all texts keep inside the canvas.
+/// crosses a text. What has no room there, or would cross such a leader, stands right of it, above all others, the rightmost lowest. Returns whether all
+/// stand left.
 bool place(std::vector<Label>& labels, const AxisRange& axis, const Box& bar) {
   std::ranges::sort(labels, {}, &Label::stiffness);
-  bool inside = true;
+  std::size_t rows = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     Label& label = labels[i];
     label.x = place_on_log_axis(bar, axis, label.stiffness);
     label.row = 0;
     const double left = label.x - text_gap - Canvas::text_width(label.text, text_size);
+    label.is_right = left <= text_gap;
     for (std::size_t j = 0; j < i; ++j) {
-      if (labels[j].x > left - text_gap) label.row = std::max(label.row, labels[j].row + 1);
+      if (labels[j].x <= left - text_gap) continue;
+      label.is_right = label.is_right || labels[j].is_right;
+      label.row = std::max(label.row, labels[j].row + 1);
     }
-    inside = inside && left > text_gap;
+    if (!label.is_right) rows = std::max(rows, label.row + 1);
   }
-  return inside;
+  for (Label& label : labels | std::views::reverse) {
+    if (label.is_right) label.row = rows++;
+  }
+  return std::ranges::none_of(labels, &Label::is_right);
 }
 
-/// Lowers the axis until the leftmost texts have room.
+/// Lowers the axis until the leftmost texts have room, where that is soon.
 AxisRange place_with_room(std::vector<Label>& labels, const Box& bar) {
   constexpr int most_decades = 4;
-  AxisRange axis = axis_of(labels);
-  for (int i = 0; i < most_decades && !place(labels, axis, bar); ++i) axis.low /= 10.0;
-  return axis;
+  const AxisRange least = axis_of(labels);
+  for (AxisRange axis = least; axis.low > least.low * std::pow(10.0, -most_decades - 0.5); axis.low /= 10.0) {
+    if (place(labels, axis, bar)) return axis;
+  }
+  place(labels, least, bar);
+  return least;
 }
 
-/// The three words and their colours, at the right end of a line.
+constexpr std::pair<WallStability, std::string_view> colours[] = {{WallStability::unstable, unstable_colour},
+                                                                  {WallStability::alone_only, alone_colour},
+                                                                  {WallStability::anyone, anyone_colour}};
+constexpr double swatch = 11.0;
+
+void draw_entry(Canvas& canvas, double left, double y, std::string_view name, std::string_view colour) {
+  canvas.text(left, y, name, {Anchor::left, text_size});
+  canvas.rectangle({left - swatch - text_gap, left - text_gap, y - 0.5 * swatch, y + 0.5 * swatch}, colour);
+}
+
+/// The three words and their colours, at the right end of the title's line.
 void draw_legend(Canvas& canvas, double right, double y) {
-  constexpr double size = 11.0;
   constexpr double gap = 18.0;
-  for (const auto& [stability, colour] : {std::pair{WallStability::unstable, unstable_colour},
-                                          {WallStability::alone_only, alone_colour},
-                                          {WallStability::anyone, anyone_colour}}) {
+  for (const auto& [stability, colour] : colours) {
     const std::string_view name = words_of(stability);
     const double left = right - Canvas::text_width(name, text_size);
-    canvas.text(left, y, name, {Anchor::left, text_size});
-    canvas.rectangle({left - size - text_gap, left - text_gap, y - 0.5 * size, y + 0.5 * size}, colour);
-    right = left - size - text_gap - gap;
+    draw_entry(canvas, left, y, name, colour);
+    right = left - swatch - text_gap - gap;
+  }
+}
+
+/// One below the other, below y.
+void draw_upright_legend(Canvas& canvas, double left, double y) {
+  for (const auto& [stability, colour] : colours | std::views::reverse) {
+    y += row_height;
+    draw_entry(canvas, left + swatch + text_gap, y, words_of(stability), colour);
   }
 }
 
@@ -161,16 +188,21 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
   const std::vector<std::string> title = Canvas::broken("Wall stiffness K: where the sampled loop is stable",
                                                         title_size, page.width - 2.0 * bar_side, 3);
   const double title_bottom = title_y + row_height * (static_cast<double>(title.size()) - 1.0);
-  const double legend_y = page.is_narrow() ? title_bottom + 1.2 * row_height : title_y;
+  const double legend_bottom =
+      page.is_narrow() ? title_bottom + row_height * static_cast<double>(std::size(colours)) : title_y;
   std::size_t rows = 0;
   for (const Label& label : labels) rows = std::max(rows, label.row + 1);
-  const double bar_top = legend_y + 32.0 + row_height * static_cast<double>(rows);
+  const double bar_top = legend_bottom + 32.0 + row_height * static_cast<double>(rows);
   const Box bar{bar_side, page.width - bar_side, bar_top, bar_top + bar_height};
   Canvas canvas("Stable wall stiffness", page.width, bar.bottom + 66.0);
   for (std::size_t i = 0; i < title.size(); ++i) {
     canvas.text(bar.left, title_y + row_height * static_cast<double>(i), title[i], {Anchor::left, title_size});
   }
-  draw_legend(canvas, page.is_narrow() ? page.width - text_gap : bar.right, legend_y);
+  if (page.is_narrow()) {
+    draw_upright_legend(canvas, bar.left, title_bottom);
+  } else {
+    draw_legend(canvas, bar.right, title_y);
+  }
   canvas.rectangle(bar, unstable_colour);
   double unstable_from = bar.left;
   const auto name_segment = [&](double left, double right, std::string_view name) {
@@ -196,15 +228,19 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
   for (const Label& label : labels) {
     const double text_y = bar.top - 16.0 - row_height * static_cast<double>(label.row);
     canvas.line(label.x, text_y - 6.0, label.x, bar.top + 8.0, label.style);
-    canvas.text(label.x - text_gap, text_y, label.text, {Anchor::right, text_size, label.style.colour});
+    canvas.text(label.x + (label.is_right ? text_gap : -text_gap), text_y, label.text,
+                {label.is_right ? Anchor::left : Anchor::right, text_size, label.style.colour});
   }
   canvas.text(0.5 * (bar.left + bar.right), bar.bottom + 48.0,
               fmt::format("K ({}), from 0 on the left", units_of(analysed.device.parameters().motion).stiffness),
               {Anchor::centre, text_size});
+  constexpr double room_of_tick = 44.0;
+  const double decades = std::log10(axis.high / axis.low);
+  const double step = std::pow(10.0, std::ceil(decades * room_of_tick / (bar.right - bar.left)));
   canvas.commands(fmt::format(
-      "set logscale x\nset xrange [{}:{}]\nset yrange [0:1]\nunset ytics\nset xtics 10 nomirror out font ',12'\nset "
+      "set logscale x\nset xrange [{}:{}]\nset yrange [0:1]\nunset ytics\nset xtics {:g} nomirror out font ',12'\nset "
       "format x '%.0s%c'\nset border lw 0.8",
-      axis.low, axis.high));
+      axis.low, axis.high, step));
   canvas.plot(bar, "NaN notitle");
   return canvas.draw(format);
 }

@@ -328,11 +328,21 @@ class WorkspaceFigure {
     return fmt::format("{} of the tip ({}m)", world_axes.at(static_cast<std::size_t>(axis)), length_.prefix);
   }
 
+  /// Of an axis over this length, m, at 1, 2 or 5 of a decade where its own would stand too close.
+  [[nodiscard]] std::string tics(std::string_view axis, double length, double px) const {
+    if (!page_.is_narrow()) return fmt::format("set {}tics autofreq\n", axis);
+    constexpr double room_of_tic = 48.0;
+    const double least = length / length_.size * room_of_tic / px;
+    const double decade = std::pow(10.0, std::floor(std::log10(least)));
+    const double step = decade * (least <= 2.0 * decade ? 2.0 : least <= 5.0 * decade ? 5.0 : 10.0);
+    return fmt::format("set {}tics {:g}\n", axis, step);
+  }
+
   /// A map in a frame of this size, px, both axes to one scale.
   [[nodiscard]] Panel map(const MapView& view, double width, double height) const {
     const AxisRange across = reach(view.across);
     const AxisRange up = reach(view.up);
-    constexpr double room = 40.0;  // px, of the dots and curves at the ends
+    const double room = page_.is_narrow() ? 20.0 : 40.0;  // px, of the dots and curves at the ends
     const double wide = across.high - across.low;
     const double high = up.high - up.low;
     double per_px = std::max({1.16 * wide / width, wide / (width - 2.0 * room), high / (height - 2.0 * room)});
@@ -347,8 +357,7 @@ class WorkspaceFigure {
                 .left = page_.left,
                 .right = page_.left + width,
                 .is_placed = true,
-                .axes = axis("x", across, width) + axis("y", up, height) + "set xtics autofreq\nset ytics autofreq\n" +
-                        palette(),
+                .axes = axis("x", across, width) + axis("y", up, height) + tics("x", per_px * width, width) + tics("y", per_px * height, height) + palette(),
                 .x_label = axis_text(view.across),
                 .y_label = axis_text(view.up)};
     panel.series.push_back(coloured(view, per_px));
@@ -359,7 +368,9 @@ class WorkspaceFigure {
 
   [[nodiscard]] Panel whole_map() const {
     const MapView view = widest_view();
-    const double width = page_.width - (canvas_width - map_right) - page_.left;
+    constexpr double room_on_paper = 98.0;
+    const double beside = page_.is_narrow() ? room_on_paper : canvas_width - map_right;
+    const double width = page_.width - beside - page_.left;
     const double wide = extent(view.across);
     const double shape = wide > 0.0 ? extent(view.up) / wide : 1.0;
     const double height = std::clamp(width * shape, least_height, most_height);
