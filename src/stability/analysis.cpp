@@ -372,10 +372,10 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
     }
   }
   judge_certainty_of_wall(device, analysis);
-  judge_damping_of_wall(analysis);
   judge_holders(device, options, analysis);
   stages.next(0.35);
   answer_about_users(device, options, stages, analysis);
+  judge_damping_of_wall(analysis);
   stages.done();
   return analysis;
 }

@@ -77,7 +77,6 @@ void judge_point_wall(const TipMotion& motion, const DeviceParameters& loop, con
     analysis.remarks.push_back(note({.code = FindingCode::point_margins_left_out}));
   } else if (margins.stable) {
     confirm(motion, loop, analysis);
-    judge_damping_of_wall(analysis);
   }
   StableFor& holders = analysis.wall_stable_for.emplace();
   holders.nobody = margins.stable;
@@ -141,12 +140,12 @@ Analysis point_wall_analysis(const Device& device, const AnalysisOptions& option
   analysis.limits.nobody = holder_limit_of(nobody);
   if (device_has_user(device)) analysis.limits.user = holder_limit_of(limit);
   judge_point_wall(motion, loop, alone, analysis);
-  if (!options.any_user) return analysis;
-  if (device.degrees_of_freedom() <= most_bodies_for_absolute_stability) {
+  if (options.any_user && device.degrees_of_freedom() <= most_bodies_for_absolute_stability) {
     add_any_grasp(motion, alone, analysis);
-  } else {
+  } else if (options.any_user) {
     analysis.remarks.push_back(note({.code = FindingCode::any_grasp_not_known}));
   }
+  judge_damping_of_wall(analysis);
   return analysis;
 }
 

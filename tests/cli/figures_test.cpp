@@ -65,7 +65,7 @@ TEST_F(Figures, AWidthIsThatOnPaper) {
   const std::string bode = "zwidth bode devices/lhifam.toml --figure ";
   ASSERT_EQ(run(bode + "a.svg --width 85mm && " + bode + "a.pdf --width 8.5cm && " + bode + "a.png --width 85mm").status, 0);
   EXPECT_THAT(contents("a.svg"), HasSubstr("<svg width=\"85mm\" height=\""));
-  EXPECT_THAT(contents("a.pdf"), HasSubstr("/MediaBox [ 0 0 241 ")) << "points";
+  EXPECT_THAT(contents("a.pdf"), HasSubstr("/MediaBox [ 0 0 240 ")) << "points";
   const std::string png = contents("a.png");
   ASSERT_GT(png.size(), 20U);
   const auto byte = [&](std::size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(png[at])); };
