@@ -220,7 +220,8 @@ void add_analyze(CLI::App& app) {
   auto options = std::make_shared<AnalyzeOptions>();
   CLI::App* command = app.add_subcommand("analyze", "Critical stiffness, what limits it, and the margins of a wall");
   add_device_arguments(*command, options->devices, FileCount::several);
-  add_output_options(*command, options->output, {.json = "Print one JSON document per device, one per line",
+  add_output_options(*command, options->output,
+                     {.json = "Print one JSON document per device, one per line",
                       .csv = "Also write the limits, a row per device",
                       .figure = "Also draw which stiffness is stable, of one device: .svg, .png\nor .pdf"});
   command->add_option("--report", options->report, "Also write one self-contained page with figures")

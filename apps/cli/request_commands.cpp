@@ -222,8 +222,8 @@ std::vector<OfferedOption> RequestCommands::options(const std::string& command) 
       const std::string& name = option.names.back();
       const bool is_input = name == offered->recording || name == offered->device;
       constexpr std::array of_text_and_figures{"--explain", "--formulas", "--width"};
-      const bool is_no_matter = std::ranges::count(of_text_and_figures, name) > 0 ||
-                                (name == "--db" && offered->name == "analyze");
+      const bool is_no_matter =
+          std::ranges::count(of_text_and_figures, name) > 0 || (name == "--db" && offered->name == "analyze");
       if (name == "--json" || name == "--help" || name == "--list" || is_no_matter || (option.takes_file && !is_input))
         continue;
       options.push_back({name.substr(2), option.value, option.text});

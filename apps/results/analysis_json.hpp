@@ -24,8 +24,8 @@ class LimitTable {
   [[nodiscard]] std::string text() const { return csv_.text(); }
 
  private:
-  Csv csv_{"device",  "critical_stiffness", "status",          "nobody",   "user",
-           "any_user", "frequency_hz",      "stiffness_unit", "trust"};
+  Csv csv_{"device",   "critical_stiffness", "status",         "nobody", "user",
+           "any_user", "frequency_hz",       "stiffness_unit", "trust"};
 };
 
 }  // namespace zwidth::results

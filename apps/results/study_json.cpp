@@ -173,7 +173,8 @@ std::string study_csv(const Study& study) {
   for (const StudyPoint& each : study.points) {
     csv.cell(each.sample);
     for (const double value : each.values) csv.cell(value);
-    csv.row(each.stiffness, name_of(each.status), each.mode >= 0 ? std::optional(each.mode) : std::nullopt, study.trust);
+    csv.row(each.stiffness, name_of(each.status), each.mode >= 0 ? std::optional(each.mode) : std::nullopt,
+            study.trust);
   }
   return csv.text();
 }

@@ -71,7 +71,7 @@ void judge_point_wall(const TipMotion& motion, const DeviceParameters& loop, con
   WallMargins& wall = analysis.wall.emplace();
   wall.stiffness = *loop.wall.stiffness;
   wall.damping = loop.wall.damping;
-  static_cast<LoopMargins&>(wall) = margins;
+  static_cast<LoopMargins&>(wall) = static_cast<const LoopMargins&>(margins);
   wall.spectral_radius = margins.spectral_radius;
   if (margins.stable && !margins.margins_are_known) {
     analysis.remarks.push_back(note({.code = FindingCode::point_margins_left_out}));

@@ -43,7 +43,8 @@ std::vector<double> numbers_of(const std::string& line) {
 // A picture and a table have the same options everywhere.
 TEST_F(Figures, EveryCommandWithAPictureDrawsIt) {
   const std::string locked = "identify recordings/locked_chirp.csv --force force --position position --method ";
-  const std::string study = "study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 200 --index-samples 0";
+  const std::string study =
+      "study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 200 --index-samples 0";
   ASSERT_EQ(run("cp -r " ZWIDTH_SOURCE_DIR "/recordings .").status, 0);
   for (const std::string& command :
        {std::string("analyze devices/lhifam.toml"), study,
@@ -63,7 +64,8 @@ TEST_F(Figures, EveryCommandWithAPictureDrawsIt) {
 
 TEST_F(Figures, AWidthIsThatOnPaper) {
   const std::string bode = "zwidth bode devices/lhifam.toml --figure ";
-  ASSERT_EQ(run(bode + "a.svg --width 85mm && " + bode + "a.pdf --width 8.5cm && " + bode + "a.png --width 85mm").status, 0);
+  ASSERT_EQ(
+      run(bode + "a.svg --width 85mm && " + bode + "a.pdf --width 8.5cm && " + bode + "a.png --width 85mm").status, 0);
   EXPECT_THAT(contents("a.svg"), HasSubstr("<svg width=\"85mm\" height=\""));
   EXPECT_THAT(contents("a.pdf"), HasSubstr("/MediaBox [ 0 0 240 ")) << "points";
   const std::string png = contents("a.png");
@@ -91,8 +93,7 @@ TEST_F(Figures, EveryCommandWithATableWritesIt) {
   };
   const std::vector<std::string> limits = lines_of("limits.csv");
   ASSERT_EQ(limits.size(), 3U);
-  EXPECT_EQ(limits.front(),
-            "device,critical_stiffness,status,nobody,user,any_user,frequency_hz,stiffness_unit,trust");
+  EXPECT_EQ(limits.front(), "device,critical_stiffness,status,nobody,user,any_user,frequency_hz,stiffness_unit,trust");
   const auto document = nlohmann::json::parse(run("zwidth analyze devices/lhifam.toml --json").output);
   EXPECT_THAT(limits[1], HasSubstr(fmt::format(",{:.17g},finite,", document["critical_stiffness"].get<double>())));
   EXPECT_THAT(limits[1], ::testing::EndsWith(",N/m,sound"));

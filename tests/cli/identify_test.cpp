@@ -114,7 +114,8 @@ TEST_F(Identify, WritesTheDeviceToStandardOutput) {
 
 TEST_F(Identify, DrawsTheResponse) {
   EXPECT_EQ(run(locked + "--method frequency-response --figure lines.svg --csv lines.csv").status, 0);
-  EXPECT_THAT(contents("lines.csv"), ::testing::StartsWith("frequency_hz,real,imaginary,fitted_real,fitted_imaginary,trust\n"));
+  EXPECT_THAT(contents("lines.csv"),
+              ::testing::StartsWith("frequency_hz,real,imaginary,fitted_real,fitted_imaginary,trust\n"));
   EXPECT_THAT(contents("lines.svg"), AllOf(HasSubstr("Residual (σ)"), HasSubstr("</svg>")));
   EXPECT_EQ(run(free_motion + "--structure rigid --figure motion.svg").status, 0);
   EXPECT_THAT(contents("motion.svg"), AllOf(HasSubstr("Residual (σ)"), HasSubstr("</svg>")));

@@ -111,7 +111,8 @@ TEST(CampaignRecords, WhoseShortSegmentsTellOfASofterSpringAreFitted) {
   for (const char* kind : {"delay_unstated", "slow_disturbance"}) {
     const Line line = answer_to(drawn_case(*find_kind(kind), 3));
     EXPECT_TRUE(line.holds()) << text_of(line);
-    EXPECT_LT(line.upper, 1.6 * line.lower) << text_of(line);  // 1.50 of the first: sound or doubtful by the last digits
+    EXPECT_LT(line.upper, 1.6 * line.lower)
+        << text_of(line);  // 1.50 of the first: sound or doubtful by the last digits
   }
 }
 

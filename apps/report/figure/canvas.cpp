@@ -131,8 +131,9 @@ std::string Canvas::draw(const FigureFormat& format) const {
     if (format.paper_width) {
       constexpr double millimetres = 1e3 * px_on_paper;
       replace_all(picture, "<svg \n", "<svg ");
-      replace_all(picture, "<svg ",
-                  fmt::format("<svg width=\"{:.4g}mm\" height=\"{:.4g}mm\" ", millimetres * width_, millimetres * height_));
+      replace_all(
+          picture, "<svg ",
+          fmt::format("<svg width=\"{:.4g}mm\" height=\"{:.4g}mm\" ", millimetres * width_, millimetres * height_));
     }
     replace_all(picture, "<title>Gnuplot</title>", fmt::format("<title>{}</title>", escape_markup(title_)));
     // Cells of a map have edges, which a viewer would blur.

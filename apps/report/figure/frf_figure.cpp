@@ -186,8 +186,8 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
                          .axes = fmt::format(
                              "set logscale x\nset xrange [{}:{}]\n{}\nset format x ''\nset style fill solid "
                              "1.0 noborder\nset yrange [{}:{}]\nset ytics {}",
-                             axis.low, axis.high, decade_ticks("x", axis.low, axis.high, page.right - page.left), magnitude.low, magnitude.high,
-                             tick_step(magnitude, 10.0, 10.0)),
+                             axis.low, axis.high, decade_ticks("x", axis.low, axis.high, page.right - page.left),
+                             magnitude.low, magnitude.high, tick_step(magnitude, 10.0, 10.0)),
                          .y_label = fmt::format("Magnitude (dB re 1 {})", units.compliance()),
                          .series = {{rows, band, "1:3:4"}, {std::nullopt, curve}},
                          .marks =

@@ -36,7 +36,8 @@ Heading::Heading(const std::string& title, std::vector<LegendEntry> legend, cons
     : left_(page.is_narrow() ? 0.5 * row_height : page.left) {
   const double room = page.right - left_;
   title_ = Canvas::broken(title, title_size, room, most_lines);
-  if (!subtitle.empty()) subtitle_ = Canvas::broken(subtitle, text_size, room, page.is_narrow() ? 2 * most_lines : most_lines);
+  if (!subtitle.empty())
+    subtitle_ = Canvas::broken(subtitle, text_size, room, page.is_narrow() ? 2 * most_lines : most_lines);
   bottom_ = 12.0 + title_row * static_cast<double>(title_.size());
   if (!subtitle_.empty()) bottom_ += 4.0 + row_height * static_cast<double>(subtitle_.size());
   bool beside = false;  // the second place of the row is free
@@ -48,9 +49,8 @@ Heading::Heading(const std::string& title, std::vector<LegendEntry> legend, cons
       beside = false;
       continue;
     }
-    std::vector<std::string> lines = is_short
-                                         ? std::vector<std::string>{entry.text}
-                                         : Canvas::broken(entry.text, text_size, room - text_after, most_lines);
+    std::vector<std::string> lines = is_short ? std::vector<std::string>{entry.text}
+                                              : Canvas::broken(entry.text, text_size, room - text_after, most_lines);
     const double height = row_height * static_cast<double>(lines.size());
     legend_.push_back({std::move(entry), left_, bottom_ + 0.5 * row_height, std::move(lines)});
     bottom_ += height;

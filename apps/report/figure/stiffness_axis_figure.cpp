@@ -34,8 +34,8 @@ struct Label {
   double stiffness = 0.0;
   std::string text;
   LineStyle style;
-  double x = 0.0;       ///< of the leader
-  std::size_t row = 0;  ///< from the bar upwards
+  double x = 0.0;         ///< of the leader
+  std::size_t row = 0;    ///< from the bar upwards
   bool is_right = false;  ///< the text stands right of its leader
 };
 
@@ -185,8 +185,8 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
   const Page page = page_of(format);
   std::vector<Label> labels = labels_of(analysed);
   const AxisRange axis = place_with_room(labels, {bar_side, page.width - bar_side, 0.0, 0.0});
-  const std::vector<std::string> title = Canvas::broken("Wall stiffness K: where the sampled loop is stable",
-                                                        title_size, page.width - 2.0 * bar_side, 3);
+  const std::vector<std::string> title =
+      Canvas::broken("Wall stiffness K: where the sampled loop is stable", title_size, page.width - 2.0 * bar_side, 3);
   const double title_bottom = title_y + row_height * (static_cast<double>(title.size()) - 1.0);
   const double legend_bottom =
       page.is_narrow() ? title_bottom + row_height * static_cast<double>(std::size(colours)) : title_y;

@@ -357,7 +357,8 @@ class WorkspaceFigure {
                 .left = page_.left,
                 .right = page_.left + width,
                 .is_placed = true,
-                .axes = axis("x", across, width) + axis("y", up, height) + tics("x", per_px * width, width) + tics("y", per_px * height, height) + palette(),
+                .axes = axis("x", across, width) + axis("y", up, height) + tics("x", per_px * width, width) +
+                        tics("y", per_px * height, height) + palette(),
                 .x_label = axis_text(view.across),
                 .y_label = axis_text(view.up)};
     panel.series.push_back(coloured(view, per_px));

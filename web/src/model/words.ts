@@ -116,7 +116,8 @@ export const marginWord = {
   delay: (of: Analysis): string => (of.wall?.stable ? marginText(of, 'delay', of.wall.delay_margin_s, (delay) => say(delay, 's', 3)) : '–'),
 }
 
-export const isPoorlyDamped = ({ findings }: Pick<Analysis, 'findings'>): boolean => findings.some((each) => each.code === 'wall_poorly_damped')
+export const isPoorlyDamped = ({ findings }: Pick<Analysis, 'findings'>): boolean =>
+  findings.some((each) => each.code === 'wall_poorly_damped')
 
 /** Beside numbers that are not yet those of what the page shows. */
 export const stale = 'of the device before; computing …'
