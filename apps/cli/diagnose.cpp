@@ -32,7 +32,8 @@ struct DiagnoseArguments {
   OutputArguments output;
 };
 
-Recording read_position(const RecordingArguments& arguments) {
+Recording read_position(RecordingArguments arguments) {
+  arguments.position.name = position_column(arguments);
   if (arguments.position.name.empty())
     throw BadInput("--position", "missing", "name the column of the sensed position");
   RecordingOptions reading = recording_options(arguments);

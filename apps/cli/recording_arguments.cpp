@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "cli/input_problem.hpp"
 #include "cli/number_text.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/request_context.hpp"
@@ -55,11 +59,32 @@ RecordingFormat format_of(const std::string& text) {
   return RecordingFormat::detect;  // CLI11 has checked the word
 }
 
-/// Whether the file has one column of this name, so that no option need name it; standard input is read once.
-bool has_column(const RecordingArguments& arguments, std::string_view name) {
-  if (arguments.file == "-") return false;
+/// Whether a column is called so, alone or with a unit of it: "force", "force_N", "torque [mN m]".
+bool is_called(std::string_view column, std::string_view name, Measure measure) {
+  if (!column.starts_with(name)) return false;
+  std::string unit(column.substr(name.size()));
+  if (unit.empty()) return true;
+  if (std::string_view("_ [(").find(unit.front()) == std::string_view::npos) return false;
+  std::ranges::replace_if(unit, [](char c) { return std::string_view("_[]()").find(c) != std::string_view::npos; }, ' ');
+  return measured_number("1 " + unit, measure, Motion::linear) || measured_number("1 " + unit, measure, Motion::rotary);
+}
+
+/// The column of the file that no option need name: the one called as the first name and nothing else, else the one called as
+/// any of them; empty: none, or several. Standard input is read once.
+std::string column_called(const RecordingArguments& arguments, std::initializer_list<std::string_view> names,
+                          Measure measure) {
+  if (arguments.file == "-") return "";
   const auto contents = list_named_recording(*arguments.command, arguments.file, recording_options(arguments));
-  return contents && std::ranges::count(contents->columns, name, &RecordingColumn::name) == 1;
+  std::string found;
+  if (!contents) return found;
+  const std::string first(*names.begin());
+  if (std::ranges::count(contents->columns, first, &RecordingColumn::name) == 1) return first;
+  for (const RecordingColumn& column : contents->columns) {
+    const bool is_one = std::ranges::any_of(names, [&](auto name) { return is_called(column.name, name, measure); });
+    if (is_one && !found.empty()) return "";
+    if (is_one) found = column.name;
+  }
+  return found;
 }
 
 /// "; FILE has: a, b, c", or nothing where the file cannot be listed (its own error is then better).
@@ -137,8 +162,9 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
   arguments.command = &command;
   command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(recording_group);
   add_column(command, "force", arguments.force,
-             "Commanded force: a column's name, or its number from 1;\none named force needs no option", "F");
-  add_column(command, "position", arguments.position, "Sensed position; a column named position needs no option", "M");
+             "Commanded force: a column's name, or its number from 1; one\nnamed force, torque or force_N needs no option", "F");
+  add_column(command, "position", arguments.position,
+             "Sensed position; a column named position, angle or position_m\nneeds no option", "M");
   add_column(command, "velocity", arguments.velocity, "Sensed velocity, where no position is recorded");
   add_column(command, "acceleration", arguments.acceleration, "Sensed acceleration, where no position is recorded");
   command.add_option("--rate", arguments.options.rate, "Samples per second, where no column holds the time")
@@ -197,13 +223,18 @@ RecordingOptions recording_options(const RecordingArguments& arguments) {
   return options;
 }
 
+std::string position_column(const RecordingArguments& arguments) {
+  if (!arguments.position.name.empty()) return arguments.position.name;
+  return column_called(arguments, {"position", "angle"}, Measure::position);
+}
+
 RecordedMotion read_motion(const RecordingArguments& given) {
   RecordingOptions options = recording_options(given);
   RecordingArguments arguments = given;
   const bool names_motion =
       !given.position.name.empty() || !given.velocity.name.empty() || !given.acceleration.name.empty();
-  if (given.force.name.empty() && has_column(given, "force")) arguments.force.name = "force";
-  if (!names_motion && has_column(given, "position")) arguments.position.name = "position";
+  if (given.force.name.empty()) arguments.force.name = column_called(given, {"force", "torque"}, Measure::force);
+  if (!names_motion) arguments.position.name = position_column(given);
   if (arguments.force.name.empty()) {
     throw BadInput("--force", "missing", "name the column of the commanded force" + columns_of(arguments));
   }

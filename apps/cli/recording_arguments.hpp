@@ -48,6 +48,9 @@ struct RecordedMotion {
   OutputQuantity output = OutputQuantity::position;
 };
 
+/// The column of the sensed position that was named, or that needs no name; empty: neither.
+[[nodiscard]] std::string position_column(const RecordingArguments& arguments);
+
 /// Reads force and motion, and shows progress.
 /// Throws BadInput: a column that is not named (the message lists the file's), or a file that is refused.
 [[nodiscard]] RecordedMotion read_motion(const RecordingArguments& arguments);

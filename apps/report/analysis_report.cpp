@@ -62,7 +62,7 @@ void add_wall(Document& document, const AnalysedDevice& analysed, const Detail& 
 }
 
 /// The wall to run, and what it keeps.
-TextTable recommended_table(const RecommendedWall& found, Motion motion) {
+TextTable recommended_table(const RecommendedWall& found, Motion motion, Holder holder) {
   const Units units = units_of(motion);
   TextTable table{{Align::left, Align::right}, {{"the wall to run", ""}}};
   const auto add = [&](std::string what, std::string value) {
@@ -76,8 +76,13 @@ TextTable recommended_table(const RecommendedWall& found, Motion motion) {
     add(fmt::format("with this damper and {}, stable up to", words_of(Holder::any_user)),
         limit_value_text(*found.absolute_stability_limit, units.stiffness));
   }
-  if (found.margins.phase_margin) add("phase margin", fmt::format("{:.3g}°", degrees(*found.margins.phase_margin)));
-  if (found.margins.delay_margin) add("further delay allowed", quantity(*found.margins.delay_margin, "s"));
+  const auto with_holder = [&](std::string_view what) { return fmt::format("{}, {}", what, words_of(holder)); };
+  if (found.margins.phase_margin) {
+    add(with_holder("phase margin"), fmt::format("{:.3g}°", degrees(*found.margins.phase_margin)));
+  }
+  if (found.margins.delay_margin) {
+    add(with_holder("further delay allowed"), quantity(*found.margins.delay_margin, "s"));
+  }
   if (found.force_per_count) add("force per encoder count", quantity(found.force_per_count->largest, units.force));
   return table;
 }
@@ -91,7 +96,8 @@ void add_walls(Document& document, const AnalysedDevice& analysed, std::size_t i
   if (!document.is_page() || !analysed.region) return;
   const RecommendedWall* const found = wall_to_run(analysed);
   document.part(found != nullptr ? "Stable walls, and the one to run" : "Stable walls");
-  if (found != nullptr) document.table(recommended_table(*found, analysed.device.parameters().motion));
+  const Holder holder = analysed.analysis.limits.user ? Holder::user : Holder::nobody;
+  if (found != nullptr) document.table(recommended_table(*found, analysed.device.parameters().motion, holder));
   const std::string_view filters = found != nullptr ? ", with the filters of the wall to run" : "";
   document.figure(
       fmt::format("region{}", index),

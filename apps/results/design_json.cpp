@@ -107,6 +107,7 @@ Json design_json(const Device& device, const Design& design) {
   Json json = document("zwidth.design/1");
   json["device"] = device.name();
   json["units"] = stiffness_units(device.parameters().motion);
+  json["limits"] = design.analysis.limits;
   json["trust"] = design.trust;
   add_critical(json, design.analysis.critical);
   json["any_user_stiffness"] = stiffness_of(design.analysis.any_user);

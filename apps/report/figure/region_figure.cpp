@@ -309,16 +309,17 @@ class RegionFigure {
 
   [[nodiscard]] Panel panel(const Extent& extent) const {
     const AxisUnit unit = axis_unit(extent.stiffness, 3.0);
+    const AxisUnit damping = axis_unit(extent.damping, 1.0);
     Panel panel{
         .above = 28.0,
         .height = panel_height,
         .axes = fmt::format("set grid front\nset xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\nset xtics autofreq\nset "
                             "ytics autofreq",
-                            extent.damping, extent.stiffness / unit.size),
-        .x_label = fmt::format("Virtual damping B ({})", units_.damping),
+                            extent.damping / damping.size, extent.stiffness / unit.size),
+        .x_label = fmt::format("Virtual damping B ({}{})", damping.prefix, units_.damping),
         .y_label = fmt::format("Stiffness K ({}{})", unit.prefix, units_.stiffness)};
     const auto add = [&](std::string rows, std::string with) {
-      panel.series.push_back({std::move(rows), std::move(with), fmt::format("1:($2/{:g})", unit.size)});
+      panel.series.push_back({std::move(rows), std::move(with), fmt::format("($1/{:g}):($2/{:g})", damping.size, unit.size)});
     };
     const auto add_area = [&](const std::string& rows, std::string_view colour) {
       add(rows, fmt::format("filledcurves closed fc rgb '{}' fs solid noborder", colour));

@@ -192,8 +192,8 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
   std::vector<std::string> margins;
   add_margins(*wall, leaves_gain_out(analysis), margins);
   if (analysis.disk_margin) margins.push_back(disk_margin_note(*analysis.disk_margin));
-  const std::string of_user = analysis.limits.user ? fmt::format("with {}: ", words_of(Holder::user)) : "";
-  for (const std::string& margin : margins) notes.push_back(of_user + margin);
+  const std::string_view holder = words_of(analysis.limits.user ? Holder::user : Holder::nobody);
+  for (const std::string& margin : margins) notes.push_back(fmt::format("with {}: {}", holder, margin));
   if (auto margin = margin_with_any_user(analysis)) notes.push_back(*std::move(margin));
   return notes;
 }

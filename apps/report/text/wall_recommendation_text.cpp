@@ -30,7 +30,7 @@ std::string bound_text(WallBound bound) {
     case WallBound::contact_damping:
       return "the contact would swing";
     case WallBound::uncertainty:
-      return "the device is not known better";
+      return "how well the device is known";
     case WallBound::modal_frequency_uncertainty:
       return "the drift of its modes";
   }

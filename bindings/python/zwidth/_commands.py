@@ -271,16 +271,18 @@ def frequency_response(
 def identify(
     recording: Optional[Recorded] = None,
     *more: Recorded,
-    structure: Union[Device, str, None] = None,
+    structure: Union[DeviceOrFile, None] = None,
     progress: Progress = None,
     **options: Option,
 ) -> Any:
     """A device's parameters from recordings: an Identification, or with method="inverse-dynamics" a
-    RigidBodyIdentification. `structure`: a Device, or the name of a structure ("rigid", "two-body", "three-body").
+    RigidBodyIdentification. `structure`: a Device or its file, or the name of a structure ("rigid", "two-body",
+    "three-body").
     `limit="K=3, B=0, hz=40"`, or a list: walls at which the device was seen to oscillate, with or without a recording."""
-    if isinstance(structure, str):
-        options["structure"] = structure
-    device = None if isinstance(structure, str) else structure
+    is_name = structure in ("rigid", "two-body", "three-body") if isinstance(structure, str) else False
+    if is_name:
+        options["structure"] = str(structure)
+    device = None if is_name else structure
     recordings = more if recording is None else (recording, *more)
     return _result("identify", device, recordings, progress, options)
 

@@ -43,7 +43,10 @@ class Problem:
 
 
 class InputError(Error, ValueError):
-    """An input was refused: `where` it is, `what` is wrong, what is `allowed`; `problems` are all of the same input."""
+    """An input was refused: `where` it is (`place` in parts), `what` is wrong, what is `allowed`, a `suggestion` to put there.
+
+    Of the first of its `problems`, which are all of the same input.
+    """
 
     def __init__(self, where: str, what: str, allowed: str = "", problems: Sequence[Problem] = ()) -> None:
         super().__init__(where, what, allowed)
@@ -51,6 +54,14 @@ class InputError(Error, ValueError):
         self.what = what
         self.allowed = allowed
         self.problems = tuple(problems) or (Problem(where, what, allowed),)
+
+    @property
+    def place(self) -> Place:
+        return self.problems[0].place
+
+    @property
+    def suggestion(self) -> Optional[str]:
+        return self.problems[0].suggestion
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.problems))

@@ -59,8 +59,8 @@ struct NamedStructureOptions {
   std::optional<Motion> record_motion = {};    ///< stated_motion() of the recordings; absent: linear
 };
 
-/// The motion whose units the columns' names state, by Channel::base_unit: rotary of torques and angles. Nothing where they
-/// state none, or both.
+/// The motion whose units the columns' names state, by Channel::base_unit: rotary of torques and angles. Where they state
+/// none, rotary of columns called torque or angle, beside none called force. Nothing elsewhere.
 [[nodiscard]] std::optional<Motion> stated_motion(std::span<const Recording> recordings);
 
 /// Whether a structure is called so: "rigid", "two-body" or "three-body".

@@ -1,9 +1,12 @@
 #include "identification/response/stated_units.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "counted.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -23,6 +26,12 @@ std::string stated_unit(std::span<const Recording> recordings, std::size_t chann
   if (unit.size() > longest_unit) return "";
   const bool is_same = std::ranges::all_of(recordings, [&](const auto& each) { return unit_of(each) == unit; });
   return is_same ? unit : "";
+}
+
+bool is_called(const Channel& channel, std::initializer_list<std::string_view> names) {
+  std::string name = channel.name;
+  std::ranges::transform(name, name.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  return std::ranges::any_of(names, [&](std::string_view each) { return name.starts_with(each); });
 }
 
 }  // namespace
@@ -51,8 +60,16 @@ std::optional<Motion> stated_motion(std::span<const Recording> recordings) {
       is_linear = is_linear || unit == "N" || unit == "m" || unit.starts_with("m/");
     }
   }
-  if (is_linear == is_rotary) return std::nullopt;
-  return is_rotary ? Motion::rotary : Motion::linear;
+  if (is_linear != is_rotary) return is_rotary ? Motion::rotary : Motion::linear;
+  if (is_linear) return std::nullopt;
+  // No column has a unit: what a torque or an angle is called is rotary.
+  const auto some_called = [&](std::initializer_list<std::string_view> names) {
+    return std::ranges::any_of(recordings, [&](const Recording& recording) {
+      return std::ranges::any_of(recording.channels, [&](const Channel& each) { return is_called(each, names); });
+    });
+  };
+  const bool is_torque = some_called({"torque", "angle"}) && !some_called({"force"});
+  return is_torque ? std::optional(Motion::rotary) : std::nullopt;
 }
 
 std::optional<OptionProblem> find_problem(const std::string& force_unit, const std::string& length_unit,
