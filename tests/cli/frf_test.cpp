@@ -285,6 +285,20 @@ TEST_F(Frf, ColumnsNamedForceAndPositionNeedNoOption) {
   EXPECT_EQ(run("zwidth frf recordings/locked_chirp.csv --json").output, named.output);
 }
 
+TEST_F(Frf, SoDoColumnsCalledSoWithAUnit) {
+  const json plain = document(example + "--json");
+  const auto renamed = [&](const std::string& names) {
+    return "sed '1s/.*/" + names + "/' recordings/locked_chirp.csv > renamed.csv && zwidth frf renamed.csv";
+  };
+  ASSERT_THAT(run("head -n 1 recordings/locked_chirp.csv").output, "time,force,position\n");
+  const json rotary = document(renamed("time,torque_N_m,angle [rad]") + " --json");
+  EXPECT_EQ(rotary["critical_stiffness"], plain["critical_stiffness"]);
+  EXPECT_EQ(rotary["units"]["stiffness"], "N m/rad");
+  // Without a unit the names alone say that it turns.
+  EXPECT_EQ(document(renamed("time,torque,angle") + " --json")["units"]["stiffness"], "N m/rad");
+  expect_refusal(renamed("time,force_error,position"), "--force: missing");
+}
+
 TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {
   write("other_names.csv", "time,f,x\n0,1,2\n");
   expect_refusal("zwidth frf other_names.csv", "--force: missing; name the column of the commanded force");

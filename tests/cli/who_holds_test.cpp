@@ -44,6 +44,17 @@ TEST_F(WhoHolds, TheRigRendersNoWallThatShakesOnceTheUserLetsGo) {
   EXPECT_EQ(json("rig wall knob.toml --stiffness 10 --duration 0.5")["predicted_stable"], true);
 }
 
+TEST_F(WhoHolds, EveryDocumentOfALimitHasThoseOfEveryHolder) {
+  const auto limits = json("analyze knob.toml")["limits"];
+  ASSERT_TRUE(limits["nobody"]["critical_stiffness"].is_number());
+  ASSERT_TRUE(limits["user"]["critical_stiffness"].is_number());
+  ASSERT_TRUE(limits["any_user"]["critical_damping"].is_number());
+  for (const char* command : {"region knob.toml", "design knob.toml", "design knob.toml --target 20",
+                              "design knob.toml --recommend", "diagnose knob.toml --oscillates-hz 20 --stiffness 40"}) {
+    EXPECT_EQ(json(command)["limits"], limits) << command;
+  }
+}
+
 TEST_F(WhoHolds, AnExportedHeaderSaysIt) {
   const Outcome unstable = run("zwidth export knob.toml --format c --stiffness 40");
   EXPECT_EQ(unstable.status, 0);

@@ -43,6 +43,7 @@ def test_all_problems_of_a_device_with_what_to_write(lhifam):
     assert mass.place == zwidth.Place("device", 3, 8, "body.a.mass") and mass.suggestion is None
     assert [each.code for each in error.problems] == ["unknown_unit", "unit_of_other_measure", "no_finite_number"]
     assert (error.where, error.what, error.allowed) == (damping.where, damping.what, damping.allowed)
+    assert (error.place, error.suggestion) == (damping.place, damping.suggestion)
     assert len(str(error).splitlines()) == 3
     assert pickle.loads(pickle.dumps(error)).problems == error.problems
     assert refusal(lambda: lhifam.with_(loop__delay="2 kHz")).problems[0].suggestion == "0.5 ms"
