@@ -59,14 +59,20 @@ RecordingFormat format_of(const std::string& text) {
   return RecordingFormat::detect;  // CLI11 has checked the word
 }
 
-/// Whether a column is called so, alone or with a unit of it: "force", "force_N", "torque [mN m]".
+/// Whether a column is called so, alone, with an SI unit behind "_" or with a unit in brackets, which the reader scales by:
+/// "force", "torque_N_m", "position [mm]". "position_in" may be anything.
 bool is_called(std::string_view column, std::string_view name, Measure measure) {
   if (!column.starts_with(name)) return false;
   std::string unit(column.substr(name.size()));
   if (unit.empty()) return true;
-  if (std::string_view("_ [(").find(unit.front()) == std::string_view::npos) return false;
-  std::ranges::replace_if(unit, [](char c) { return std::string_view("_[]()").find(c) != std::string_view::npos; }, ' ');
-  return measured_number("1 " + unit, measure, Motion::linear) || measured_number("1 " + unit, measure, Motion::rotary);
+  const bool is_bare = unit.front() == '_';
+  if (!is_bare && unit.front() != '[' && unit.front() != '(' && unit.front() != ' ') return false;
+  std::ranges::replace_if(
+      unit, [](char c) { return std::string_view("_[]()").find(c) != std::string_view::npos; }, ' ');
+  return std::ranges::any_of(std::array{Motion::linear, Motion::rotary}, [&](Motion motion) {
+    const auto size = measured_number("1 " + unit, measure, motion);
+    return size && (!is_bare || *size == 1.0);
+  });
 }
 
 /// The column of the file that no option need name: the one called as the first name and nothing else, else the one called as
@@ -161,8 +167,10 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
 void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
   arguments.command = &command;
   command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(recording_group);
-  add_column(command, "force", arguments.force,
-             "Commanded force: a column's name, or its number from 1; one\nnamed force, torque or force_N needs no option", "F");
+  add_column(
+      command, "force", arguments.force,
+      "Commanded force: a column's name, or its number from 1; one\nnamed force, torque or force_N needs no option",
+      "F");
   add_column(command, "position", arguments.position,
              "Sensed position; a column named position, angle or position_m\nneeds no option", "M");
   add_column(command, "velocity", arguments.velocity, "Sensed velocity, where no position is recorded");

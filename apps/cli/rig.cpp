@@ -124,13 +124,18 @@ void answer(
   try {
     put();
     rig.outputs.put("--report", [&] { return report::rig_page(rig.device, result); });
-    if constexpr (requires { report::draw_rig(rig.device, result, report::FigureFormat::svg); }) {
-      rig.outputs.draw("--figure",
-                       [&](report::FigureFormat format) { return report::draw_rig(rig.device, result, format); });
-    }
     rig.outputs.commit();
   } catch (const report::OutputFailed& failure) {
     lost = failure.what();
+  }
+  if constexpr (requires { report::draw_rig(rig.device, result, report::FigureFormat::svg); }) {
+    try {  // by itself: a rig that stopped has a page, and nothing to draw
+      rig.outputs.draw("--figure",
+                       [&](report::FigureFormat format) { return report::draw_rig(rig.device, result, format); });
+      rig.outputs.commit();
+    } catch (const report::OutputFailed& failure) {
+      if (lost.empty()) lost = failure.what();
+    }
   }
   if (rig.arguments.output.json) {
     rig.outputs.warn(session.remarks);

@@ -157,16 +157,17 @@ void run_study(const StudyArguments& arguments) {
     throw WorkFailed("--output-device: no unit has a limit: there is no worst one");
   outputs.put("--report", [&] { return report::study_page(run, *study); });
   outputs.put("--csv", [&] { return results::study_csv(*study); });
-  outputs.draw("--figure", [&](report::FigureFormat format) {
-    std::optional<std::string> figure = report::draw_study_distribution(run, *study, format);
-    if (!figure) throw WorkFailed("--figure: the finite limits of the units do not differ: there is nothing to draw");
-    return std::move(*figure);
-  });
+  const std::optional<report::FigureFormat> format = outputs.figure("--figure");
+  const auto figure = format ? report::draw_study_distribution(run, *study, *format) : std::nullopt;
+  if (figure) outputs.draw("--figure", [&](const report::FigureFormat&) { return *figure; });
   outputs.put("--output-device", [&] { return report::worst_device_file(*study); });
   if (study->worst) hand_over_device(*arguments.devices.command, report::worst_device_file(*study));
   outputs.commit();
   outputs.print(arguments.output.json ? results::line(results::study_json(run, *study))
                                       : report::for_medium(report::study_text(run, *study)));
+  if (format && !figure) {
+    throw WorkFailed("--figure: the finite limits of the units do not differ: there is nothing to draw");
+  }
 }
 
 }  // namespace

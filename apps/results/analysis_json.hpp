@@ -16,8 +16,8 @@ namespace zwidth::results {
 [[nodiscard]] Json analysis_json(const Device& device, const Analysis& analysis,
                                  const std::optional<WallSummary>& walls = {});
 
-/// What `analyze --csv` writes: a row a device, the limits with each holder; of infinity and of what is not known an empty
-/// cell, which `status` tells apart.
+/// What `analyze --csv` writes: a row a device, the limits with each holder. A limit that is infinite or not known is an empty
+/// cell; `status` tells these apart of `critical_stiffness` alone.
 class LimitTable {
  public:
   void add(const Device& device, const Analysis& analysis);

@@ -6,8 +6,8 @@
 #include "results/csv.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
-#include "zwidth/stability/analysis.hpp"
 #include "results/wall_filter_json.hpp"
+#include "zwidth/stability/analysis.hpp"
 
 namespace zwidth::results {
 

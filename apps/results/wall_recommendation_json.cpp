@@ -4,8 +4,8 @@
 #include "results/force_per_count_json.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
-#include "zwidth/stability/analysis.hpp"
 #include "results/wall_filter_json.hpp"
+#include "zwidth/stability/analysis.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {

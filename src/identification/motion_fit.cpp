@@ -8,7 +8,7 @@
 #include "identification/model/number_keys.hpp"
 #include "identification/motion_search.hpp"
 #include "identification/verdict/confidence.hpp"
-#include "identification/verdict/limit_instant.hpp"
+#include "identification/verdict/limit_instants.hpp"
 #include "identification/verdict/log_critical_stiffness.hpp"
 #include "identification/verdict/profile.hpp"
 #include "identification/verdict/segment_residuals.hpp"
@@ -20,8 +20,8 @@ namespace {
 
 /// The limit over the fits that are as likely, before what is left is asked.
 struct LimitRange {
-  double instant = 0.5;  ///< of a record: 0 its beginning, 1 its end
-  double best = 0.0;     ///< logarithms
+  DriftInstants instants;
+  double best = 0.0;  ///< logarithms
   ProfileEnd low;
   ProfileEnd high;
   double last_change = 0.0;  ///< of ends that were stopped, and of a best that still gave way to a better one
@@ -32,9 +32,9 @@ class LimitOfMotion {
  public:
   explicit LimitOfMotion(FoundMotion& found) : found_(found) {}
 
-  /// log K_CR at an instant of a record, 0 to 1; nothing where there is none.
-  [[nodiscard]] std::optional<double> at(const Eigen::VectorXd& z, double instant) const {
-    return log_critical_stiffness(found_.model->family().device_at(z, instant));
+  /// log K_CR with the drifts at these instants of a record; nothing where there is none.
+  [[nodiscard]] std::optional<double> at(const Eigen::VectorXd& z, const DriftInstants& instants) const {
+    return log_critical_stiffness(found_.model->family().device_at(z, instants));
   }
 
   /// The least and the largest limit that are as likely, everything refitted on the way, rivals too. Where an end is more likely
@@ -44,11 +44,11 @@ class LimitOfMotion {
     constexpr MinimiseOptions fine{.most_steps = 15, .least_gain = 0.02};
     std::optional<LimitRange> range;
     for (int begins = 0; begins < most_begins; ++begins) {
-      const auto instant = instant_at_best();
-      if (!instant) return std::nullopt;
-      const double best = at(found_.best.z, *instant).value_or(0.0);
-      range = LimitRange{*instant, best, end(*instant, -1.0), {best, found_.best.z}};
-      if (!range->low.found_better) range->high = end(*instant, 1.0);
+      const auto instants = instants_at_best();
+      if (!instants) return std::nullopt;
+      const double best = at(found_.best.z, *instants).value_or(0.0);
+      range = LimitRange{*instants, best, end(*instants, -1.0), {best, found_.best.z}};
+      if (!range->low.found_better) range->high = end(*instants, 1.0);
       const ProfileEnd& better = range->low.found_better ? range->low : range->high;
       range->last_change = std::max(range->low.last_change, range->high.last_change);
       if (!better.found_better) return range;
@@ -56,25 +56,25 @@ class LimitOfMotion {
       if (!again) return range;
       found_.best = *std::move(again);
     }
-    if (const auto last = at(found_.best.z, range->instant)) range->last_change = std::abs(*last - range->best);
+    if (const auto last = at(found_.best.z, range->instants)) range->last_change = std::abs(*last - range->best);
     return range;
   }
 
   /// How log K_CR hangs on the numbers.
-  [[nodiscard]] Eigen::VectorXd slope(double instant) const {
-    return slope_of([&](const Eigen::VectorXd& z) { return at(z, instant); }, found_.best.z,
+  [[nodiscard]] Eigen::VectorXd slope(const DriftInstants& instants) const {
+    return slope_of([&](const Eigen::VectorXd& z) { return at(z, instants); }, found_.best.z,
                     found_.model->family().of_limit(), found_.likelihood->lowest());
   }
 
  private:
-  [[nodiscard]] std::optional<double> instant_at_best() const {
+  [[nodiscard]] std::optional<DriftInstants> instants_at_best() const {
     const DeviceFamily& family = found_.model->family();
-    return limit_instant([&](const Eigen::VectorXd& z, double instant) { return at(z, instant); }, found_.best,
-                         family.of_device(), family.of_limit());
+    return limit_instants([&](const Eigen::VectorXd& z, const DriftInstants& instants) { return at(z, instants); },
+                          found_.best, family.of_device(), family.of_limit());
   }
-  [[nodiscard]] ProfileEnd end(double instant, double direction) const {
+  [[nodiscard]] ProfileEnd end(const DriftInstants& instants, double direction) const {
     return profile_end(
-        *found_.likelihood, found_.best, [&](const Eigen::VectorXd& z) { return at(z, instant); },
+        *found_.likelihood, found_.best, [&](const Eigen::VectorXd& z) { return at(z, instants); },
         found_.model->family().of_limit(), direction, rise_of_95);
   }
 
@@ -123,7 +123,7 @@ std::vector<FittedMotion> motions_of(const FoundMotion& found, std::span<const R
 
 /// What the data alone say of a delay that is given: the fit's less what was believed.
 std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNumbers& best, const LimitOfMotion& limit,
-                                         double instant) {
+                                         const DriftInstants& instants) {
   const auto place = std::ranges::find(best.numbers, key_of_delay, &Number::key);
   if (place == best.numbers.end() || !std::isfinite(place->prior_deviation)) return std::nullopt;
   const auto i = static_cast<Eigen::Index>(place - best.numbers.begin());
@@ -135,7 +135,7 @@ std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNum
   Eigen::VectorXd z = found.best.z;
   z.head(best.x.size()) += best.covariance.col(i) / best.covariance(i, i) * (shown - best.x(i));
   z = z.cwiseMax(found.likelihood->lowest());
-  const auto then = limit.at(z, instant);
+  const auto then = limit.at(z, instants);
   return GivenDelay{.given = place->unit * place->expected,
                     .shown = place->unit * shown,
                     .deviation = place->unit / std::sqrt(told),
@@ -156,7 +156,7 @@ std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const
 
   const std::vector<Number>& numbers = motion->model->numbers();
   const auto count = static_cast<Eigen::Index>(numbers.size());
-  const Eigen::VectorXd slope = limit.slope(range->instant);
+  const Eigen::VectorXd slope = limit.slope(range->instants);
   Eigen::VectorXd precision(count);
   for (Eigen::Index i = 0; i < count; ++i)
     precision(i) = std::pow(numbers[static_cast<std::size_t>(i)].prior_deviation, -2.0);
@@ -165,7 +165,7 @@ std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const
   const double wider = segments ? widening(*segments, {slope.head(count), precision}) : 1.0;
   if (segments) fit.omnibus = omnibus(*segments);
   FoundDevice& found = fit.found;
-  found.device = motion->model->family().device_at(motion->best.z, range->instant);
+  found.device = motion->model->family().device_at(motion->best.z, range->instants);
   found.rivals = start.rivals;
   found.last_change = std::max(range->last_change, last_change(motion->best, slope));
   found.best = {
@@ -181,7 +181,7 @@ std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const
   fit.motions = motions_of(*motion, recordings, found);
   fit.contradicted =
       contradicted_numbers(*motion, start, options.free.locked, found.best.interval, recordings.front().source);
-  fit.delay = given_delay_of(*motion, found.best, limit, range->instant);
+  fit.delay = given_delay_of(*motion, found.best, limit, range->instants);
   return fit;
 }
 

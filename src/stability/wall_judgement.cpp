@@ -87,13 +87,16 @@ void judge_two_rate_wall(const Device& device, Analysis& analysis) {
 
 // A damping ratio is about a hundredth of the phase margin in degrees (Franklin, Powell & Emami-Naeini, sec. 6.4).
 void judge_damping_of_wall(Analysis& analysis) {
-  constexpr double least = 20.0;
-  if (!analysis.wall || !analysis.wall->stable || !analysis.wall->phase_margin) return;
+  constexpr double least = 20.0;  // degrees
+  if (!analysis.wall || !analysis.wall->phase_margin || !analysis.wall_stable_for) return;
+  if (stability_of(*analysis.wall_stable_for) == WallStability::unstable) return;
   const double phase_margin = *analysis.wall->phase_margin * 180.0 / std::numbers::pi;
   if (phase_margin >= least) return;
-  analysis.remarks.push_back(note({.code = FindingCode::wall_poorly_damped,
-                                   .evidence = {{"phase_margin", phase_margin}, {"least", least}},
-                                   .key = "wall.stiffness"}));
+  Finding finding{.code = FindingCode::wall_poorly_damped,
+                  .evidence = {{"phase_margin_deg", phase_margin}, {"least_deg", least}},
+                  .key = "wall.stiffness"};
+  if (analysis.limits.user) finding.subjects.push_back({"of_holder", std::string(words_of(Holder::user))});
+  analysis.remarks.push_back(note(std::move(finding)));
 }
 
 Remark left_out_beside_damper_loop(const char* what) {

@@ -51,8 +51,9 @@ TEST_F(Diagnose, ReadsTheFrequencyFromARecording) {
   const auto json =
       answer("zwidth diagnose devices/lhifam.toml --recording run.csv --position measured --stiffness 9200 --json");
   EXPECT_EQ(run("sed 1s/measured/position_m/ run.csv > called.csv").status, 0);
-  EXPECT_EQ(answer("zwidth diagnose devices/lhifam.toml --recording called.csv --stiffness 9200 --json")["oscillates_hz"],
-            json["oscillates_hz"]);
+  EXPECT_EQ(
+      answer("zwidth diagnose devices/lhifam.toml --recording called.csv --stiffness 9200 --json")["oscillates_hz"],
+      json["oscillates_hz"]);
   EXPECT_EQ(json["cause"], "device");
   EXPECT_NEAR(json["oscillates_hz"].get<double>(), 6.25, 0.15);
   EXPECT_GT(json["amplitude"].get<double>(), 1e-4);

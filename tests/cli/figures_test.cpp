@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -77,6 +78,31 @@ TEST_F(Figures, AWidthIsThatOnPaper) {
   expect_refusal(bode + "a.svg --width 85kg", 2, "--width: ");
   expect_refusal(bode + "a.csv --width 85mm", 2, "--width: is for a figure");
   expect_refusal("zwidth bode devices/lhifam.toml --width 85mm", 2, "--width");
+}
+
+// Every text begins and ends on the page, frames stand beside each other on wide paper alone.
+TEST_F(Figures, OnAnyWidthNothingLeavesThePage) {
+  for (const std::string& command :
+       {std::string("region devices/lhifam.toml"), std::string("analyze devices/lhifam.toml"),
+        std::string("bode devices/lhifam.toml"), std::string("excite --amplitude 5")}) {
+    for (const double width : {60.0, 85.0, 170.0, 400.0}) {
+      SCOPED_TRACE(fmt::format("{} {} mm", command, width));
+      ASSERT_EQ(run(fmt::format("zwidth {} --figure a.svg --width {}mm", command, width)).status, 0);
+      const std::string svg = contents("a.svg");
+      double page = 0.0;
+      ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox=\"0 0 "), "viewBox=\"0 0 %lf", &page), 1);
+      std::size_t texts = 0;
+      const std::string moved = "<g transform=\"translate(";
+      for (std::size_t at = svg.find(moved); at != std::string::npos; at = svg.find(moved, at + 1)) {
+        double x = 0.0;
+        ASSERT_EQ(std::sscanf(svg.c_str() + at + moved.size(), "%lf", &x), 1);
+        EXPECT_GE(x, 0.0);
+        EXPECT_LE(x, page);
+        ++texts;
+      }
+      EXPECT_GT(texts, 10U);
+    }
+  }
 }
 
 TEST_F(Figures, EveryCommandWithATableWritesIt) {

@@ -297,6 +297,10 @@ TEST_F(Frf, SoDoColumnsCalledSoWithAUnit) {
   // Without a unit the names alone say that it turns.
   EXPECT_EQ(document(renamed("time,torque,angle") + " --json")["units"]["stiffness"], "N m/rad");
   expect_refusal(renamed("time,force_error,position"), "--force: missing");
+  // What the reader would not scale by: feet, or what comes in.
+  for (const char* name : {"position_ft", "position_in", "position_km"}) {
+    expect_refusal(renamed(std::string("time,force,") + name), "--position: missing");
+  }
 }
 
 TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {

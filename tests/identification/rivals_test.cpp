@@ -132,17 +132,17 @@ TEST(Rivals, DeviceDriftsWhileItIsRecorded) {
   set("delay_drift", 0.4e-3);
   constexpr double no_lag = 2.1e-5;  // s: the least that the number can be is 20 us
   EXPECT_DOUBLE_EQ(family.device_at(x).bodies[0].damping, 0.6);
-  EXPECT_DOUBLE_EQ(family.device_at(x, 0.5).bodies[0].damping, 0.6);
-  EXPECT_NEAR(family.device_at(x, 0.0).loop.delay, 0.3e-3, no_lag);
-  EXPECT_NEAR(family.device_at(x, 1.0).loop.delay, 0.7e-3, no_lag);
+  EXPECT_DOUBLE_EQ(family.device_at(x, DriftInstants{}).bodies[0].damping, 0.6);
+  EXPECT_NEAR(family.device_at(x, {0.0, 0.0}).loop.delay, 0.3e-3, no_lag);
+  EXPECT_NEAR(family.device_at(x, {1.0, 1.0}).loop.delay, 0.7e-3, no_lag);
   for (const std::size_t body : {0U, 1U}) {
     const double damping = device.bodies[body].damping;
-    EXPECT_DOUBLE_EQ(family.device_at(x, 0.0).bodies[body].damping, 0.9 * damping);
-    EXPECT_DOUBLE_EQ(family.device_at(x, 1.0).bodies[body].damping, 1.1 * damping);
+    EXPECT_DOUBLE_EQ(family.device_at(x, {0.0, 0.0}).bodies[body].damping, 0.9 * damping);
+    EXPECT_DOUBLE_EQ(family.device_at(x, {1.0, 1.0}).bodies[body].damping, 1.1 * damping);
   }
   set("delay_drift", -0.4e-3);
-  EXPECT_DOUBLE_EQ(family.device_at(x, 1.0).loop.delay, 0.0);
-  EXPECT_GE(family.device_at(x, 1.0).actuator.time_constant, 0.0);
+  EXPECT_DOUBLE_EQ(family.device_at(x, {1.0, 1.0}).loop.delay, 0.0);
+  EXPECT_GE(family.device_at(x, {1.0, 1.0}).actuator.time_constant, 0.0);
 }
 
 TEST(Rivals, PriorsAreOfTheRecord) {

@@ -286,7 +286,6 @@ TEST(Analysis, AWallAboveTheLimitWithAnyUserIsSaid) {
   EXPECT_TRUE(analyze(Device(device)).remarks.empty());  // it is unstable by itself
 }
 
-// With a damper closed the gain margin is of the whole wall, the stiffness margin of K alone.
 TEST(Analysis, AWallThatRingsForLongIsSaid) {
   std::size_t said = 0;
   for (const double damping : {0.0, 20.0, 40.0, 60.0, 80.0, 100.0}) {
@@ -305,8 +304,21 @@ TEST(Analysis, AWallThatRingsForLongIsSaid) {
   }
   EXPECT_GT(said, 0U);
   EXPECT_LT(said, 6U);
+  // Stable in the file's hand alone: a person lets go, and it is no stable wall.
+  DeviceParameters knob;
+  knob.motion = Motion::rotary;
+  knob.bodies = {{.name = "knob", .mass = 1e-3, .damping = 1e-3}};
+  knob.loop = {.sampling_period = 1e-3};
+  knob.user = {.mass = 1e-3, .damping = 0.05, .stiffness = 1.0};
+  knob.wall.stiffness = 20.0;
+  const Analysis held = analyze(Device(knob));
+  ASSERT_TRUE(held.wall->stable && *held.wall->phase_margin < 0.3 && !held.wall_stable_for->nobody);
+  EXPECT_TRUE(std::ranges::none_of(held.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::wall_poorly_damped;
+  }));
 }
 
+// With a damper closed the gain margin is of the whole wall, the stiffness margin of K alone.
 TEST(Analysis, StiffnessMarginIsOfTheStiffnessAlone) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.wall = {2000.0, 5.0, 0.0};

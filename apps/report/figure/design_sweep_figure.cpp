@@ -237,6 +237,8 @@ class CurveFigure {
   int modes_ = 0;
 };
 
+constexpr double map_right = 760.0;  // px, room for the scale of colours
+
 class MapFigure {
  public:
   MapFigure(const Device& device, const ParameterSweep& sweep)
@@ -274,6 +276,7 @@ class MapFigure {
       rows += "\n";
     }
     const bool is_decades = high > 10.0 * low;
+    const Page page = page_of(format);
     const std::vector<double> levels = contour_levels(low, high, is_decades);
     const std::string contours = contour_lines(first, second, levels, stiffness);
     Figure figure{.title = title_,
@@ -283,12 +286,12 @@ class MapFigure {
     }
     figure.panels.push_back(
         {.height = frame_height,
-         .right = 760.0,
+         .right = map_right,
          .axes = fmt::format("unset grid\nunset logscale\n{}{}set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
                              "set palette defined ({}) maxcolors 0\n{}set cbrange [{:.9g}:{:.9g}]\nset format cb '%g'",
-                             tics("x", 0), tics("y", 1), ends(0).first, ends(0).second, ends(1).first, ends(1).second,
-                             even_colours, (is_decades ? "set logscale cb\n" : "") + level_tics(levels), low,
-                             high > low ? high : 1.001 * low),
+                             tics("x", 0, page), tics("y", 1, {}), ends(0).first, ends(0).second, ends(1).first,
+                             ends(1).second, even_colours, (is_decades ? "set logscale cb\n" : "") + level_tics(levels),
+                             low, high > low ? high : 1.001 * low),
          .x_label = axis_title(sweep_.axes[0], device_),
          .y_label = axis_title(sweep_.axes[1], device_),
          .series = {{rows, "image", "1:2:3"},
@@ -431,9 +434,12 @@ class MapFigure {
     return {std::min(first, last), std::max(first, last)};
   }
 
-  [[nodiscard]] std::string tics(std::string_view name, std::size_t axis) const {
+  [[nodiscard]] std::string tics(std::string_view name, std::size_t axis, const Page& page) const {
     if (!is_logarithmic(sweep_.axes[axis])) {
-      return fmt::format("set {0}tics autofreq\nset format {0} '%.10g'\n", name);
+      const double px = page.right - page.left - (frame_right - map_right);
+      const std::string steps = page.is_narrow() ? sparse_ticks(name, ends(axis).second - ends(axis).first, px)
+                                                 : fmt::format("set {}tics autofreq\n", name);
+      return steps + fmt::format("set format {} '%.10g'\n", name);
     }
     const auto [low, high] = ends(axis);
     constexpr double rounding = 1e-9;

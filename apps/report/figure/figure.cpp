@@ -38,13 +38,20 @@ std::vector<Box> frames_of(const std::vector<Panel>& panels, double bottom, cons
     const double above = panel.is_beside ? std::max(panel.above, least_below) : panel.above;
     const double top = is_beside ? frames.back().top : bottom + above;
     bottom = top + panel.height;
-    double left = page.left + panel.left - frame_left;
-    double right = page.width - (canvas_width - panel.right);
-    if (panel.is_placed) left = panel.left, right = panel.right;
-    // Of those that stood beside each other each has the whole width.
     const auto next = frames.size() + 1;
     const bool is_one_of_two = panel.is_beside || (next < panels.size() && panels[next].is_beside);
-    if (page.is_narrow() && is_one_of_two && !panel.is_placed) left = page.left, right = page.right;
+    const double reserve = panel.is_beside || !is_one_of_two ? frame_right - panel.right : 0.0;  // of a second axis
+    double left = page.left + panel.left - frame_left;
+    double right = page.right - reserve;
+    if (panel.is_placed) {
+      left = panel.left, right = panel.right;
+    } else if (is_one_of_two && page.is_narrow()) {  // each has the whole width
+      left = page.left;
+    } else if (is_one_of_two) {
+      const double share = (page.right - page.left) / (frame_right - frame_left);
+      left = page.left + share * (panel.left - frame_left);
+      right = page.left + share * (panel.right - frame_left);
+    }
     frames.push_back({left, right, top, bottom});
   }
   return frames;
@@ -82,8 +89,8 @@ std::string draw(const Figure& figure, const FigureFormat& format) {
   const double left = page.is_narrow() ? 0.5 * row_height : page.left;
   std::vector<Note> notes;
   for (const Note& each : figure.notes) {
-    if (!page.is_narrow()) notes.push_back(each);
-    if (!page.is_narrow()) continue;
+    if (page.width >= canvas_width) notes.push_back(each);
+    if (page.width >= canvas_width) continue;
     constexpr std::size_t most_lines = 4;
     for (std::string& line : Canvas::broken(each.text, text_size, page.width - 2.0 * left, most_lines)) {
       notes.push_back({std::move(line), each.colour});

@@ -17,7 +17,7 @@ constexpr double title_size = 16.0;
 constexpr double title_row = 22.0;
 constexpr double sample = 46.0;  // px of a legend's line
 constexpr double text_after = 54.0;
-constexpr double column = 400.0;
+constexpr double widest_column = 400.0;
 constexpr std::size_t most_lines = 3;
 
 }  // namespace
@@ -35,6 +35,7 @@ Heading::Heading(const std::string& title, std::vector<LegendEntry> legend, cons
                  const Page& page)
     : left_(page.is_narrow() ? 0.5 * row_height : page.left) {
   const double room = page.right - left_;
+  const double column = std::min(widest_column, 0.5 * room + 4.0);
   title_ = Canvas::broken(title, title_size, room, most_lines);
   if (!subtitle.empty())
     subtitle_ = Canvas::broken(subtitle, text_size, room, page.is_narrow() ? 2 * most_lines : most_lines);
@@ -106,6 +107,14 @@ double place_on_log_axis(const Box& frame, const AxisRange& range, double value)
 std::string_view axes_look() {
   return "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
          "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back";
+}
+
+std::string sparse_ticks(std::string_view axis, double length, double px) {
+  constexpr double room_of_tick = 48.0;
+  const double least = length * room_of_tick / px;
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  const double step = decade * (least <= 2.0 * decade ? 2.0 : least <= 5.0 * decade ? 5.0 : 10.0);
+  return fmt::format("set {}tics {:g}\n", axis, step);
 }
 
 std::string decade_ticks(std::string_view axis, double low, double high, double room) {

@@ -98,6 +98,9 @@ struct AxisRange {
 /// gnuplot commands that every frame begins with: size of the tics, border, grid behind the curves.
 [[nodiscard]] std::string_view axes_look();
 
+/// `set xtics` of the axis "x" over this length at steps of 1, 2 or 5 of a decade, as many as `px` hold.
+[[nodiscard]] std::string sparse_ticks(std::string_view axis, double length, double px);
+
 /// `set xtics` of the axis "x" at 1, 2 and 5 of every decade where `room` px hold them: less than one has too few tics otherwise.
 [[nodiscard]] std::string decade_ticks(std::string_view axis, double low, double high,
                                        double room = frame_right - frame_left);

@@ -319,7 +319,8 @@ class RegionFigure {
         .x_label = fmt::format("Virtual damping B ({}{})", damping.prefix, units_.damping),
         .y_label = fmt::format("Stiffness K ({}{})", unit.prefix, units_.stiffness)};
     const auto add = [&](std::string rows, std::string with) {
-      panel.series.push_back({std::move(rows), std::move(with), fmt::format("($1/{:g}):($2/{:g})", damping.size, unit.size)});
+      panel.series.push_back(
+          {std::move(rows), std::move(with), fmt::format("($1/{:g}):($2/{:g})", damping.size, unit.size)});
     };
     const auto add_area = [&](const std::string& rows, std::string_view colour) {
       add(rows, fmt::format("filledcurves closed fc rgb '{}' fs solid noborder", colour));

@@ -228,7 +228,9 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
   for (const Label& label : labels) {
     const double text_y = bar.top - 16.0 - row_height * static_cast<double>(label.row);
     canvas.line(label.x, text_y - 6.0, label.x, bar.top + 8.0, label.style);
-    canvas.text(label.x + (label.is_right ? text_gap : -text_gap), text_y, label.text,
+    const double last = page.width - text_gap - Canvas::text_width(label.text, text_size);
+    const double left = std::max(std::min(label.x + text_gap, last), text_gap);
+    canvas.text(label.is_right ? left : label.x - text_gap, text_y, label.text,
                 {label.is_right ? Anchor::left : Anchor::right, text_size, label.style.colour});
   }
   canvas.text(0.5 * (bar.left + bar.right), bar.bottom + 48.0,

@@ -328,14 +328,10 @@ class WorkspaceFigure {
     return fmt::format("{} of the tip ({}m)", world_axes.at(static_cast<std::size_t>(axis)), length_.prefix);
   }
 
-  /// Of an axis over this length, m, at 1, 2 or 5 of a decade where its own would stand too close.
+  /// Of an axis over this length, m.
   [[nodiscard]] std::string tics(std::string_view axis, double length, double px) const {
-    if (!page_.is_narrow()) return fmt::format("set {}tics autofreq\n", axis);
-    constexpr double room_of_tic = 48.0;
-    const double least = length / length_.size * room_of_tic / px;
-    const double decade = std::pow(10.0, std::floor(std::log10(least)));
-    const double step = decade * (least <= 2.0 * decade ? 2.0 : least <= 5.0 * decade ? 5.0 : 10.0);
-    return fmt::format("set {}tics {:g}\n", axis, step);
+    return page_.is_narrow() ? sparse_ticks(axis, length / length_.size, px)
+                             : fmt::format("set {}tics autofreq\n", axis);
   }
 
   /// A map in a frame of this size, px, both axes to one scale.

@@ -60,7 +60,7 @@ struct NamedStructureOptions {
 };
 
 /// The motion whose units the columns' names state, by Channel::base_unit: rotary of torques and angles. Where they state
-/// none, rotary of columns called torque or angle, beside none called force. Nothing elsewhere.
+/// none, rotary of a column called torque beside one called angle or position. Nothing elsewhere.
 [[nodiscard]] std::optional<Motion> stated_motion(std::span<const Recording> recordings);
 
 /// Whether a structure is called so: "rigid", "two-body" or "three-body".

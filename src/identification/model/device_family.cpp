@@ -42,18 +42,18 @@ double DeviceFamily::value_of(const std::string& key, const Eigen::VectorXd& x) 
 
 DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x) const { return finished(values_at(x)); }
 
-DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, double instant) const {
+DeviceParameters DeviceFamily::device_at(const Eigen::VectorXd& x, const DriftInstants& instants) const {
   constexpr double middle = 0.5;
   DeviceParameters values = values_at(x);
   if (has_damping_drift_) {
-    const double left = std::max(0.0, 1.0 + value_of(key_of_damping_drift, x) * (instant - middle));
+    const double left = std::max(0.0, 1.0 + value_of(key_of_damping_drift, x) * (instants.damping - middle));
     for (Body& body : values.bodies) {
       if (std::ranges::find(numbers_, "body." + body.name + ".damping", &Number::key) != numbers_.end())
         body.damping *= left;
     }
   }
   if (has_delay_drift_)
-    values.loop.delay = std::max(0.0, values.loop.delay + value_of(key_of_delay_drift, x) * instant);
+    values.loop.delay = std::max(0.0, values.loop.delay + value_of(key_of_delay_drift, x) * instants.delay);
   return finished(std::move(values));
 }
 

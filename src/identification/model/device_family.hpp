@@ -9,9 +9,15 @@
 
 namespace zwidth::internal {
 
-/// Keys of numbers by which a device changes while it is recorded; they move nothing but what device_at() says of an instant.
+/// Keys of numbers by which a device changes while it is recorded; they move nothing but what device_at() says of instants.
 inline constexpr const char* key_of_damping_drift = "damping_drift";  ///< share of all free dampings to the ground
 inline constexpr const char* key_of_delay_drift = "delay_drift";      ///< s
+
+/// When during a record each drift of a device is asked: 0 its beginning, 1 its end.
+struct DriftInstants {
+  double damping = 0.5;
+  double delay = 0.5;
+};
 
 /// The devices that a fit looks among: a structure, and the numbers of it that are free.
 ///
@@ -25,14 +31,14 @@ class DeviceFamily {
   [[nodiscard]] const std::vector<Number>& numbers() const noexcept { return numbers_; }
   /// How many are the device's.
   [[nodiscard]] Eigen::Index of_device() const noexcept { return of_device_; }
-  /// How many of the first numbers device_at() hangs on, at any instant: the device's and its drifts. The limit hangs on no other.
+  /// How many of the first numbers device_at() hangs on, at any instants: the device's and its drifts. The limit hangs on no other.
   [[nodiscard]] Eigen::Index of_limit() const noexcept { return of_limit_; }
   /// As a device file has it, nothing locked: no delay below 0.
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x) const;
-  /// As it is at an instant of a record, 0 its beginning and 1 its end:
+  /// As it is during a record, its drifts at instants of it:
   ///
-  ///     b_i <- b_i max(0, 1 + damping_drift (instant - 1/2)),  delay <- max(0, delay + delay_drift instant)
-  [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x, double instant) const;
+  ///     b_i <- b_i max(0, 1 + damping_drift (instants.damping - 1/2)),  delay <- max(0, delay + delay_drift instants.delay)
+  [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& x, const DriftInstants& instants) const;
   /// Whether the numbers make a device: recorded_device() throws where not.
   [[nodiscard]] bool has_device_at(const Eigen::VectorXd& x) const;
   /// As it was recorded: bodies locked, the delay left out (played_delay()).

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "counted.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -28,10 +26,17 @@ std::string stated_unit(std::span<const Recording> recordings, std::size_t chann
   return is_same ? unit : "";
 }
 
-bool is_called(const Channel& channel, std::initializer_list<std::string_view> names) {
+std::string lower_name(const Channel& channel) {
   std::string name = channel.name;
   std::ranges::transform(name, name.begin(), [](unsigned char letter) { return std::tolower(letter); });
-  return std::ranges::any_of(names, [&](std::string_view each) { return name.starts_with(each); });
+  return name;
+}
+
+/// Of force and motion: a torque, and what a torque turns, both without a unit.
+bool is_called_rotary(const Recording& recording) {
+  if (recording.channels.size() != 2 || lower_name(recording.channels[0]) != "torque") return false;
+  const std::string motion = lower_name(recording.channels[1]);
+  return motion == "angle" || motion == "position";
 }
 
 }  // namespace
@@ -62,14 +67,8 @@ std::optional<Motion> stated_motion(std::span<const Recording> recordings) {
   }
   if (is_linear != is_rotary) return is_rotary ? Motion::rotary : Motion::linear;
   if (is_linear) return std::nullopt;
-  // No column has a unit: what a torque or an angle is called is rotary.
-  const auto some_called = [&](std::initializer_list<std::string_view> names) {
-    return std::ranges::any_of(recordings, [&](const Recording& recording) {
-      return std::ranges::any_of(recording.channels, [&](const Channel& each) { return is_called(each, names); });
-    });
-  };
-  const bool is_torque = some_called({"torque", "angle"}) && !some_called({"force"});
-  return is_torque ? std::optional(Motion::rotary) : std::nullopt;
+  const bool is_rotary_by_name = !recordings.empty() && std::ranges::all_of(recordings, is_called_rotary);
+  return is_rotary_by_name ? std::optional(Motion::rotary) : std::nullopt;
 }
 
 std::optional<OptionProblem> find_problem(const std::string& force_unit, const std::string& length_unit,

@@ -1,4 +1,4 @@
-#include "identification/verdict/limit_instant.hpp"
+#include "identification/verdict/limit_instants.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -7,11 +7,14 @@
 #include "linear_systems.hpp"
 
 namespace zwidth::internal {
+namespace {
 
+constexpr double half = 0.5;
+
+/// Of one drift: `log_limit` of coordinates and its instant.
 std::optional<double> limit_instant(
     const std::function<std::optional<double>(const Eigen::VectorXd&, double)>& log_limit, const Minimum& minimum,
     Eigen::Index first, Eigen::Index last) {
-  constexpr double half = 0.5;
   constexpr double step = 1e-3;
   const std::optional<double> begin = log_limit(minimum.z, 0.0);
   const std::optional<double> middle = log_limit(minimum.z, half);
@@ -31,6 +34,25 @@ std::optional<double> limit_instant(
   }
   const double variance = by.dot(solve_symmetric(minimum.picture.hessian, by));
   return half + std::max(0.0, 1.0 - chi_squared_of_95 * variance / (fall * fall)) * (softer - half);
+}
+
+}  // namespace
+
+std::optional<DriftInstants> limit_instants(
+    const std::function<std::optional<double>(const Eigen::VectorXd&, const DriftInstants&)>& log_limit,
+    const Minimum& minimum, Eigen::Index first, Eigen::Index last) {
+  DriftInstants instants;
+  for (double DriftInstants::*drift : {&DriftInstants::damping, &DriftInstants::delay}) {
+    const auto of_drift = [&](const Eigen::VectorXd& z, double instant) {
+      DriftInstants at;
+      at.*drift = instant;
+      return log_limit(z, at);
+    };
+    const std::optional<double> instant = limit_instant(of_drift, minimum, first, last);
+    if (!instant) return std::nullopt;
+    instants.*drift = *instant;
+  }
+  return instants;
 }
 
 }  // namespace zwidth::internal
