@@ -11,7 +11,7 @@
 namespace zwidth::server {
 namespace {
 
-constexpr int nicer_per_lane = 9;
+constexpr int nicer_per_lane = 2;
 
 /// Of this thread, and of those that it starts.
 void lower_priority(int by) {
