@@ -13,8 +13,8 @@ std::span<const Phrase> stability_phrases() {
           "the wall of {stiffness} is not surely stable: the 95 % interval of the critical stiffness begins at {lower}",
           "", "stay below that, or identify the device more closely"},
       Phrase{wall_poorly_damped, "wall_poorly_damped", note,
-             "the wall is stable, and poorly damped: its phase margin of {phase_margin_deg:.3g} degrees is less than "
-             "{least_deg:.0f}",
+             "the wall is stable, and poorly damped: its phase margin of {phase_margin_deg:.3g}° is less than "
+             "{least_deg:.0f}°",
              "what hits it rings for long", "make the wall softer, or ask for one with margins"},
       Phrase{
           interval_open, "interval_open", doubt,
