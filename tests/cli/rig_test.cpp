@@ -390,6 +390,14 @@ TEST_F(Rig, TheReportShowsWhatWasMeasured) {
   }
 }
 
+TEST_F(Rig, AFigureOfNothingTakesNoPageWithIt) {
+  const Outcome outcome =
+      run("zwidth rig measure " + lhifam + "--position-limit 1e-5 --report page.html --figure page.svg");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(contents("page.html"), HasSubstr("</html>"));
+  EXPECT_EQ(contents("page.svg"), "");
+}
+
 // gnuplot failed for want of points, and the answer was lost with the page.
 TEST_F(Rig, ALimitOfWhichNothingWasReadHasAPageToo) {
   const Outcome outcome = run("zwidth rig limit " + lhifam + "--from 100 --ceiling 120 --report page.html");

@@ -259,6 +259,18 @@ TEST_F(Study, WritesAPageWithFigures) {
   }
 }
 
+TEST_F(Study, AFigureOfNothingTakesNoAnswerWithIt) {
+  write("one.toml", "[[parameter]]\nkey = \"link.damping\"\ndistribution = \"discrete\"\nvalues = [15.0]\n");
+  const Outcome outcome =
+      run("zwidth study devices/lhifam.toml --study one.toml --samples 100 --index-samples 0 --csv units.csv --figure "
+          "units.svg");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("--figure: "));
+  EXPECT_THAT(outcome.output, HasSubstr("100"));
+  EXPECT_NE(contents("units.csv"), "");
+  EXPECT_EQ(contents("units.svg"), "");
+}
+
 // Without Sobol indices, as of correlated parameters, what a tighter tolerance gains; numbers with their prefix.
 TEST_F(Study, DrawsWhichToleranceToTighten) {
   ASSERT_EQ(run(lhifam + " --samples 400 --report page.html").status, 0);
