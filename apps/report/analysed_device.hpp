@@ -31,6 +31,11 @@ struct AnalysedDevice {
   return Device(std::move(parameters));
 }
 
+/// Whose limit stands as the critical stiffness, and whose margins as those of the wall.
+[[nodiscard]] inline Holder holder_of(const HoldingLimits& limits) {
+  return limits.user ? Holder::user : Holder::nobody;
+}
+
 /// What stands beside the answer where it is asked for.
 struct Detail {
   bool decibels = false;  ///< stiffnesses in dB re 1 N/m or 1 N m/rad, too

@@ -96,7 +96,7 @@ void add_walls(Document& document, const AnalysedDevice& analysed, std::size_t i
   if (!document.is_page() || !analysed.region) return;
   const RecommendedWall* const found = wall_to_run(analysed);
   document.part(found != nullptr ? "Stable walls, and the one to run" : "Stable walls");
-  const Holder holder = analysed.analysis.limits.user ? Holder::user : Holder::nobody;
+  const Holder holder = holder_of(analysed.analysis.limits);
   if (found != nullptr) document.table(recommended_table(*found, analysed.device.parameters().motion, holder));
   const std::string_view filters = found != nullptr ? ", with the filters of the wall to run" : "";
   document.figure(
@@ -153,7 +153,7 @@ void add_phase_crossovers(Document& document, const AnalysedDevice& analysed, co
   static constexpr std::size_t most = 20;
   if (analysed.analysis.critical.trust.refused()) return;
   const std::size_t count = analysed.analysis.critical.crossovers.size();
-  const std::string_view holder = words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody);
+  const std::string_view holder = words_of(holder_of(analysed.analysis.limits));
   const std::string nyquist = quantity(0.5 / analysed.device.loop().sampling_period, "Hz");
   const std::string heading = fmt::format(
       "Phase crossovers with {} (a closed-loop pole on the unit circle), all up to Nyquist at {}", holder, nyquist);

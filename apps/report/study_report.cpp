@@ -232,8 +232,7 @@ std::string study_report(const StudyRun& run, const Study& study, Medium medium)
   document.figure("distribution",
                   "Bars: units by their critical stiffness. Line: the yield of a specification at each stiffness.",
                   [&] { return draw_study_distribution(run, study, FigureFormat::svg); });
-  document.part(
-      fmt::format("Critical stiffness K_CR with {}", words_of(study.limits.user ? Holder::user : Holder::nobody)));
+  document.part(fmt::format("Critical stiffness K_CR with {}", words_of(holder_of(study.limits))));
   document.table(quantile_table(run, study));
   document.part("What it depends on");
   document.table(parameter_table(study));

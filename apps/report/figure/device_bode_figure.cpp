@@ -50,7 +50,7 @@ std::vector<std::string> loop_notes(const Device& device) {
 
 void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t curve, std::string_view suffix) {
   const CriticalStiffness& critical = analysed.analysis.critical;
-  const std::string_view holder = words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody);
+  const std::string_view holder = words_of(holder_of(analysed.analysis.limits));
   for (const Crossover& crossover : critical.crossovers) {
     const bool is_on_axis = crossover.frequency >= figure.range.from && crossover.frequency <= figure.range.to;
     if (crossover.frequency > 0.0 && !is_on_axis) continue;

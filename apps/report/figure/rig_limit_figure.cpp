@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "report/analysed_device.hpp"
 #include "report/figure/figure.hpp"
 #include "report/figure/figures.hpp"
 #include "report/text/quantity.hpp"
@@ -32,10 +33,9 @@ std::string draw_limit_trials(const Device& device, const RigLimit& limit, Figur
         {fmt::format("K_CR measured, {}", quantity(*measured.stiffness, units.stiffness)), measured_trial_style});
   }
   if (predicted) {
-    legend.push_back(
-        {fmt::format("K_CR predicted with {}, {}", words_of(limit.limits.user ? Holder::user : Holder::nobody),
-                     quantity(limit.predicted.stiffness, units.stiffness)),
-         predicted_style});
+    legend.push_back({fmt::format("K_CR predicted with {}, {}", words_of(holder_of(limit.limits)),
+                                  quantity(limit.predicted.stiffness, units.stiffness)),
+                      predicted_style});
   }
   double largest = 0.0;
   for (const LimitTrial& trial : measured.trials) largest = std::max(largest, trial.stiffness);

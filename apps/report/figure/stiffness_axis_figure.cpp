@@ -72,8 +72,7 @@ std::vector<Label> labels_of(const AnalysedDevice& analysed) {
     const std::string name = i < most_numbered ? std::to_string(i + 1) : "";
     if (critical.limit && critical.limit->frequency == crossover.frequency) {
       labels.push_back({crossover.stiffness,
-                        fmt::format("{}: {}, {}", name.empty() ? "K" : name,
-                                    words_of(analysis.limits.user ? Holder::user : Holder::nobody),
+                        fmt::format("{}: {}, {}", name.empty() ? "K" : name, words_of(holder_of(analysis.limits)),
                                     quantity(crossover.stiffness, unit)),
                         critical_leader});
     } else {

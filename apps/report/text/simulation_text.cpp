@@ -175,7 +175,7 @@ std::string verdict_sentence(const Device& device, const Simulation& result) {
 
 std::string linear_answer(const Device& device, const Simulation& result) {
   const LinearAnswer& linear = result.linear;
-  const Holder holder = linear.limits.user ? Holder::user : Holder::nobody;
+  const Holder holder = holder_of(linear.limits);
   std::string text = fmt::format("critical stiffness with {}: {}", words_of(holder),
                                  critical_stiffness_text(linear.critical, device.parameters().motion));
   if (linear.limits.user) {

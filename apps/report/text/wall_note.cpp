@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "report/analysed_device.hpp"
 #include "report/text/quantity.hpp"
 #include "zwidth/remark.hpp"
 
@@ -165,8 +166,7 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
   std::string text = fmt::format("{} is {}{}.", name_of_wall(*wall, units_of(analysed.device.parameters().motion)),
                                  wall_verdict(analysis), shares.empty() ? "" : ": " + shares);
   if (!analysis.alone || !analysis.alone->wall) {
-    text +=
-        fmt::format(" With {} {}.", words_of(analysis.limits.user ? Holder::user : Holder::nobody), motion_text(*wall));
+    text += fmt::format(" With {} {}.", words_of(holder_of(analysis.limits)), motion_text(*wall));
   } else {
     text += fmt::format(" With {} {}; with {} {}.", words_of(Holder::nobody), motion_text(*analysis.alone->wall),
                         words_of(Holder::user), motion_text(*wall));
@@ -192,7 +192,7 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
   std::vector<std::string> margins;
   add_margins(*wall, leaves_gain_out(analysis), margins);
   if (analysis.disk_margin) margins.push_back(disk_margin_note(*analysis.disk_margin));
-  const std::string_view holder = words_of(analysis.limits.user ? Holder::user : Holder::nobody);
+  const std::string_view holder = words_of(holder_of(analysis.limits));
   for (const std::string& margin : margins) notes.push_back(fmt::format("with {}: {}", holder, margin));
   if (auto margin = margin_with_any_user(analysis)) notes.push_back(*std::move(margin));
   return notes;
