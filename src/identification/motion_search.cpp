@@ -17,7 +17,7 @@ constexpr Eigen::Index noise_order = 12;
 constexpr double short_segment = 0.5;              // s
 constexpr std::size_t left_out = 20;               // samples at a record's beginning, whose forces came before it
 constexpr std::size_t most_samples_whole = 30000;  // of long records evenly spread segments are fitted
-constexpr std::size_t most_samples_near = 8000;    // tell the numbers roughly
+constexpr std::size_t most_samples_near = 4000;    // tell the numbers roughly
 constexpr int coarse_substeps = 1;                 // of a sampling period, where terms act
 constexpr int fine_substeps = 2;
 constexpr int most_substeps = 8;  // where a body rubs: until finer ones move no number of the device
@@ -203,6 +203,12 @@ bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to)
   return ((to.z - from.z).head(count).array().abs() > notable * deviations.head(count).array()).any();
 }
 
+/// Without what rubs between two bodies: a link's damping stands for it until the rest is found.
+MotionTerms without_link_frictions(MotionTerms terms) {
+  std::erase_if(terms.frictions, [](const FrictionTerm& friction) { return friction.against.has_value(); });
+  return terms;
+}
+
 /// Where the records whole may begin.
 struct Beginning {
   double innovations = 0.0;  ///< of what is near
@@ -219,33 +225,38 @@ struct Whole {
 /// From the linear fit of the response, with several frictions.
 std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<std::string>& locked,
                                     const std::vector<Segment>& long_ones, const MotionSearchOptions& options) {
-  constexpr double frictions[] = {0.0, 0.05, 0.2};  // of the force
+  constexpr double frictions[] = {0.0, 0.2, 0.05};  // of the force
   constexpr int most_rounds = 6;
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
   constexpr MinimiseOptions between{.most_steps = 25, .least_gain = 0.5};  // the noise is not the last
   constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked);
-  const auto whole_at = [&](int substeps) {
+  const MotionTerms first_terms = without_link_frictions(parts.terms);
+  const auto whole_at = [&](int substeps, const MotionTerms& terms) {
     Whole made;
-    made.model = std::make_unique<MotionModel>(family, parts.terms, start.records, substeps);
+    made.model = std::make_unique<MotionModel>(family, terms, start.records, substeps);
     made.search = std::make_unique<Search>(*made.model, long_ones, start, options);
     return made;
   };
-  const MotionModel coarse_model(family, parts.terms, start.records, coarse_substeps);
+  const MotionModel coarse_model(family, first_terms, start.records, coarse_substeps);
   const std::vector<Segment> short_ones =
       thinned(segments_of(start.records, short_segment), most_samples_near, long_ones);
   Search near(coarse_model, short_ones, start, options);
-  Whole whole = whole_at(coarse_substeps);
+  Whole whole = whole_at(coarse_substeps, first_terms);
 
   const Eigen::VectorXd linear = family.coordinates_of(start.device);
   const std::string& rubbing = start.device.bodies[start.device.loop.actuated].name;
   std::vector<Beginning> begins;
+  bool is_rough = false;  // without friction at its start either
   for (const double share : frictions) {
+    // Between the first two: not where the first is likelier, and smooth.
+    if (begins.size() == 2 && !is_rough && begins[0].innovations < begins[1].innovations) break;
     near.set_noise(first_noise(start));
     const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, coarse_model, rubbing, share) : linear;
     const auto end = near.from(near.with_states(x), 2, coarse);
     if (!end || !near.take_noise(end->z)) continue;
+    if (share == 0.0) is_rough = rubs(coarse_model, *end);
     begins.push_back(
         {near.innovations(), near.evidence().noise(), carried_over(near, end->z, *whole.search, coarse_model)});
   }
@@ -275,7 +286,7 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
   whole.search->set_noise(noise);
   for (int finer = fine_substeps; finer <= most_substeps && (finer == fine_substeps || rubs(*whole.model, *best));
        finer *= 2) {
-    Whole next = whole_at(finer);
+    Whole next = whole_at(finer, parts.terms);
     next.search->set_noise(whole.search->evidence().noise());
     auto again = next.search->from(best->z, 1, fine);
     if (!again) break;

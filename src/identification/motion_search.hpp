@@ -29,7 +29,7 @@ struct MotionSearchOptions {
   std::function<void()> tell = {};         ///< at each step
 };
 
-/// From several frictions, segments of half a second with states of their own find what is near, by their own noise; from the
+/// From none and much friction, and from little where that may matter, segments of half a second with states of their own find what is near, by their own noise; from the
 /// most likely of these the records whole are fitted, by the noise of what is left in turn: from the others too where a body
 /// rubs beyond its noise. Terms act over whole sampling periods first, then over halves, and where a body rubs over finer substeps
 /// until they move no number of the device. Where the structure is a device's, the search begins at its own values too: a link above

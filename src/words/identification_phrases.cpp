@@ -12,7 +12,9 @@ std::span<const Phrase> identification_phrases() {
       "{?rival|most of it by {?rival=coulomb_friction|dry friction}{?rival=drag|a force that grows with the square of "
       "the speed}{?rival=damping_drift|a damping that "
       "changes while it is recorded}{?rival=delay_drift|clocks that run apart}{?rival=presliding|friction that bends "
-      "before it slides}{?rival=stiffening_spring|a spring that stiffens}{?rival=actuator_lag|a lag of the "
+      "before it slides}{?rival=link_friction|dry friction between two bodies}{?rival=link_presliding|friction between "
+      "two bodies that bends before it slides}{?rival=stiffening_spring|a spring that stiffens}{?rival=actuator_lag|a "
+      "lag of the "
       "actuator}{?rival=ground_spring|a spring to the "
       "ground}{?rival=drive_saturation|a drive that saturates}{?rival=drive_dead_band|a dead band of the "
       "drive}{?rival=constant_force|a constant force} ({parameter}), within which it is {with_lower} to {with_upper}}";
@@ -20,6 +22,7 @@ std::span<const Phrase> identification_phrases() {
       "{?rival=coulomb_friction|record at a second, larger amplitude}{?rival=drag|record at a second amplitude}"
       "{?rival=damping_drift|record the device when it is warm}"
       "{?rival=delay_drift|record both by one clock}{?rival=presliding|record larger "
+      "motion}{?rival=link_friction|record at a second, larger amplitude}{?rival=link_presliding|record larger "
       "motion}{?rival=stiffening_spring|record at a second amplitude}{?rival=actuator_lag|excite higher "
       "frequencies}{?rival=ground_spring|excite lower frequencies}"
       "{?rival=drive_saturation|record with less force}{?rival=drive_dead_band|record with more force}"
@@ -112,7 +115,7 @@ std::span<const Phrase> identification_phrases() {
              "record, and the critical stiffness comes out up to several times too high",
              "record the command beside the position read before it, or add that delay as loop.delay"},
       Phrase{dry_friction_fitted, "dry_friction_fitted", note,
-             "dry friction of {force:.3g} +- {deviation:.2g} {unit} on {body}",
+             "dry friction of {force:.3g} +- {deviation:.2g} {unit} {?body|on {body}}{?link|in link {link}}",
              "the critical stiffness is that of the device without it: small motion is damped by it"},
       Phrase{constant_force, "constant_force", note,
              "a constant force of {force:.3g} +- {deviation:.2g} {unit} beside the recorded one in {source}",

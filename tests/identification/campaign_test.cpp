@@ -107,6 +107,12 @@ TEST(CampaignRecords, OfASpringThatStiffensIsFittedThoughItsLinesScatter) {
   EXPECT_TRUE(line.sound() && line.holds()) << text_of(line);
 }
 
+/// Taken for damping, its friction puts the interval 21 % above the truth.
+TEST(CampaignRecords, OfALinkThatRubsHoldTheTruth) {
+  const Line line = answer_to(drawn_case(*find_kind("link_friction"), 511));
+  EXPECT_TRUE(line.sound() && line.holds()) << text_of(line);
+}
+
 TEST(CampaignRecords, WhoseShortSegmentsTellOfASofterSpringAreFitted) {
   for (const char* kind : {"delay_unstated", "slow_disturbance"}) {
     const Line line = answer_to(drawn_case(*find_kind(kind), 3));

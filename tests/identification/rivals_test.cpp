@@ -112,6 +112,7 @@ TEST(Rivals, SettingRulesSomeOut) {
   }
   EXPECT_TRUE(parts.has("friction.motor"));
   EXPECT_FALSE(parts.has("friction.handle"));
+  EXPECT_FALSE(codes.contains("link_friction"));  // the handle stands still: friction of the motor
 }
 
 /// All dampings fall to 0.9 and rise to 1.1 of their mean, the force comes up to 0.4 ms later or earlier, never before its time.
@@ -163,6 +164,7 @@ TEST(Rivals, PriorsAreOfTheRecord) {
     return number.unit * number.prior_deviation;
   };
   EXPECT_DOUBLE_EQ(sigma("friction.motor"), 0.1 * setting.rms_force);
+  EXPECT_DOUBLE_EQ(sigma("link_friction.0"), 0.05 * setting.rms_force);
   EXPECT_DOUBLE_EQ(sigma("drag.motor") * setting.largest_speed, 0.7);
   EXPECT_DOUBLE_EQ(sigma("damping_drift"), 0.2);
   EXPECT_DOUBLE_EQ(sigma("delay_drift"), 1e-4);
@@ -239,7 +241,9 @@ TEST(Rivals, SlopesOfMotionAreDifferences) {
     SCOPED_TRACE(rival.code);
     ModelParts parts = numbers_of(device, true);
     const RivalSetting setting = setting_of(device, record);
-    if (rival.code == "presliding") coulomb_friction().add(setting, parts);  // which it bends
+    // what they bend
+    if (rival.code == "presliding") coulomb_friction().add(setting, parts);
+    if (rival.code == "link_presliding") link_friction().add(setting, parts);
     const std::size_t before = parts.numbers.size();
     rival.add(setting, parts);
     ASSERT_GT(parts.numbers.size(), before);
@@ -251,7 +255,8 @@ TEST(Rivals, SlopesOfMotionAreDifferences) {
     for (std::size_t i = 0; i < parts.numbers.size(); ++i) {
       const Number& number = parts.numbers[i];
       if (i >= before) x(static_cast<Eigen::Index>(i)) = number.scale == Number::Scale::logarithmic ? 0.1 : 0.23;
-      if (number.key.starts_with("friction.")) x(static_cast<Eigen::Index>(i)) = 0.23;
+      if (number.key.starts_with("friction.") || number.key.starts_with("link_friction."))
+        x(static_cast<Eigen::Index>(i)) = 0.23;
       if (number.key == "loop.delay") x(static_cast<Eigen::Index>(i)) = 2.37;  // beyond the lag of 0.96 ms
     }
     const std::vector<Eigen::VectorXd> states = states_of(model);

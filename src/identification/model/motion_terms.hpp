@@ -17,10 +17,11 @@ struct ForceTerm {
   std::optional<std::size_t> record = {};  ///< it acts in; absent: all
 };
 
-/// Dry friction of a body, which sticks, or bends before it slides.
+/// Dry friction of a body, on its guide or on another body, which sticks, or bends before it slides.
 struct FrictionTerm {
   std::string body;
   std::string number;                              ///< N or N m, by its key
+  std::optional<std::string> against{};            ///< the other body; absent: the ground
   std::optional<std::string> presliding_length{};  ///< key of a number, m or rad; absent: it sticks
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/loop_keys.hpp"
 
@@ -9,6 +10,22 @@ namespace zwidth::internal {
 namespace {
 
 constexpr int finest_substeps = 64;  // of a sampling period: where a body among others stops, starts or turns
+
+PlayedDevice::Step step_of(LinearStep linear, const std::vector<PlayedDevice::Friction>& frictions) {
+  const auto count = static_cast<Eigen::Index>(frictions.size());
+  const Eigen::Index states = linear.columns.rows();
+  const Eigen::Index bodies = linear.columns.cols() - states - 1;
+  Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index on = 0; on < count; ++on) {
+    for (Eigen::Index of = 0; of < count; ++of) {
+      for (const auto& [moved, with] : frictions[static_cast<std::size_t>(on)].bodies) {
+        for (const auto& [pushed, sign] : frictions[static_cast<std::size_t>(of)].bodies)
+          compliance(on, of) += with * sign * linear.columns(bodies + moved, states + 1 + pushed);
+      }
+    }
+  }
+  return {std::move(linear), std::move(compliance)};
+}
 
 }  // namespace
 
@@ -39,7 +56,9 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
     forces.push_back(force);
   }
   for (const FrictionTerm& term : terms.frictions) {
-    frictions.push_back({index(term.body), place(term.number), value(place(term.number))});
+    frictions.push_back({.number = place(term.number), .limit = value(place(term.number))});
+    frictions.back().bodies.push_back({index(term.body), 1.0});
+    if (term.against) frictions.back().bodies.push_back({index(*term.against), -1.0});
     const bool rubs = frictions.back().limit > 0.0;
     if (rubs) ++rubbing;
     if (!term.presliding_length) continue;
@@ -76,7 +95,7 @@ PlayedDevice::PlayedDevice(const DeviceFamily& family, const MotionTerms& terms,
     made.count = std::max(1, static_cast<int>(std::lround(length * wanted)));
     double each = length * period / made.count;
     for (int parts = wanted; parts <= finest; parts *= 2, each *= 0.5)
-      made.halves.push_back(linear_step(columns, slopes, each));
+      made.halves.push_back(step_of(linear_step(columns, slopes, each), frictions));
     return made;
   };
   before = steps(share);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -28,20 +29,29 @@ struct PlayedDevice {
     std::array<Eigen::Index, most_numbers_of_law> numbers = {};  // behind the law's own: not used
     std::array<double, most_numbers_of_law> values = {};
   };
-  struct Friction {
+  /// A body that a friction pushes, and which way.
+  struct RubbedBody {
     Eigen::Index body = 0;
+    double sign = 1.0;
+  };
+  struct Friction {
+    boost::container::static_vector<RubbedBody, 2> bodies =
+        {};  ///< its velocity is the sum of theirs, each by its sign
     Eigen::Index number = 0;
     double limit = 0.0;
     std::optional<Eigen::Index> length_number = {};
     double length = 0.0;     ///< m or rad
     Eigen::Index bend = -1;  ///< its place among those whose bend moves the body: none where the limit is 0
   };
+  struct Step : LinearStep {
+    Eigen::MatrixXd compliance;  ///< velocity of a friction (row) at the end by the force of one (column)
+  };
   /// Equal steps, one after the other.
   struct Steps {
     int count = 0;
-    std::vector<LinearStep> halves = {};  ///< one of them, its half, its quarter, ...
+    std::vector<Step> halves = {};  ///< one of them, its half, its quarter, ...
   };
-  [[nodiscard]] const LinearStep& step() const { return (before.count > 0 ? before : after).halves.front(); }
+  [[nodiscard]] const Step& step() const { return (before.count > 0 ? before : after).halves.front(); }
 
   bool with_slopes = false;
   Steps before;                      ///< until the command changes

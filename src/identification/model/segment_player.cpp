@@ -27,6 +27,7 @@ SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Ei
       frictions_(static_cast<Eigen::Index>(device.frictions.size())),
       with_slopes_(device.with_slopes),
       forces_(bodies),
+      rubs_(device.frictions.size()),
       bends_(device.frictions.size()),
       held_(device.frictions.size()),
       ends_(device.frictions.size()) {
@@ -79,7 +80,7 @@ void SegmentPlayer::bend_as_recorded(const ForceMotionRecord& record, std::size_
   constexpr std::size_t reach = 200;
   for (std::size_t i = 0; i < bends_.size(); ++i) {
     const PlayedDevice::Friction& friction = device_.frictions[i];
-    if (!friction.length_number) continue;
+    if (!friction.length_number || friction.bodies.size() > 1) continue;
     double by_length = 0.0;
     for (std::size_t k = sample < reach ? 0 : sample - reach; k < sample; ++k) {
       const double change = record.position[k + 1] - record.position[k];
@@ -95,9 +96,8 @@ void SegmentPlayer::bend_as_recorded(const ForceMotionRecord& record, std::size_
   }
 }
 
-void SegmentPlayer::move(const std::vector<LinearStep>& halves, std::size_t halved, const DriveForce& command,
-                         double share) {
-  const LinearStep& step = halves[halved];
+void SegmentPlayer::move(const std::vector<Step>& halves, std::size_t halved, const DriveForce& command, double share) {
+  const Step& step = halves[halved];
   const Eigen::Index n = x.size();
   before_ = x;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -125,7 +125,7 @@ void SegmentPlayer::move(const std::vector<LinearStep>& halves, std::size_t halv
   if (with_slopes_) end_slopes(command);
 }
 
-void SegmentPlayer::begin_slopes(const LinearStep& step, double command) {
+void SegmentPlayer::begin_slopes(const Step& step, double command) {
   const Eigen::Index n = x.size();
   const Eigen::Index numbers = step.slopes.cols();
   ends_slopes_.setZero();
@@ -177,17 +177,25 @@ void SegmentPlayer::add_force(const PlayedDevice::Force& force, const LawForce& 
   }
 }
 
-double SegmentPlayer::compliance(const LinearStep& step, Eigen::Index on, Eigen::Index of) const {
-  return step.columns(speed_of(on), x.size() + 1 + friction(of).body);
+double SegmentPlayer::speed(const State& of, Eigen::Index i) const {
+  double sum = 0.0;
+  for (const auto& [body, sign] : friction(i).bodies) sum += sign * of(bodies_ + body);
+  return sum;
 }
 
-const double* SegmentPlayer::compliance_slopes(const LinearStep& step, Eigen::Index on, Eigen::Index of) const {
-  return step.slopes.row((x.size() + 1 + friction(of).body) * x.size() + speed_of(on)).data();
+void SegmentPlayer::add_compliance_slopes(double* row, double by, const Step& step, Eigen::Index on,
+                                          Eigen::Index of) const {
+  for (const auto& [moved, with] : friction(on).bodies) {
+    for (const auto& [pushed, sign] : friction(of).bodies) {
+      const Eigen::Index at = (x.size() + 1 + pushed) * x.size() + bodies_ + moved;
+      add_row(row, by * with * sign, step.slopes.row(at).data(), step.slopes.cols());
+    }
+  }
 }
 
-void SegmentPlayer::add_frictions(const LinearStep& step) {
+void SegmentPlayer::add_frictions(const Step& step) {
   const int sweeps = device_.rubbing > 1 ? most_sweeps : 1;
-  forces_.setZero();
+  std::ranges::fill(rubs_, 0.0);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (Eigen::Index i = 0; i < frictions_; ++i) {
       if (rubs(i)) rub(step, i, with_slopes_ && sweep + 1 == sweeps);
@@ -195,6 +203,10 @@ void SegmentPlayer::add_frictions(const LinearStep& step) {
   }
   for (Eigen::Index i = 0; i < frictions_; ++i) {
     if (with_slopes_ && !rubs(i)) rub(step, i, true);  // no force, but one by the limit
+  }
+  forces_.setZero();
+  for (Eigen::Index i = 0; i < frictions_; ++i) {
+    for (const auto& [body, sign] : friction(i).bodies) forces_(body) += sign * rubs_[static_cast<std::size_t>(i)];
   }
 }
 
@@ -204,7 +216,8 @@ bool SegmentPlayer::changes() const {
     if (friction.limit <= 0.0 || friction.length_number) continue;
     const double after = ends_[i].velocity.value;
     const bool was_held = held_[i] != 0;
-    if (was_held != (after == 0.0) || (!was_held && before_(bodies_ + friction.body) * after < 0.0)) return true;
+    const double before = speed(before_, static_cast<Eigen::Index>(i));
+    if (was_held != (after == 0.0) || (!was_held && before * after < 0.0)) return true;
   }
   return false;
 }
@@ -216,12 +229,12 @@ void SegmentPlayer::take_frictions() {
   }
 }
 
-void SegmentPlayer::rub(const LinearStep& step, Eigen::Index i, bool with_slopes) {
-  double free = x(speed_of(i));
+void SegmentPlayer::rub(const Step& step, Eigen::Index i, bool with_slopes) {
+  double free = speed(x, i);
   for (Eigen::Index j = 0; j < frictions_; ++j)
-    free += j == i ? 0.0 : compliance(step, i, j) * forces_(friction(j).body);
-  const double before = before_(speed_of(i));
-  const double own = compliance(step, i, i);
+    free += j == i ? 0.0 : step.compliance(i, j) * rubs_[static_cast<std::size_t>(j)];
+  const double before = speed(before_, i);
+  const double own = step.compliance(i, i);
   const double limit = friction(i).limit;
   if (friction(i).length_number) {
     const double bend = bends_[static_cast<std::size_t>(i)];
@@ -230,16 +243,16 @@ void SegmentPlayer::rub(const LinearStep& step, Eigen::Index i, bool with_slopes
     const FrictionStep sticks = friction_step(before, free, limit, own);
     end(i).velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};
   }
-  if (rubs(i)) forces_(friction(i).body) = (end(i).velocity.value - free) / own;
+  if (rubs(i)) rubs_[static_cast<std::size_t>(i)] = (end(i).velocity.value - free) / own;
 }
 
-void SegmentPlayer::add_friction_slopes(const LinearStep& step) {
+void SegmentPlayer::add_friction_slopes(const Step& step) {
   const Eigen::Index width = ends_slopes_.cols();
   added_slopes_.setZero();
   force_slopes_.setZero();
   for (Eigen::Index i = 0; i < frictions_; ++i) {
     const Eigen::Index column = frictions_at_ + i;
-    const double own = compliance(step, i, i);
+    const double own = step.compliance(i, i);
     const auto add_own = [&](Eigen::Index number, double by) {
       own_slopes_.push_back({number, column, by / own * device_.number_slopes(number)});
     };
@@ -247,36 +260,41 @@ void SegmentPlayer::add_friction_slopes(const LinearStep& step) {
     if (friction(i).bend >= 0) add_own(*friction(i).length_number, end(i).velocity.by_length);
     added_slopes_(i, column) = 1.0;
     if (rubs(i)) add_slopes_of(step, i);
-    if (device_.rubbing == 0)  // none answers
-      ends_slopes_.col(column).head(x.size()) = step.columns.col(x.size() + 1 + friction(i).body);
+    if (device_.rubbing > 0) continue;
+    for (const auto& [body, sign] : friction(i).bodies)  // none answers
+      ends_slopes_.col(column).head(x.size()) += sign * step.columns.col(x.size() + 1 + body);
   }
   if (device_.rubbing == 0) return;
   answer(step);
   for (Eigen::Index i = 0; i < frictions_; ++i) {
     const double* by = answers_.row(i).data();
-    add_rows(&force_slopes_(friction(i).body, 0), by, frictions_, added_slopes_.data(), width, width);
+    for (const auto& [body, sign] : friction(i).bodies) {
+      for (Eigen::Index j = 0; j < frictions_; ++j)
+        add_row(&force_slopes_(body, 0), sign * by[j], &added_slopes_(j, 0), width);
+    }
     if (friction(i).bend >= 0) bend_slopes_of(step, i);
   }
 }
 
-void SegmentPlayer::add_slopes_of(const LinearStep& step, Eigen::Index i) {
-  const Eigen::Index numbers = step.slopes.cols();
+void SegmentPlayer::add_slopes_of(const Step& step, Eigen::Index i) {
   const PreslidingStep::End& velocity = end(i).velocity;
-  const double own = compliance(step, i, i);
+  const double own = step.compliance(i, i);
   double* free = &free_slopes_(i, 0);
   double* added = &added_slopes_(i, 0);
-  std::copy_n(&ends_slopes_(speed_of(i), 0), free_slopes_.cols(), free);
+  free_slopes_.row(i).setZero();
+  for (const auto& [body, sign] : friction(i).bodies)
+    add_row(free, sign, &ends_slopes_(bodies_ + body, 0), free_slopes_.cols());
   for (Eigen::Index j = 0; j < frictions_; ++j) {
-    if (j != i) add_row(free + numbers_at_, forces_(friction(j).body), compliance_slopes(step, i, j), numbers);
+    if (j != i) add_compliance_slopes(free + numbers_at_, rubs_[static_cast<std::size_t>(j)], step, i, j);
   }
   add_row(added, (velocity.by_free - 1.0) / own, free, added_slopes_.cols());
-  added[speed_of(i)] += velocity.by_before / own;
+  for (const auto& [body, sign] : friction(i).bodies) added[bodies_ + body] += sign * velocity.by_before / own;
   if (friction(i).bend >= 0) added[x.size() + friction(i).bend] += velocity.by_bend / own;
-  const double by_compliance = (velocity.by_compliance - forces_(friction(i).body)) / own;
-  add_row(added + numbers_at_, by_compliance, compliance_slopes(step, i, i), numbers);
+  const double by_compliance = (velocity.by_compliance - rubs_[static_cast<std::size_t>(i)]) / own;
+  add_compliance_slopes(added + numbers_at_, by_compliance, step, i, i);
 }
 
-void SegmentPlayer::answer(const LinearStep& step) {
+void SegmentPlayer::answer(const Step& step) {
   const int sweeps = device_.rubbing > 1 ? most_sweeps : 1;
   for (Eigen::Index i = 0; i < frictions_; ++i) {
     answers_.row(i).setZero();
@@ -285,10 +303,10 @@ void SegmentPlayer::answer(const LinearStep& step) {
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (Eigen::Index i = 0; i < frictions_; ++i) {
       if (!rubs(i)) continue;
-      const double by_free = (end(i).velocity.by_free - 1.0) / compliance(step, i, i);
+      const double by_free = (end(i).velocity.by_free - 1.0) / step.compliance(i, i);
       for (Eigen::Index k = 0; k < frictions_; ++k) {
         double heard = 0.0;
-        for (Eigen::Index j = 0; j < frictions_; ++j) heard += j == i ? 0.0 : compliance(step, i, j) * answers_(j, k);
+        for (Eigen::Index j = 0; j < frictions_; ++j) heard += j == i ? 0.0 : step.compliance(i, j) * answers_(j, k);
         heard_(i, k) = heard;
       }
       for (Eigen::Index k = 0; k < frictions_; ++k) answers_(i, k) = (k == i ? 1.0 : 0.0) + by_free * heard_(i, k);
@@ -296,7 +314,7 @@ void SegmentPlayer::answer(const LinearStep& step) {
   }
 }
 
-void SegmentPlayer::bend_slopes_of(const LinearStep& step, Eigen::Index i) {
+void SegmentPlayer::bend_slopes_of(const Step& step, Eigen::Index i) {
   const PreslidingStep::End& bend = end(i).bend;
   const Eigen::Index row = x.size() + friction(i).bend;
   const Eigen::Index width = ends_slopes_.cols();
@@ -304,15 +322,15 @@ void SegmentPlayer::bend_slopes_of(const LinearStep& step, Eigen::Index i) {
   double* own = &ends_slopes_(row, 0);
   add_rows(free, &heard_(i, 0), frictions_, added_slopes_.data(), width, width);
   add_row(own, bend.by_free, free, width);
-  own[speed_of(i)] += bend.by_before;
+  for (const auto& [body, sign] : friction(i).bodies) own[bodies_ + body] += sign * bend.by_before;
   own[row] += bend.by_bend;
-  add_row(own + numbers_at_, bend.by_compliance, compliance_slopes(step, i, i), step.slopes.cols());
+  add_compliance_slopes(own + numbers_at_, bend.by_compliance, step, i, i);
   for (const auto& [number, by] :
        {std::pair(friction(i).number, bend.by_limit), std::pair(*friction(i).length_number, bend.by_length)})
     bend_slopes_.push_back({row, number, by * device_.number_slopes(number)});
 }
 
-void SegmentPlayer::apply(const LinearStep& step) {
+void SegmentPlayer::apply(const Step& step) {
   const Eigen::Index n = x.size();
   const Eigen::Index numbers = step.slopes.cols();
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -30,6 +30,7 @@ class SegmentPlayer {
 
   static constexpr Eigen::Index most_states = 13;
   static constexpr Eigen::Index most_bodies = 6;
+  using Step = PlayedDevice::Step;
   using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_states, 1>;
 
   /// What the drive makes of the command of a sample when `share` of the record is over. A drift of the delay takes the mean
@@ -58,7 +59,7 @@ class SegmentPlayer {
     double slope = 0.0;
   };
 
-  void move(const std::vector<LinearStep>& halves, std::size_t halved, const DriveForce& command, double share);
+  void move(const std::vector<Step>& halves, std::size_t halved, const DriveForce& command, double share);
   /// Whether a friction holds its body at the step's end where it did not before, or the other way round, or turns it.
   [[nodiscard]] bool changes() const;
   void take_frictions();
@@ -68,23 +69,23 @@ class SegmentPlayer {
   }
   [[nodiscard]] PreslidingStep& end(Eigen::Index friction) { return ends_[static_cast<std::size_t>(friction)]; }
   [[nodiscard]] bool rubs(Eigen::Index i) const { return friction(i).limit > 0.0; }
-  [[nodiscard]] Eigen::Index speed_of(Eigen::Index i) const { return bodies_ + friction(i).body; }
-  /// How the velocity of a friction's body grows with the force of another friction, and the slopes of that.
-  [[nodiscard]] double compliance(const LinearStep& step, Eigen::Index on, Eigen::Index of) const;
-  [[nodiscard]] const double* compliance_slopes(const LinearStep& step, Eigen::Index on, Eigen::Index of) const;
+  /// Of what a friction slides on.
+  [[nodiscard]] double speed(const State& of, Eigen::Index i) const;
+  /// row += by * the slopes of the step's compliance.
+  void add_compliance_slopes(double* row, double by, const Step& step, Eigen::Index on, Eigen::Index of) const;
 
-  void begin_slopes(const LinearStep& step, double command);
+  void begin_slopes(const Step& step, double command);
   void add_forces(double share);
   void add_force(const PlayedDevice::Force& force, const LawForce& now);
-  void add_frictions(const LinearStep& step);
-  void rub(const LinearStep& step, Eigen::Index i, bool with_slopes);
-  void add_friction_slopes(const LinearStep& step);
-  void add_slopes_of(const LinearStep& step, Eigen::Index i);
+  void add_frictions(const Step& step);
+  void rub(const Step& step, Eigen::Index i, bool with_slopes);
+  void add_friction_slopes(const Step& step);
+  void add_slopes_of(const Step& step, Eigen::Index i);
   /// How each friction answers the others' slopes, in sweeps as it answers their forces.
-  void answer(const LinearStep& step);
-  void bend_slopes_of(const LinearStep& step, Eigen::Index i);
+  void answer(const Step& step);
+  void bend_slopes_of(const Step& step, Eigen::Index i);
   /// The part's end by the forces on the bodies so far.
-  void apply(const LinearStep& step);
+  void apply(const Step& step);
   void end_slopes(const DriveForce& command);
 
   const PlayedDevice& device_;
@@ -93,6 +94,7 @@ class SegmentPlayer {
   bool with_slopes_;
   State before_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_bodies, 1> forces_;
+  std::vector<double> rubs_;          ///< N or N m, of frictions
   std::vector<double> bends_;         ///< of frictions
   std::vector<char> held_;            ///< whether a friction holds its body
   std::vector<PreslidingStep> ends_;  ///< of frictions
@@ -104,10 +106,10 @@ class SegmentPlayer {
   Eigen::Index numbers_at_ = 0;
   Rows ends_slopes_;   ///< of state and bends
   Rows force_slopes_;  ///< of the forces on the bodies
-  Rows free_slopes_;   ///< of each friction's body's velocity without it
+  Rows free_slopes_;   ///< of each friction's velocity without it
   Rows added_slopes_;  ///< of each friction while all others stay
   Rows answers_;       ///< of each friction, by those in `added_slopes_`
-  Rows heard_;         ///< of each friction's body's velocity without it, by them
+  Rows heard_;         ///< of each friction's velocity without it, by them
   Rows gradients_;     ///< of the forces on the bodies, by the state
   std::vector<OwnSlope> own_slopes_;
   std::vector<BendSlope> bend_slopes_;

@@ -100,7 +100,7 @@ Finding contradicted(const GivenDelay& delay) {
 
 std::optional<Finding> shown_rival(const RivalEstimate& rival, const VerdictInput& fit) {
   constexpr double significant = 3.0;
-  const bool is_friction = rival.code == "coulomb_friction";
+  const bool is_friction = rival.code == "coulomb_friction" || rival.code == "link_friction";
   if (!is_friction && rival.code != "constant_force") return std::nullopt;
   if (!rival.standard_deviation || !(std::abs(rival.value) > significant * *rival.standard_deviation))
     return std::nullopt;
@@ -109,6 +109,10 @@ std::optional<Finding> shown_rival(const RivalEstimate& rival, const VerdictInpu
                 .subjects = {{"unit", rival.unit}}};
   if (const auto body = body_of_friction(rival.parameter)) {
     found.subjects.push_back({"body", *body});
+    return found;
+  }
+  if (const auto link = link_of_friction(rival.parameter)) {
+    found.subjects.push_back({"link", *link});
     return found;
   }
   for (std::size_t record = 0; record < fit.records.size(); ++record) {

@@ -27,9 +27,10 @@ std::vector<AddedRival> add_each(const RivalSetting& setting, ModelParts& parts,
 }  // namespace
 
 std::span<const Rival> rivals() {
-  static const std::array all = {constant_force(),    coulomb_friction(), presliding(),     drag(),
-                                 damping_drift(),     delay_drift(),      actuator_lag(),   ground_spring(),
-                                 stiffening_spring(), drive_saturation(), drive_dead_band()};
+  static const std::array all = {
+      constant_force(), coulomb_friction(), presliding(),   link_friction(), link_presliding(),   drag(),
+      damping_drift(),  delay_drift(),      actuator_lag(), ground_spring(), stiffening_spring(), drive_saturation(),
+      drive_dead_band()};
   return all;
 }
 

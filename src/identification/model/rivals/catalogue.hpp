@@ -14,6 +14,8 @@ namespace zwidth::internal {
 [[nodiscard]] Rival constant_force();
 [[nodiscard]] Rival coulomb_friction();
 [[nodiscard]] Rival presliding();
+[[nodiscard]] Rival link_friction();
+[[nodiscard]] Rival link_presliding();
 [[nodiscard]] Rival drag();
 [[nodiscard]] Rival damping_drift();
 [[nodiscard]] Rival delay_drift();

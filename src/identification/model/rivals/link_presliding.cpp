@@ -1,0 +1,29 @@
+#include "identification/model/number_keys.hpp"
+#include "identification/model/rivals/catalogue.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+// Of the link's stretch by the rms force: friction of 1 % on a contact ten times softer than the link. A logarithm: a search
+// from no friction would end at no length, where friction sticks and hardly explains what it does.
+constexpr double typical_link_length = 0.1;
+constexpr double link_length_deviation = 1.5;
+
+/// The way on which a link's dry friction bends before it slides (presliding_step()): each has its own.
+void add_link_presliding(const RivalSetting& setting, ModelParts& parts) {
+  for (std::size_t i = 0; i < setting.device.links.size(); ++i) {
+    const double stiffness = setting.device.links[i].stiffness;
+    for (FrictionTerm& friction : parts.terms.frictions) {
+      if (friction.number != link_friction_key(i) || stiffness <= 0.0) continue;
+      friction.presliding_length =
+          parts.add({link_presliding_key(i), Number::Scale::logarithmic,
+                     typical_link_length * setting.rms_force / stiffness, 0.0, link_length_deviation});
+    }
+  }
+}
+
+}  // namespace
+
+Rival link_presliding() { return {"link_presliding", add_link_presliding, RivalMeasure::length}; }
+
+}  // namespace zwidth::internal
