@@ -55,6 +55,7 @@ Json state_json(const std::optional<NotchState>& state) {
           {"critical_frequency_rad_s", frequency_of(critical.limit)},
           {"limited_by", oscillator_of(critical.limit)},
           {"any_user_stiffness", stiffness_of(state->analysis.any_user)},
+          {"limits", state->analysis.limits},
           {"wall", state->analysis.wall}};
 }
 

@@ -2,7 +2,6 @@
 
 #include "results/drive_damper_json.hpp"
 #include "results/units.hpp"
-#include "zwidth/stability/analysis.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
@@ -11,7 +10,7 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
   Json json = document("zwidth.design_target/1");
   json["device"] = device.name();
   json["units"] = wall_units(device.parameters().motion);
-  json["limits"] = holding_limits(device);
+  json["limits"] = targets.limits;
   const bool any_user = options.goal == StiffnessGoal::absolute_stability_limit;
   const bool is_damper = options.limit_of == WallNumber::damping;
   json["goal"] = is_damper ? (any_user ? "any_user_damping" : "critical_damping")

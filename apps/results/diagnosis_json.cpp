@@ -4,7 +4,6 @@
 
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
-#include "zwidth/stability/analysis.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
@@ -47,7 +46,7 @@ Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   Json json = document("zwidth.diagnosis/1");
   json["device"] = device.name();
   json["units"] = wall_units(device.parameters().motion);
-  json["limits"] = holding_limits(device);
+  json["limits"] = diagnosis.limits;
   json["oscillates_rad_s"] = diagnosis.frequency;
   json["oscillates_hz"] = hertz(diagnosis.frequency);
   json["amplitude"] = diagnosis.amplitude;

@@ -7,7 +7,6 @@
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
-#include "zwidth/stability/analysis.hpp"
 
 namespace zwidth::results {
 
@@ -106,7 +105,7 @@ Json region_json(const Device& device, const WallRegion& walls) {
   Json json = document("zwidth.region/1");
   json["device"] = parameters.name;
   json["units"] = wall_units(parameters.motion);
-  json["limits"] = holding_limits(device, {.any_user = walls.any_user.has_value()});
+  json["limits"] = walls.limits;
   json["velocity_filter_hz"] = parameters.wall.velocity_filter_hz;
   json["wall_filters"] = wall_filters_json(parameters.wall, parameters.loop.sampling_period);
   json["status"] = walls.status;

@@ -5,7 +5,6 @@
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
-#include "zwidth/stability/analysis.hpp"
 #include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::results {
@@ -45,7 +44,7 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
   Json json = document("zwidth.wall_recommendation/1");
   json["device"] = device.name();
   json["units"] = wall_units(device.parameters().motion);
-  json["limits"] = holding_limits(device);
+  json["limits"] = recommendation.limits;
   json["goal"] = options.goal;
   json["asked"] = {{"gain_margin_db", decibels(options.gain_margin)},
                    {"phase_margin_rad", options.phase_margin},

@@ -12,6 +12,7 @@
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -54,6 +55,7 @@ struct DesignTargets {
   /// but an addition to it. Absent as with_damper_on_drive(), for WallNumber::damping, and where no finite limit is
   /// found.
   std::optional<DriveDamper> drive_damper = {};
+  HoldingLimits limits;         ///< of the device as it is; NaN where refused
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };

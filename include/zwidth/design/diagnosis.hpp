@@ -12,6 +12,7 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/signal/recording.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -122,6 +123,7 @@ struct Diagnosis {
   std::optional<double> absolute_stability_limit_now;  ///< of the device as it is; absent as the limit then
   /// What moves the nearest cause, by falling limit, then what lowers absolute_stability_limit_now; none where there is no such cause.
   std::vector<DiagnosisChange> changes;
+  HoldingLimits limits;         ///< of the device as its file has it; NaN where refused
   Trust trust;                  ///< where refused, nothing else is held
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };

@@ -15,6 +15,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/force_per_count.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -65,10 +66,11 @@ struct WallRegion {
   std::optional<AbsoluteStabilityRegion> any_user;
   std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for
   std::optional<ForcePerCountRates> force_per_count;  ///< of any wall here; absent without an encoder resolution
-  std::vector<Mode> modes;                            ///< vibration modes, that BoundaryPoint::limited_by numbers
-  std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
-  Trust trust;                                        ///< the device's, and what the check of the walls found
-  std::vector<Remark> remarks;                        ///< how the walls were checked, what was left out
+  HoldingLimits limits;                      ///< on K at the device's own damper; any user where he is asked for
+  std::vector<Mode> modes;                   ///< vibration modes, that BoundaryPoint::limited_by numbers
+  std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
+  Trust trust;                               ///< the device's, and what the check of the walls found
+  std::vector<Remark> remarks;               ///< how the walls were checked, what was left out
 };
 
 /// The region of a device, with the velocity filter and the filters of its wall: the entry point.

@@ -13,6 +13,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/force_per_count.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/stability/wall_margins.hpp"
 #include "zwidth/trust.hpp"
 
@@ -120,6 +121,7 @@ struct WallRecommendation {
   /// The wall with the damper on the drive, which keeps the same margins: K, B and gain by `wall`. Where it is asked for with
   /// the goals stiffness and width; absent as with_damper_on_drive(), and where no wall with such a damper is found.
   std::optional<DriveDamper> drive_damper = {};
+  HoldingLimits limits;         ///< of the device with its own damper and filters; NaN where refused
   Trust trust;                  ///< of the whole answer
   std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };

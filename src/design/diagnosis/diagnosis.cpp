@@ -26,6 +26,7 @@
 #include "zwidth/model/tip_motion.hpp"
 #include "zwidth/require_valid.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
+#include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -246,6 +247,8 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
   ObservedLoop loop = observed(device, options);
   loop.progress = stages.stage();
   stages.next(0.05);
+  diagnosis.limits = holding_limits(device, {.progress = stages.stage()});
+  stages.next(0.1);
   diagnosis.stiffness = loop.stiffness;
   diagnosis.damping = loop.device.parameters().wall.damping;
   diagnosis.limit_of = loop.number;

@@ -26,7 +26,9 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double walls_share = 0.2;  // of the progress; the rest is of the users
+// Of the progress, what is done after the limits and after the walls; the rest is of the users.
+constexpr double limits_share = 0.05;
+constexpr double walls_share = 0.2;
 
 std::vector<ComparedApproximation> compared(const Device& device, const WallRegion& walls) {
   std::vector<ComparedApproximation> result;
@@ -145,6 +147,8 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   result.trust = trust_of(device);
   if (result.trust.refused()) return result;
   try {
+    stages.next(limits_share);
+    result.limits = holding_limits(device, {.any_user = asks_any_user(device, options), .progress = stages.stage()});
     stages.next(asks_any_user(device, options) ? walls_share : 0.95);
     const bool is_held = device_has_user(device);
     StagedProgress holders(stages.stage());

@@ -311,6 +311,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   });
   SharedProgress progress(options.progress, parameters.size());
   const Progress while_judging = [&progress](double) { progress.go_on(); };
+  result.limits = holding_limits(device, {.progress = while_judging});
   const AbsoluteStabilityCheck users(device, options.limit_of, while_judging);
   result.absolute_stability_limit_now = users.now();
   if (can_be_held(device)) {

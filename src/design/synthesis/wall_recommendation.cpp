@@ -8,6 +8,7 @@
 #include "design/synthesis/damper_limits.hpp"
 #include "design/synthesis/described_wall.hpp"
 #include "design/synthesis/notch_search.hpp"
+#include "design/synthesis/recommended_wall.hpp"
 #include "design/synthesis/two_rate_recommendation.hpp"
 #include "design/synthesis/wall_check.hpp"
 #include "design/synthesis/wall_limits.hpp"
@@ -355,7 +356,7 @@ WallRecommendation refused(Trust trust) {
 
 }  // namespace
 
-WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
+WallRecommendation internal::recommended_wall(const Device& device, const RecommendationOptions& options) {
   require_known_structure(device);
   if (!knows_all_users(device)) require_one_rate(device);
   require_valid(find_problem(options, device));
@@ -373,6 +374,19 @@ WallRecommendation recommend_wall(const Device& device, const RecommendationOpti
     trust.refuse({.code = FindingCode::not_converged, .subjects = {{"reason", error.what()}}});
     return refused(std::move(trust));
   }
+}
+
+WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
+  constexpr double wall_share = 0.9;  // of the progress
+  StagedProgress stages(options.progress);
+  stages.next(wall_share);
+  RecommendationOptions staged = options;
+  staged.progress = stages.stage();
+  WallRecommendation result = internal::recommended_wall(device, staged);
+  stages.next(1.0);
+  if (!result.trust.refused()) result.limits = holding_limits(device, {.progress = stages.stage()});
+  stages.done();
+  return result;
 }
 
 }  // namespace zwidth

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "counted.hpp"
+#include "design/synthesis/recommended_wall.hpp"
 #include "design/synthesis/wall_limits.hpp"
 #include "infinity.hpp"
 #include "model/known_structure.hpp"
@@ -119,7 +120,7 @@ void add_damper(const Device& device, const Analysis& analysis, const Progress& 
 }
 
 void add_margins(const Device& device, const Progress& progress, WallSummary& summary) {
-  WallRecommendation recommendation = recommend_wall(device, {.alternatives = false, .progress = progress});
+  WallRecommendation recommendation = recommended_wall(device, {.alternatives = false, .progress = progress});
   if (recommendation.wall) {
     summary.with_margins = std::move(recommendation.wall);
   } else if (recommendation.trust.refused()) {
