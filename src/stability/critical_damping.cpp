@@ -1,5 +1,6 @@
 #include "zwidth/stability/critical_damping.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "stability/users/absolute_stability_search.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/damper_timing.hpp"
+#include "zwidth/model/device_key.hpp"
 #include "zwidth/model/device_trust.hpp"
 
 namespace zwidth {
@@ -53,14 +55,16 @@ int outside_above(const CriticalDamping& result, double damping) {
   return outside;
 }
 
-/// The second route beside a finite limit.
+/// The second route beside a finite limit: not above it where no file may state so much.
 void confirm(const Device& device, CriticalDamping& result) {
   if (result.status != StiffnessStatus::finite) return;
   const double above = result.damping * (1.0 + closeness);
   const std::pair<double, bool> claims[] = {{0.5 * result.damping, true},
                                             {result.damping * (1.0 - closeness), true},
                                             {above, outside_above(result, above) == 0}};
-  for (const auto& [damping, stable] : claims) {
+  for (const auto& [claimed, stable] : claims) {
+    const double damping = std::min(claimed, positive_numbers.greatest);
+    if (claimed > result.damping && damping <= result.damping) continue;
     const Device damped = with_damping(device, damping);
     distrust(agreement(PoleCount(damped), weak_spring(damped), stable), damping, result.trust);
     if (result.trust.refused()) return;
