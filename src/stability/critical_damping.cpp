@@ -1,6 +1,5 @@
 #include "zwidth/stability/critical_damping.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -55,16 +54,15 @@ int outside_above(const CriticalDamping& result, double damping) {
   return outside;
 }
 
-/// The second route beside a finite limit: not above it where no file may state so much.
+/// The second route beside a finite limit, of dampers that a device may have.
 void confirm(const Device& device, CriticalDamping& result) {
   if (result.status != StiffnessStatus::finite) return;
   const double above = result.damping * (1.0 + closeness);
   const std::pair<double, bool> claims[] = {{0.5 * result.damping, true},
                                             {result.damping * (1.0 - closeness), true},
                                             {above, outside_above(result, above) == 0}};
-  for (const auto& [claimed, stable] : claims) {
-    const double damping = std::min(claimed, positive_numbers.greatest);
-    if (claimed > result.damping && damping <= result.damping) continue;
+  for (const auto& [damping, stable] : claims) {
+    if (!positive_numbers.contains(damping)) continue;
     const Device damped = with_damping(device, damping);
     distrust(agreement(PoleCount(damped), weak_spring(damped), stable), damping, result.trust);
     if (result.trust.refused()) return;
