@@ -87,14 +87,14 @@ export const directionWord = (direction: number[]): string =>
   `(${direction.map((each) => say(Math.round(each * 1e3) / 1e3 + 0, '').replace('-', '−')).join(', ')})`
 
 /** A wall is one of these, in texts, page and figures. */
-export type WallWord = 'stable for anyone' | 'stable alone only' | 'stable alone; any user not known' | 'unstable'
+export type WallWord = 'stable for anyone' | 'stable alone only' | 'stable alone; any passive user not known' | 'unstable'
 
 /** The verdict on a wall: a person always lets go. */
 export const wallWord = ({
   stable,
   stable_for: { any_user: anyUser },
 }: Pick<NonNullable<Analysis['wall']>, 'stable' | 'stable_for'>): WallWord =>
-  !stable ? 'unstable' : anyUser === null ? 'stable alone; any user not known' : anyUser ? 'stable for anyone' : 'stable alone only'
+  !stable ? 'unstable' : anyUser === null ? 'stable alone; any passive user not known' : anyUser ? 'stable for anyone' : 'stable alone only'
 
 /** That verdict as a figure colours it. */
 export const verdictLook = (wall: Pick<NonNullable<Analysis['wall']>, 'stable' | 'stable_for'>): string =>

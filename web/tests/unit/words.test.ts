@@ -39,7 +39,7 @@ describe('words', () => {
       wallWord({ stable, stable_for: { nobody: stable, user: null, any_user: anyUser } })
     expect(word(true, true)).toBe('stable for anyone')
     expect(word(true, false)).toBe('stable alone only')
-    expect(word(true, null)).toBe('stable alone; any user not known')
+    expect(word(true, null)).toBe('stable alone; any passive user not known')
     expect(word(false, null)).toBe('unstable')
   })
 
