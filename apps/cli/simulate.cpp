@@ -21,6 +21,7 @@
 #include "report/figure/figures.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_json.hpp"
+#include "results/trajectory_envelope.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
@@ -42,6 +43,7 @@ struct SimulateArguments {
   double divergence = 1e3;
   std::size_t every = 1;
   bool points = false;  // of the motion, in the JSON document
+  std::size_t envelope = most_points_in_json;
   OutputArguments output{.figure_option = "--figure"};
 };
 
@@ -91,7 +93,7 @@ void run_simulate(const SimulateArguments& arguments) {
   outputs.keep(arguments.motion.user_force, "recording");
   const Device device = read_devices(arguments.device).front();
   const std::string& file = arguments.device.files.front();
-  const Simulation result = worked(file, [&] {
+  Simulation result = worked(file, [&] {
     const SimulationOptions options = options_of(arguments, device);
     ProgressLine line(*arguments.device.command, "simulating " + file);
     return simulate(device, options, line.progress());
@@ -101,6 +103,7 @@ void run_simulate(const SimulateArguments& arguments) {
                [&](report::FigureFormat format) { return report::draw_simulation_figure(device, result, format); });
   outputs.commit();
   if (arguments.output.json) {
+    result.trajectory = results::envelope_of(result.trajectory, arguments.envelope);
     const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
     outputs.print(results::line(results::simulation_json(device, result, points)));
   } else {
@@ -160,6 +163,12 @@ void add_simulate(CLI::App& app) {
       ->check(CLI::Range(1, 1000000000));
   command->add_flag("--points", arguments->points, "With --json: the motion too, thinned to 20000 points")
       ->needs("--json");
+  command
+      ->add_option("--envelope", arguments->envelope,
+                   "With --points: so many at most, those with the peaks between them,\nfor a picture")
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{100}, most_points_in_json))
+      ->needs("--points");
   add_motion_arguments(*command, arguments->motion);
   add_fault_options(*command, *arguments);
   command->footer(
