@@ -1,5 +1,5 @@
 include(CMakePackageConfigHelpers)
-install(TARGETS zwidth EXPORT zwidth_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+install(TARGETS zwidth zwidth_core EXPORT zwidth_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/zwidth DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT zwidth_targets NAMESPACE zwidth:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/zwidth)

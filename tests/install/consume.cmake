@@ -47,6 +47,21 @@ run_example("5776\\.09" ${work_dir}/examples/analyse devices/lhifam.toml)
 run_example("after 2 s" ${work_dir}/examples/control_loop)
 run_example("least limit of 1000 cables" ${work_dir}/examples/many_devices devices/lhifam.toml)
 
+# zwidth::core, in a project that knows nothing else: few shared libraries beside those of C and C++.
+file(WRITE ${work_dir}/core/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(core LANGUAGES CXX)\n"
+  "find_package(zwidth REQUIRED COMPONENTS core)\nadd_executable(knob ${source_dir}/examples/cpp/device_in_code.cpp)\n"
+  "target_link_libraries(knob PRIVATE zwidth::core)\n")
+run(${CMAKE_COMMAND} -S ${work_dir}/core -B ${work_dir}/core/build ${settings})
+run(${CMAKE_COMMAND} --build ${work_dir}/core/build)
+run_example("wall to render: K = " ${work_dir}/core/build/knob)
+execute_process(COMMAND ldd ${work_dir}/core/build/knob OUTPUT_VARIABLE loaded COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "lib[a-z+_-]+[0-9.-]*\\.so" loaded "${loaded}")
+list(FILTER loaded EXCLUDE REGEX "lib(c|m|stdc\\+\\+|gcc_s)\\.so")
+list(LENGTH loaded count)
+if(count GREATER 7 AND NOT flags MATCHES sanitize)
+  message(FATAL_ERROR "a program of zwidth::core loads ${loaded}")
+endif()
+
 # The C++ snippet of docs/examples.md.
 file(READ ${source_dir}/docs/examples.md page)
 if(NOT page MATCHES "\n```cpp\n([^`]*)\n```")

@@ -221,7 +221,7 @@ def included_by(path, include, seen):
 
 
 def headers(root):
-    """zwidth.hpp has every public header; each includes what it names of the standard library and of Eigen (the build compiles each
+    """zwidth.hpp, with core.hpp, has every public header; each includes what it names of the standard library and of Eigen (the build compiles each
     alone, but with their headers compiled before)."""
     include = root / "include"
     for path in files(root, "include"):
@@ -234,7 +234,7 @@ def headers(root):
                     yield path, number, f"std::{name} is not in the table STANDARD of check_rules.py"
                 elif STANDARD[name] not in included:
                     yield path, number, f"std::{name} without <{STANDARD[name]}>"
-    all_of_them = (include / "zwidth/zwidth.hpp").read_text(encoding="utf-8")
+    all_of_them = "".join((include / "zwidth" / name).read_text(encoding="utf-8") for name in ("zwidth.hpp", "core.hpp"))
     for path in files(root, "include"):
         if path.name != "zwidth.hpp" and f'#include "{path.relative_to(include).as_posix()}"' not in all_of_them:
             yield path, 1, "zwidth.hpp lacks it"
