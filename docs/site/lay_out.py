@@ -18,10 +18,10 @@ import cpp_pages
 
 def link_documents(root, tree):
     """Pages as links to themselves; the rest of the project, which pages refer to, as files to download."""
-    for path in [*root.glob("*.md"), root / "LICENSE", *(root / "docs").rglob("*")]:
+    for path in [*root.glob("*.md"), root / "LICENSE", root / "CITATION.cff", *(root / "docs").rglob("*")]:
         if path.is_file() and "site" not in path.relative_to(root).parts:
             link(path, tree / path.relative_to(root))
-    for name in ("devices", "examples", "recordings", "include", "packaging"):
+    for name in ("devices", "examples", "firmware", "recordings", "include", "packaging"):
         for path in (root / name).rglob("*"):
             if path.is_file() and path.suffix != ".rst":
                 link(path, tree / path.relative_to(root))
