@@ -17,6 +17,7 @@ int main() {
   std::printf("2 ms late: %.4g N m/rad\n", zwidth::holding_limits(later).any_user->critical_stiffness);
   const zwidth::WallRecommendation found = zwidth::recommend_wall(device);
   if (!found.wall) return 1;
-  std::printf("wall to render: K = %.4g N m/rad, B = %.4g N m s/rad\n", *found.wall->wall.stiffness, found.wall->wall.damping);
+  std::printf("wall to render: K = %.4g N m/rad, B = %.4g N m s/rad\n", *found.wall->wall.stiffness,
+              found.wall->wall.damping);
   return found.trust.sound() ? 0 : 1;
 }

@@ -4,9 +4,66 @@
 #include <cmath>
 #include <utility>
 
+#include "identification/model/linear_step.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 
 namespace zwidth::internal {
+namespace {
+
+/// The device whose bodies move.
+Device recorded_device(const DeviceParameters& device, const std::vector<std::string>& locked) {
+  DeviceParameters parameters = device;
+  parameters.uncertainty.reset();
+  const Device all(std::move(parameters));
+  std::vector<std::size_t> still;
+  for (const std::string& name : locked) still.push_back(all.body_index(name));
+  return locked_device(all, still);
+}
+
+/// A row per link: its speed by the motion's state; zeros where one of its bodies stands still.
+Eigen::MatrixXd speeds_of_links(const DeviceParameters& device, const Device& moving, Eigen::Index states) {
+  const auto links = static_cast<Eigen::Index>(device.links.size());
+  const auto bodies = static_cast<Eigen::Index>(moving.bodies().size());
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(links, states);
+  for (Eigen::Index i = 0; i < links; ++i) {
+    const Link& link = device.links[static_cast<std::size_t>(i)];
+    for (const auto& [body, sign] : {std::pair(link.second, 1.0), std::pair(link.first, -1.0)}) {
+      const auto at = std::ranges::find(moving.bodies(), device.bodies[body].name, &Body::name);
+      if (at != moving.bodies().end()) rows(i, bodies + (at - moving.bodies().begin())) = sign;
+    }
+    if (rows.row(i).sum() != 0.0) rows.row(i).setZero();
+  }
+  return rows;
+}
+
+std::vector<double> link_strokes(const DeviceParameters& device, const Device& moving,
+                                 std::span<const ForceMotionRecord> records) {
+  const Eigen::MatrixXd columns = motion_columns(moving);
+  const Eigen::Index states = columns.rows();
+  const Eigen::MatrixXd of_state = speeds_of_links(device, moving, states);
+  Eigen::ArrayXd speeds = Eigen::ArrayXd::Zero(of_state.rows());
+  Eigen::ArrayXd accelerations = speeds;
+  double samples = 0.0;
+  for (const ForceMotionRecord& record : records) {
+    const LinearStep step = linear_step(columns, {}, record.sampling_period);
+    Eigen::VectorXd state = Eigen::VectorXd::Zero(states);
+    Eigen::ArrayXd before = Eigen::ArrayXd::Zero(of_state.rows());
+    for (const double force : record.force) {
+      state = (step.columns.leftCols(states) * state + step.columns.col(states) * force).eval();
+      const Eigen::ArrayXd now = of_state * state;
+      speeds += now.square();
+      accelerations += ((now - before) / step.length).square();
+      before = now;
+    }
+    samples += static_cast<double>(record.force.size());
+  }
+  std::vector<double> strokes;
+  for (Eigen::Index i = 0; i < of_state.rows(); ++i)
+    strokes.push_back(accelerations(i) > 0.0 ? speeds(i) / std::sqrt(accelerations(i) * samples) : 0.0);
+  return strokes;
+}
+
+}  // namespace
 
 RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std::string>& locked,
                            std::span<const ForceMotionRecord> records) {
@@ -34,6 +91,7 @@ RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std
     setting.duration = std::max(setting.duration, static_cast<double>(count) * record.sampling_period);
     setting.sampling_period = record.sampling_period;
   }
+  if (!device.links.empty()) setting.link_strokes = link_strokes(device, recorded_device(device, locked), records);
   return setting;
 }
 
@@ -45,13 +103,8 @@ double typical_damping(const RivalSetting& setting) {
 }
 
 std::vector<std::string> moving_bodies_of(const RivalSetting& setting) {
-  DeviceParameters parameters = setting.device;
-  parameters.uncertainty.reset();
-  const Device device(std::move(parameters));
-  std::vector<std::size_t> still;
-  for (const std::string& name : setting.locked) still.push_back(device.body_index(name));
   std::vector<std::string> names;
-  const Device recorded = locked_device(device, still);
+  const Device recorded = recorded_device(setting.device, setting.locked);
   for (const Body& body : recorded.bodies()) names.push_back(body.name);
   return names;
 }

@@ -28,6 +28,9 @@ struct RivalSetting {
   double sampling_period = 0.0;     ///< s
   std::size_t records = 1;
   bool frees_lag = false;  ///< a lag may hide beside the delay
+  /// m or rad, of each link whose bodies move, else 0: how far it stretches from one turn to the next, v^2/a of its rms speed and
+  /// acceleration, in the linear device under the recorded force.
+  std::vector<double> link_strokes = {};
 };
 
 /// Of records of such a device. Speeds are differences over 5 periods, which an encoder's steps hardly touch.
