@@ -5,7 +5,7 @@ if(BUILD_SHARED_LIBS)
   target_link_libraries(zwidth_core INTERFACE zwidth)
 else()
   set(beyond_core "identification|io|mechanism|rig|simulation|study|workspace")
-  add_library(zwidth_core STATIC "$<FILTER:$<TARGET_OBJECTS:zwidth>,EXCLUDE,/(src/|unity_)(${beyond_core})[/_]>")
+  add_library(zwidth_core STATIC "$<FILTER:$<TARGET_OBJECTS:zwidth>,EXCLUDE,zwidth.dir/(src/|Unity/unity_)(${beyond_core})[/_]>")
   set_target_properties(zwidth_core PROPERTIES LINKER_LANGUAGE CXX)
   target_compile_features(zwidth_core INTERFACE cxx_std_20)
   target_include_directories(zwidth_core INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

@@ -43,7 +43,7 @@ struct SimulateArguments {
   double divergence = 1e3;
   std::size_t every = 1;
   bool points = false;  // of the motion, in the JSON document
-  std::size_t envelope = most_points_in_json;
+  std::optional<std::size_t> envelope;
   OutputArguments output{.figure_option = "--figure"};
 };
 
@@ -80,7 +80,8 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   const bool has_figure = !arguments.output.figure.empty();
   const bool has_table = !arguments.output.csv.empty();
   options.keep_every = has_table || has_figure || arguments.points ? arguments.every : 0;
-  if (!has_table) options.keep_at_most = arguments.points ? most_points_in_json : most_drawn_points;
+  const bool is_thinned_evenly = arguments.points && !arguments.envelope;
+  if (!has_table) options.keep_at_most = is_thinned_evenly ? most_points_in_json : most_drawn_points;
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_simulation);
   check_samples(*arguments.device.command, "--duration",
                 options.duration.value_or(0.0) / device.loop().sampling_period);
@@ -103,7 +104,7 @@ void run_simulate(const SimulateArguments& arguments) {
                [&](report::FigureFormat format) { return report::draw_simulation_figure(device, result, format); });
   outputs.commit();
   if (arguments.output.json) {
-    result.trajectory = results::envelope_of(result.trajectory, arguments.envelope);
+    if (arguments.envelope) result.trajectory = results::envelope_of(result.trajectory, *arguments.envelope);
     const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
     outputs.print(results::line(results::simulation_json(device, result, points)));
   } else {

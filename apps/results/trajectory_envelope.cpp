@@ -28,7 +28,7 @@ Trajectory envelope_of(const Trajectory& motion, std::size_t most) {
   if (count <= most) return motion;
   std::vector<const Signal*> drawn = {&motion.measured, &motion.command};
   for (const Signal& each : motion.position) drawn.push_back(&each);
-  const std::size_t windows = std::max<std::size_t>(1, most / (1 + 2 * drawn.size()));
+  const std::size_t windows = std::max<std::size_t>(1, (most - 1) / (1 + 2 * drawn.size()));
   std::vector<std::size_t> places;
   for (std::size_t window = 0; window < windows; ++window) {
     const std::size_t begin = window * count / windows;
@@ -39,6 +39,8 @@ Trajectory envelope_of(const Trajectory& motion, std::size_t most) {
       const auto [least, largest] = std::minmax_element(first, first + length);
       for (const auto& each : {least, largest}) here.push_back(static_cast<std::size_t>(each - signal->begin()));
     }
+
+    if (window + 1 == windows) here.push_back(count - 1);
     std::ranges::sort(here);
     places.insert(places.end(), here.begin(), std::ranges::unique(here).begin());
   }

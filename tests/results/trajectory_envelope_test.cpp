@@ -34,6 +34,7 @@ TEST(TrajectoryEnvelope, KeepsPeaksAndWhatBelongsTogether) {
   EXPECT_EQ(*std::ranges::min_element(kept.command), -9.0);
   EXPECT_TRUE(std::ranges::is_sorted(kept.time));
   EXPECT_EQ(kept.time.front(), 0.0);
+  EXPECT_EQ(kept.time.back(), all.time.back());
   for (std::size_t i = 0; i < kept.time.size(); ++i) {
     EXPECT_EQ(kept.user_force[i], 0.5 * kept.time[i]);
     EXPECT_EQ(kept.position[0][i], std::sin(kept.time[i]));
