@@ -176,6 +176,26 @@ TEST(Rivals, PriorsAreOfTheRecord) {
   EXPECT_DOUBLE_EQ(sigma("dead_band"), 0.05 * setting.rms_force);
 }
 
+/// Of a link that is a damper: of its static stretch it would be 2e5 m.
+TEST(Rivals, PreslidingOfALinkIsOfItsStretchFromTurnToTurn) {
+  constexpr double pulse = 60.0;  // rad/s
+  DeviceParameters device = motor_and_handle();
+  device.bodies = {{"motor", 0.2, 1e-3}, {"handle", 0.1, 1e-3}};
+  device.links = {{0, 1, 1e-6, 3.0}};
+  std::vector<double> force;
+  for (std::size_t k = 0; k < 8000; ++k)
+    force.push_back(2.0 * std::sin(pulse * rivals_period * static_cast<double>(k)));
+  const std::vector<ForceMotionRecord> records = {{force, force, rivals_period}};
+  const RivalSetting setting = rival_setting(device, {}, records);
+  const double speed = 2.0 / 0.2 / std::hypot(pulse, 3.0 * (1.0 / 0.2 + 1.0 / 0.1));  // of the stretch, amplitude
+  ASSERT_EQ(setting.link_strokes.size(), 1U);
+  EXPECT_NEAR(setting.link_strokes[0], speed / pulse / std::sqrt(2.0), 0.02 * speed / pulse);
+  ModelParts parts = numbers_of(device, false);
+  add_rivals(setting, parts);
+  const Number& length = *std::ranges::find(parts.numbers, "link_presliding.0", &Number::key);
+  EXPECT_DOUBLE_EQ(length.unit, 0.1 * setting.link_strokes[0]);
+}
+
 TEST(Rivals, PartialsOfForcesAreDifferences) {
   const RivalsRecord record(200);
   const DeviceParameters device = motor_and_handle();
