@@ -16,6 +16,7 @@ Device recorded_device(const DeviceParameters& device, const std::vector<std::st
   parameters.uncertainty.reset();
   const Device all(std::move(parameters));
   std::vector<std::size_t> still;
+  still.reserve(locked.size());
   for (const std::string& name : locked) still.push_back(all.body_index(name));
   return locked_device(all, still);
 }
