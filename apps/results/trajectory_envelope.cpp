@@ -39,7 +39,6 @@ Trajectory envelope_of(const Trajectory& motion, std::size_t most) {
       const auto [least, largest] = std::minmax_element(first, first + length);
       for (const auto& each : {least, largest}) here.push_back(static_cast<std::size_t>(each - signal->begin()));
     }
-
     if (window + 1 == windows) here.push_back(count - 1);
     std::ranges::sort(here);
     places.insert(places.end(), here.begin(), std::ranges::unique(here).begin());

@@ -27,7 +27,7 @@ SegmentPlayer::SegmentPlayer(const PlayedDevice& device, Eigen::Index bodies, Ei
       frictions_(static_cast<Eigen::Index>(device.frictions.size())),
       with_slopes_(device.with_slopes),
       forces_(bodies),
-      rubs_(device.frictions.size()),
+      friction_forces_(device.frictions.size()),
       bends_(device.frictions.size()),
       held_(device.frictions.size()),
       ends_(device.frictions.size()) {
@@ -195,7 +195,7 @@ void SegmentPlayer::add_compliance_slopes(double* row, double by, const Step& st
 
 void SegmentPlayer::add_frictions(const Step& step) {
   const int sweeps = device_.rubbing > 1 ? most_sweeps : 1;
-  std::ranges::fill(rubs_, 0.0);
+  std::ranges::fill(friction_forces_, 0.0);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (Eigen::Index i = 0; i < frictions_; ++i) {
       if (rubs(i)) rub(step, i, with_slopes_ && sweep + 1 == sweeps);
@@ -206,7 +206,8 @@ void SegmentPlayer::add_frictions(const Step& step) {
   }
   forces_.setZero();
   for (Eigen::Index i = 0; i < frictions_; ++i) {
-    for (const auto& [body, sign] : friction(i).bodies) forces_(body) += sign * rubs_[static_cast<std::size_t>(i)];
+    for (const auto& [body, sign] : friction(i).bodies)
+      forces_(body) += sign * friction_forces_[static_cast<std::size_t>(i)];
   }
 }
 
@@ -232,7 +233,7 @@ void SegmentPlayer::take_frictions() {
 void SegmentPlayer::rub(const Step& step, Eigen::Index i, bool with_slopes) {
   double free = speed(x, i);
   for (Eigen::Index j = 0; j < frictions_; ++j)
-    free += j == i ? 0.0 : step.compliance(i, j) * rubs_[static_cast<std::size_t>(j)];
+    free += j == i ? 0.0 : step.compliance(i, j) * friction_forces_[static_cast<std::size_t>(j)];
   const double before = speed(before_, i);
   const double own = step.compliance(i, i);
   const double limit = friction(i).limit;
@@ -243,7 +244,7 @@ void SegmentPlayer::rub(const Step& step, Eigen::Index i, bool with_slopes) {
     const FrictionStep sticks = friction_step(before, free, limit, own);
     end(i).velocity = {sticks.velocity, sticks.by_before, sticks.by_free, sticks.by_limit, sticks.by_compliance};
   }
-  if (rubs(i)) rubs_[static_cast<std::size_t>(i)] = (end(i).velocity.value - free) / own;
+  if (rubs(i)) friction_forces_[static_cast<std::size_t>(i)] = (end(i).velocity.value - free) / own;
 }
 
 void SegmentPlayer::add_friction_slopes(const Step& step) {
@@ -285,12 +286,12 @@ void SegmentPlayer::add_slopes_of(const Step& step, Eigen::Index i) {
   for (const auto& [body, sign] : friction(i).bodies)
     add_row(free, sign, &ends_slopes_(bodies_ + body, 0), free_slopes_.cols());
   for (Eigen::Index j = 0; j < frictions_; ++j) {
-    if (j != i) add_compliance_slopes(free + numbers_at_, rubs_[static_cast<std::size_t>(j)], step, i, j);
+    if (j != i) add_compliance_slopes(free + numbers_at_, friction_forces_[static_cast<std::size_t>(j)], step, i, j);
   }
   add_row(added, (velocity.by_free - 1.0) / own, free, added_slopes_.cols());
   for (const auto& [body, sign] : friction(i).bodies) added[bodies_ + body] += sign * velocity.by_before / own;
   if (friction(i).bend >= 0) added[x.size() + friction(i).bend] += velocity.by_bend / own;
-  const double by_compliance = (velocity.by_compliance - rubs_[static_cast<std::size_t>(i)]) / own;
+  const double by_compliance = (velocity.by_compliance - friction_forces_[static_cast<std::size_t>(i)]) / own;
   add_compliance_slopes(added + numbers_at_, by_compliance, step, i, i);
 }
 

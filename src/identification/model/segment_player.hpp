@@ -94,10 +94,10 @@ class SegmentPlayer {
   bool with_slopes_;
   State before_;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_bodies, 1> forces_;
-  std::vector<double> rubs_;          ///< N or N m, of frictions
-  std::vector<double> bends_;         ///< of frictions
-  std::vector<char> held_;            ///< whether a friction holds its body
-  std::vector<PreslidingStep> ends_;  ///< of frictions
+  std::vector<double> friction_forces_;  ///< N or N m, of frictions
+  std::vector<double> bends_;            ///< of frictions
+  std::vector<char> held_;               ///< whether a friction holds its body
+  std::vector<PreslidingStep> ends_;     ///< of frictions
 
   // Slopes of a part, by: state and bends, from 0 on; command; force on each body; of each friction; numbers of the device.
   Eigen::Index command_at_ = 0;
