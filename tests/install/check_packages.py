@@ -23,6 +23,8 @@ def installed(prefix, soname):
             continue  # removed in rules
         if name.startswith("lib/") and not name.startswith("lib/python3/"):
             name = f"lib/ARCHITECTURE/{name.removeprefix('lib/')}"
+        if name.endswith("/libzwidth_core.a"):
+            continue  # of a static library alone: the shared one has another name of itself for it
         if name.endswith("/libzwidth.a"):
             library = name.removesuffix(".a")
             yield from (f"usr/{library}.so", f"usr/{library}.so.{soname}", "usr/lib/ARCHITECTURE/pkgconfig/zwidth.pc")
