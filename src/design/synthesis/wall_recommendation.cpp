@@ -382,7 +382,7 @@ WallRecommendation recommend_wall(const Device& device, const RecommendationOpti
   stages.next(wall_share);
   RecommendationOptions staged = options;
   staged.progress = stages.stage();
-  WallRecommendation result = internal::recommended_wall(device, staged);
+  WallRecommendation result = recommended_wall(device, staged);
   stages.next(1.0);
   if (!result.trust.refused()) result.limits = holding_limits(device, {.progress = stages.stage()});
   stages.done();

@@ -15,18 +15,16 @@ inline std::string link_presliding_key(std::size_t link) { return "link_preslidi
 inline std::string drag_key(const std::string& body) { return "drag." + body; }
 inline std::string constant_force_key(std::size_t record) { return "constant_force." + std::to_string(record); }
 
-/// The link whose dry friction that is, by its index; nothing of another number.
-inline std::optional<std::string> link_of_friction(std::string_view key) {
-  constexpr std::string_view friction = "link_friction.";
-  if (!key.starts_with(friction)) return std::nullopt;
-  return std::string(key.substr(friction.size()));
+/// What stands behind the beginning of a key; nothing where it begins otherwise.
+inline std::optional<std::string> behind(std::string_view beginning, std::string_view key) {
+  if (!key.starts_with(beginning)) return std::nullopt;
+  return std::string(key.substr(beginning.size()));
 }
 
+/// The link whose dry friction that is, by its index; nothing of another number.
+inline std::optional<std::string> link_of_friction(std::string_view key) { return behind("link_friction.", key); }
+
 /// The body whose dry friction that is; nothing of another number.
-inline std::optional<std::string> body_of_friction(std::string_view key) {
-  constexpr std::string_view friction = "friction.";
-  if (!key.starts_with(friction)) return std::nullopt;
-  return std::string(key.substr(friction.size()));
-}
+inline std::optional<std::string> body_of_friction(std::string_view key) { return behind("friction.", key); }
 
 }  // namespace zwidth::internal
