@@ -172,6 +172,33 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
   return x;
 }
 
+/// z with friction in the links that do not ring and half their damping: in these either may stand for the other, and a search from
+/// one does not reach the other. Nothing where there is no such link.
+std::optional<Eigen::VectorXd> with_link_frictions(Eigen::VectorXd z, const MotionModel& model) {
+  constexpr double share = 0.2;  // of the force
+  constexpr double damping_beside = 0.5;
+  const DeviceParameters device = model.family().device_at(z);
+  const auto rings = [&](const Link& link) {
+    const double first = device.bodies[link.first].mass;
+    const double second = device.bodies[link.second].mass;
+    return std::pow(link.damping, 2) < 4.0 * link.stiffness * first * second / (first + second);
+  };
+  const auto element = [&](const std::string& key) {
+    const auto number = std::ranges::find(model.numbers(), key, &Number::key);
+    return number == model.numbers().end() ? nullptr : &z(number - model.numbers().begin());
+  };
+  bool has_any = false;
+  for (std::size_t i = 0; i < device.links.size(); ++i) {
+    double* const friction = element(link_friction_key(i));
+    double* const damping = element("link." + std::to_string(i) + ".damping");
+    if (friction == nullptr || damping == nullptr || rings(device.links[i])) continue;
+    *friction = share;
+    *damping *= damping_beside;
+    has_any = true;
+  }
+  return has_any ? std::optional(std::move(z)) : std::nullopt;
+}
+
 /// z with forces of either sign as the linear device has them: short segments tell them badly, and over long ones a spring that
 /// softens drives a body out of all bounds.
 Eigen::VectorXd without_forces(Eigen::VectorXd z, const MotionModel& model, const Eigen::VectorXd& linear) {
@@ -284,6 +311,15 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
   }
   if (!best) return std::nullopt;
   whole.search->set_noise(noise);
+  if (const auto z = with_link_frictions(best->z, *whole.model)) {
+    Whole next = whole_at(fine_substeps, parts.terms);
+    next.search->set_noise(noise);
+    auto other = next.search->from(next.search->with_states(z->head(linear.size())), 2, between);
+    if (other && next.search->take_noise(other->z) && next.search->innovations() < least) {
+      best = std::move(other);
+      whole = std::move(next);
+    }
+  }
   for (int finer = fine_substeps; finer <= most_substeps && (finer == fine_substeps || rubs(*whole.model, *best));
        finer *= 2) {
     Whole next = whole_at(finer, parts.terms);
