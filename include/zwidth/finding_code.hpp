@@ -431,6 +431,7 @@ enum class FindingCode : std::uint16_t {
   operator_taken_to_hold,           ///< the structure's operator is taken to hold the device
   nobody_taken_to_hold,             ///< nobody is taken to have held the device
   force_taken_for_command,          ///< the force is taken for the commanded one
+  further_body_fitted,              ///< a body that the structure lacks and the motion shows
   dry_friction_fitted,              ///< dry friction beside the linear device
   constant_force,                   ///< a constant force beside the recorded one
   taken_as_zero,                    ///< a fitted value below 0

@@ -22,6 +22,13 @@ Device with_trust(const Device& device, const Trust& trust) {
   return Device(std::move(parameters));
 }
 
+Device with_reason(const Device& device, const Finding& finding) {
+  DeviceParameters parameters = device.parameters();
+  if (!parameters.uncertainty) parameters.uncertainty.emplace();
+  parameters.uncertainty->reasons.push_back(text(finding));
+  return Device(std::move(parameters));
+}
+
 std::vector<std::string> unseen_placeholders(const std::vector<std::string>& locked) {
   std::vector<std::string> keys;
   for (const std::string& body : locked) {

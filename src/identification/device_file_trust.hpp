@@ -13,6 +13,9 @@ namespace zwidth::internal {
 /// The verdict into the device's [uncertainty], so that its file keeps it.
 [[nodiscard]] Device with_trust(const Device& device, const Trust& trust);
 
+/// A reason to doubt what its file is asked beyond the answer.
+[[nodiscard]] Device with_reason(const Device& device, const Finding& finding);
+
 /// Keys of the bodies held still of a structure whose values stand for nothing: no recording of that experiment shows them.
 [[nodiscard]] std::vector<std::string> unseen_placeholders(const std::vector<std::string>& locked);
 

@@ -10,6 +10,7 @@
 #include "identification/response/response_choice.hpp"
 #include "identification/response_fit.hpp"
 #include "identification/response_of_device.hpp"
+#include "identification/verdict/widening.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/damper_timing.hpp"
@@ -88,6 +89,7 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
     return identified_by_lines(measured, structure, options, std::move(doubts), true);
   fit.omnibus = fitted->omnibus;
   fit.delay = fitted->delay;
+  fit.further_body = fitted->further_body;
   fit.doubts_of_data.insert(fit.doubts_of_data.end(), fitted->contradicted.begin(), fitted->contradicted.end());
   for (const Recording& each : recordings) fit.records.push_back({each.source, each.sampling_period});
   Identification result = judged_identification(measured, structure, options, fitted->found, std::move(fit),

@@ -12,6 +12,7 @@
 #include "identification/response_of_device.hpp"
 #include "identification/verdict/assumed_experiment.hpp"
 #include "identification/verdict/plausible_device.hpp"
+#include "identification/verdict/widening.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -83,12 +84,6 @@ void spread_trust(const Device& structure, const IdentifyOptions& options, Ident
 
 }  // namespace
 
-std::optional<Interval> told_limit(const Interval& interval) {
-  constexpr double widest = 1000.0;
-  const bool is_told = interval.lower > 0.0 && interval.upper <= widest * interval.lower;
-  return is_told ? std::optional(interval) : std::nullopt;
-}
-
 Identification judged_identification(const MeasuredResponse& measured, const Device& structure,
                                      const IdentifyOptions& options, std::optional<FoundDevice> found, VerdictInput fit,
                                      IdentifyOptions::Method method) {
@@ -119,6 +114,7 @@ Identification judged_identification(const MeasuredResponse& measured, const Dev
   result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
   if (found) take_interval(found->best.interval, result);
   spread_trust(structure, options, result);
+  if (fit.further_body) result.fit.device = with_reason(result.fit.device, *fit.further_body);
   return result;
 }
 

@@ -10,9 +10,6 @@
 
 namespace zwidth::internal {
 
-/// The range of a found limit; nothing where the data say next to nothing of it.
-[[nodiscard]] std::optional<Interval> told_limit(const Interval& interval);
-
 /// The answer: the device with its analysis, and the verdict on it, of what was found and is known of the fit.
 [[nodiscard]] Identification judged_identification(const MeasuredResponse& measured, const Device& structure,
                                                    const IdentifyOptions& options, std::optional<FoundDevice> found,

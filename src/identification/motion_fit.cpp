@@ -5,9 +5,11 @@
 #include <utility>
 
 #include "identification/contradicted_numbers.hpp"
+#include "identification/further_body.hpp"
 #include "identification/model/number_keys.hpp"
 #include "identification/motion_search.hpp"
 #include "identification/verdict/confidence.hpp"
+#include "identification/verdict/finding_of_fit.hpp"
 #include "identification/verdict/limit_instants.hpp"
 #include "identification/verdict/log_critical_stiffness.hpp"
 #include "identification/verdict/profile.hpp"
@@ -143,10 +145,8 @@ std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNum
                     .stiffness = then ? std::exp(*then) : best.stiffness};
 }
 
-}  // namespace
-
-std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const FrequencyResponse& response,
-                                    const Device& structure, const MotionFitOptions& options) {
+std::optional<MotionFit> fit_of_structure(std::span<const Recording> recordings, const FrequencyResponse& response,
+                                          const Device& structure, const MotionFitOptions& options) {
   const MotionStart start = motion_start(recordings, response, structure, options.free);
   auto motion = found_motion(start, options.free.locked, {options.segment, options.limits, options.tell});
   if (!motion) return std::nullopt;
@@ -183,6 +183,34 @@ std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const
       contradicted_numbers(*motion, start, options.free.locked, found.best.interval, recordings.front().source);
   fit.delay = given_delay_of(*motion, found.best, limit, range->instants);
   return fit;
+}
+
+/// Whether linear motion is left that no given number makes.
+bool lacks_motion(const MotionFit& fit) {
+  return stands_out(fit.omnibus) && fit.omnibus.clearest == Omnibus::Kind::follows_force && fit.contradicted.empty() &&
+         !(fit.delay && contradicts(*fit.delay));
+}
+
+/// Whether it is a device whose limit its records tell, and leaves nothing that stands out.
+bool is_whole(const MotionFit& fit) {
+  return !find_problem(fit.found.device) && told_limit(fit.found.best.interval) && !stands_out(fit.omnibus) &&
+         !(fit.delay && contradicts(*fit.delay));
+}
+
+}  // namespace
+
+std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const FrequencyResponse& response,
+                                    const Device& structure, const MotionFitOptions& options) {
+  auto fit = fit_of_structure(recordings, response, structure, options);
+  if (!fit || !lacks_motion(*fit)) return fit;
+  const auto further = with_further_body(structure, options.free, response);
+  if (!further) return fit;
+  MotionFitOptions with = options;
+  with.free = further->free;
+  auto other = fit_of_structure(recordings, response, further->structure, with);
+  if (!other || !is_whole(*other)) return fit;
+  other->further_body = further_body_fitted(other->found.device);
+  return other;
 }
 
 }  // namespace zwidth::internal

@@ -28,14 +28,18 @@ struct MotionFitOptions {
 /// A device found by likelihood from its motion, and the range of its limit.
 struct MotionFit {
   FoundDevice found;
-  Omnibus omnibus;                    ///< of what it leaves
-  std::vector<FittedMotion> motions;  ///< by recording
-  std::optional<GivenDelay> delay;    ///< where the structure's was taken
-  std::vector<Finding> contradicted;  ///< contradicted_numbers()
+  Omnibus omnibus;                           ///< of what it leaves
+  std::vector<FittedMotion> motions;         ///< by recording
+  std::optional<GivenDelay> delay;           ///< where the structure's was taken
+  std::vector<Finding> contradicted;         ///< contradicted_numbers()
+  std::optional<Finding> further_body = {};  ///< fitted because the structure leaves motion that follows the force
 };
 
 /// The most likely device of a structure, with all that may explain its records beside it (add_rivals()), and the least and
 /// the largest critical stiffness that the records allow, nobody holding, no damper.
+///
+/// Where what is left follows the force, no given number being why, a device with a further body is fitted too
+/// (with_further_body()): it is the answer where it leaves nothing that stands out.
 ///
 /// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.
 /// Source: docs/identification_method.md; Venzon & Moolgavkar 1988.

@@ -181,7 +181,8 @@ std::optional<Eigen::VectorXd> with_link_frictions(Eigen::VectorXd z, const Moti
   const auto rings = [&](const Link& link) {
     const double first = device.bodies[link.first].mass;
     const double second = device.bodies[link.second].mass;
-    return std::pow(link.damping, 2) < 4.0 * link.stiffness * first * second / (first + second);
+    constexpr double least_quality = 2.0;
+    return link.stiffness * first * second / (first + second) > std::pow(least_quality * link.damping, 2);
   };
   const auto element = [&](const std::string& key) {
     const auto number = std::ranges::find(model.numbers(), key, &Number::key);

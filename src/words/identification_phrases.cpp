@@ -114,6 +114,10 @@ std::span<const Phrase> identification_phrases() {
              "of a load cell's, or beside a later position, what delays the command (a bus, a drive) is not in the "
              "record, and the critical stiffness comes out up to several times too high",
              "record the command beside the position read before it, or add that delay as loop.delay"},
+      Phrase{further_body_fitted, "further_body_fitted", note,
+             "the motion shows a body that the structure lacks: {mass:.3g} {unit}, at {frequency:.4g} Hz against "
+             "{behind}; it is fitted as {body}, linked to {behind}",
+             "limits with a user hang on which of the two is held", "name both in the structure"},
       Phrase{dry_friction_fitted, "dry_friction_fitted", note,
              "dry friction of {force:.3g} +- {deviation:.2g} {unit} {?body|on {body}}{?link|in link {link}}",
              "the critical stiffness is that of the device without it: small motion is damped by it"},

@@ -69,7 +69,8 @@ Coordinate::Kind Coordinate::kind_of(std::string_view key) {
 
 double Coordinate::value(double x) const {
   constexpr double least = 1e-30;  // that a device may have
-  return kind == Kind::logarithmic ? std::clamp(unit * std::exp(x), least, 1.0 / least) : unit * x;
+  const double value = kind == Kind::logarithmic ? unit * std::exp(x) : unit * x;
+  return value == 0.0 ? 0.0 : std::clamp(value, least, 1.0 / least);
 }
 
 double Coordinate::position(double value) const {

@@ -45,6 +45,7 @@ struct VerdictInput {
   std::vector<RivalEstimate> rivals = {};    ///< rival_table()
   std::optional<LimitPlace> place = {};      ///< of the limit of the most likely device
   std::optional<GivenDelay> delay = {};      ///< where one was given
+  std::optional<Finding> further_body = {};  ///< one that the structure lacks, and the fitted device has
   std::vector<Finding> contradictions = {};  ///< refusals: data or given numbers that contradict each other
   std::vector<Finding> doubts_of_data = {};  ///< a clipped signal
   bool motion_tells_none = false;            ///< the lines of the response answer in its place

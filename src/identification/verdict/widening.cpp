@@ -122,4 +122,10 @@ Interval widened(const OpenLimit& limit, double by) {
   return {std::exp(limit.best - down), std::exp(limit.best + up)};
 }
 
+std::optional<Interval> told_limit(const Interval& interval) {
+  constexpr double widest = 1000.0;
+  const bool is_told = interval.lower > 0.0 && interval.upper <= widest * interval.lower;
+  return is_told ? std::optional(interval) : std::nullopt;
+}
+
 }  // namespace zwidth::internal

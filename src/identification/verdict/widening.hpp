@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "identification/verdict/segment_residuals.hpp"
@@ -36,5 +37,8 @@ struct OpenLimit {
 /// Noise that no filter of a record's length tells, and ends that the search of a profile does not reach: the profiles alone of
 /// 124 simulated records missed their truth in 32 %, such intervals in 12 %, looked at before Calibration::more_than_noise.
 [[nodiscard]] Interval widened(const OpenLimit& limit, double by);
+
+/// The range of a found limit; nothing where the data say next to nothing of it.
+[[nodiscard]] std::optional<Interval> told_limit(const Interval& interval);
 
 }  // namespace zwidth::internal

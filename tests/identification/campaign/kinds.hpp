@@ -199,6 +199,20 @@ inline void link_friction(Case& c, Draw& draw) {
   joint.friction = draw.logarithmic(0.005, 0.03) * c.experiment.force;
   joint.bristles = draw.uniform(0.05, 0.3) * joint.stiffness;
 }
+/// A clutch, a grease, a dashpot: no spring, and a damper whose motion is over within some sampling periods.
+inline void damper_link(Case& c, Draw& draw) {
+  const double first = c.plant.masses[0].mass;
+  const double second = c.plant.masses[1].mass;
+  c.plant.joints[0].stiffness = 0.0;
+  c.plant.joints[0].damping = first * second / (first + second) / (draw.uniform(1.0, 5.0) * c.experiment.period);
+}
+inline void damper_friction(Case& c, Draw& draw) {
+  simulated::Joint& joint = c.plant.joints[0];
+  const double carried = c.experiment.force * c.plant.masses[1].mass / c.mass;
+  const double stretch = carried / joint.damping / (turn * c.limiting_hz);
+  joint.friction = draw.logarithmic(0.01, 0.1) * carried;
+  joint.bristles = joint.friction / (draw.logarithmic(0.003, 0.03) * stretch);
+}
 inline void backlash(Case& c, Draw& draw) {
   c.plant.joints[0].gap = draw.logarithmic(0.02, 0.3) * c.experiment.force / c.plant.joints[0].stiffness;
 }
@@ -297,6 +311,7 @@ inline void late_rows(Case& c, Draw&) { c.experiment.late_rows = 1; }
       Kind{"asymmetric_friction", 0, false, Evidence::of_limit, two_amplitudes, asymmetric},
       Kind{"friction_by_position", 0, false, Evidence::of_limit, two_amplitudes, by_position},
       Kind{"link_friction", 2, false, Evidence::of_limit, nothing, link_friction},
+      Kind{"damper_that_rubs", 2, false, Evidence::of_limit, damper_link, damper_friction},
       Kind{"backlash", 2, false, Evidence::of_limit, nothing, backlash},
       Kind{"stiffening_spring", 0, false, Evidence::of_limit, nothing, stiffening},
       Kind{"feedback", 0, false, Evidence::of_limit, nothing, feedback},

@@ -1,0 +1,64 @@
+#include "identification/further_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "identification/model/segment_player.hpp"
+#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+std::string free_name(const DeviceParameters& device) {
+  std::string name = "further";
+  while (std::ranges::find(device.bodies, name, &Body::name) != device.bodies.end()) name += "_body";
+  return name;
+}
+
+}  // namespace
+
+std::optional<FurtherBody> with_further_body(const Device& structure, const FreeNumbers& free,
+                                             const FrequencyResponse& response) {
+  constexpr double share = 0.1;          // of the held body's mass; where no line tells, a search begins here
+  constexpr double damping_ratio = 0.01;
+  DeviceParameters device = structure.parameters();
+  if (device.transfer_function || device.bodies.size() >= SegmentPlayer::most_bodies || response.points.empty())
+    return std::nullopt;
+  const Body& held = device.bodies[device.loop.held];
+  if (std::ranges::count(free.locked, held.name) > 0) return std::nullopt;
+  const std::string name = free_name(device);
+  const std::string link = "link." + std::to_string(device.links.size());
+  const double mass = share * held.mass;
+  const double frequency = std::sqrt(response.points.front().frequency * response.points.back().frequency);
+  device.links.push_back({device.loop.held, device.bodies.size(), mass * frequency * frequency,
+                          2.0 * damping_ratio * mass * frequency});
+  device.bodies.push_back({.name = name, .mass = mass});
+  device.uncertainty.reset();
+  FreeNumbers with = free;
+  with.is_start = false;
+  with.is_known = false;
+  if (!frees_all(free.keys)) {
+    for (const std::string& key : {"body." + name + ".mass", link + ".stiffness", link + ".damping"})
+      with.keys.push_back(key);
+  }
+  return FurtherBody{Device(std::move(device)), std::move(with)};
+}
+
+Finding further_body_fitted(const DeviceParameters& device) {
+  const Link& link = device.links.back();
+  const Body& body = device.bodies.back();
+  const Body& held = device.bodies[link.first];
+  const double reduced = body.mass * held.mass / (body.mass + held.mass);
+  return {.code = FindingCode::further_body_fitted,
+          .evidence = {{"mass", body.mass},
+                       {"frequency", hertz(std::sqrt(link.stiffness / reduced)), "Hz"}},
+          .subjects = {{"body", body.name},
+                       {"behind", held.name},
+                       {"unit", device.motion == Motion::rotary ? "kg m^2" : "kg"}},
+          .key = "body." + body.name + ".mass"};
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "identification/motion_start.hpp"
+#include "zwidth/finding.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/signal/frequency_response.hpp"
+
+namespace zwidth::internal {
+
+/// A structure with one body more than was given, and what is free in it.
+struct FurtherBody {
+  Device structure;
+  FreeNumbers free;
+};
+
+/// The structure with a body behind the held one by a link of its own: mass, spring and dampers are free, and nothing of them is
+/// believed. Any one mode that the force drives and the sensor shows is one of such a body.
+///
+/// Nothing for a transfer function, where the held body was held still, or of more bodies than can be played.
+[[nodiscard]] std::optional<FurtherBody> with_further_body(const Device& structure, const FreeNumbers& free,
+                                                           const FrequencyResponse& response);
+
+/// What was found of the body that with_further_body() added, the last one of `device`.
+[[nodiscard]] Finding further_body_fitted(const DeviceParameters& device);
+
+}  // namespace zwidth::internal
