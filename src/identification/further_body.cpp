@@ -22,7 +22,7 @@ std::string free_name(const DeviceParameters& device) {
 
 std::optional<FurtherBody> with_further_body(const Device& structure, const FreeNumbers& free,
                                              const FrequencyResponse& response) {
-  constexpr double share = 0.1;          // of the held body's mass; where no line tells, a search begins here
+  constexpr double share = 0.1;  // of the held body's mass; where no line tells, a search begins here
   constexpr double damping_ratio = 0.01;
   DeviceParameters device = structure.parameters();
   if (device.transfer_function || device.bodies.size() >= SegmentPlayer::most_bodies || response.points.empty())
@@ -33,8 +33,8 @@ std::optional<FurtherBody> with_further_body(const Device& structure, const Free
   const std::string link = "link." + std::to_string(device.links.size());
   const double mass = share * held.mass;
   const double frequency = std::sqrt(response.points.front().frequency * response.points.back().frequency);
-  device.links.push_back({device.loop.held, device.bodies.size(), mass * frequency * frequency,
-                          2.0 * damping_ratio * mass * frequency});
+  device.links.push_back(
+      {device.loop.held, device.bodies.size(), mass * frequency * frequency, 2.0 * damping_ratio * mass * frequency});
   device.bodies.push_back({.name = name, .mass = mass});
   device.uncertainty.reset();
   FreeNumbers with = free;
@@ -53,8 +53,7 @@ Finding further_body_fitted(const DeviceParameters& device) {
   const Body& held = device.bodies[link.first];
   const double reduced = body.mass * held.mass / (body.mass + held.mass);
   return {.code = FindingCode::further_body_fitted,
-          .evidence = {{"mass", body.mass},
-                       {"frequency", hertz(std::sqrt(link.stiffness / reduced)), "Hz"}},
+          .evidence = {{"mass", body.mass}, {"frequency", hertz(std::sqrt(link.stiffness / reduced)), "Hz"}},
           .subjects = {{"body", body.name},
                        {"behind", held.name},
                        {"unit", device.motion == Motion::rotary ? "kg m^2" : "kg"}},

@@ -8,6 +8,7 @@
 #include "identification/further_body.hpp"
 #include "identification/model/number_keys.hpp"
 #include "identification/motion_search.hpp"
+#include "identification/verdict/calibration.hpp"
 #include "identification/verdict/confidence.hpp"
 #include "identification/verdict/finding_of_fit.hpp"
 #include "identification/verdict/limit_instants.hpp"
@@ -185,9 +186,12 @@ std::optional<MotionFit> fit_of_structure(std::span<const Recording> recordings,
   return fit;
 }
 
-/// Whether linear motion is left that no given number makes.
+/// Whether linear motion alone is left, and no given number makes it.
 bool lacks_motion(const MotionFit& fit) {
-  return stands_out(fit.omnibus) && fit.omnibus.clearest == Omnibus::Kind::follows_force && fit.contradicted.empty() &&
+  const auto is_linear = [](const Omnibus::Part& part) {
+    return part.kind == Omnibus::Kind::follows_force || part.p >= Calibration::least_p;
+  };
+  return stands_out(fit.omnibus) && std::ranges::all_of(fit.omnibus.parts, is_linear) && fit.contradicted.empty() &&
          !(fit.delay && contradicts(*fit.delay));
 }
 
