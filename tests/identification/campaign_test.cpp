@@ -113,6 +113,12 @@ TEST(CampaignRecords, OfALinkThatRubsHoldTheTruth) {
   EXPECT_TRUE(line.sound() && line.holds()) << text_of(line);
 }
 
+/// Without a start of its own, its friction ends at none, and the damping of the link stands for it.
+TEST(CampaignRecords, OfADamperThatRubsHoldTheTruth) {
+  const Line line = answer_to(drawn_case(*find_kind("damper_that_rubs"), 2));
+  EXPECT_TRUE(line.sound() && line.holds()) << text_of(line);
+}
+
 TEST(CampaignRecords, WhoseShortSegmentsTellOfASofterSpringAreFitted) {
   for (const char* kind : {"delay_unstated", "slow_disturbance"}) {
     const Line line = answer_to(drawn_case(*find_kind(kind), 3));
