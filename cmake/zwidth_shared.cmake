@@ -3,7 +3,7 @@
 if(ZWIDTH_BUILD_TESTS)
   message(FATAL_ERROR "the tests need names that the shared library hides: BUILD_SHARED_LIBS=ON with ZWIDTH_BUILD_TESTS=OFF")
 endif()
-# Before 1.0 a minor version may change what programs are linked with; zwidth-config-version.cmake says the same.
+# A minor version may change what programs are linked with; zwidth-config-version.cmake says the same.
 set(exports ${PROJECT_SOURCE_DIR}/cmake/zwidth_exports.map)
 set_target_properties(zwidth PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
   CXX_VISIBILITY_PRESET default LINK_DEPENDS ${exports})

@@ -22,8 +22,8 @@ constexpr auto made_tables() {
        "a key a joint, in rad, or m of a slide, or a text with its unit; others follow loops and cables, or stay as "
        "the file has them"},
       {mechanism_joint, mechanism, "joint", false, "none",
-       "numbers in place of those of the mechanism's file, by the joint's name", "0.1", true},
-      {mechanism_tendon, mechanism, "tendon", false, "none", "the same of a tendon", "0.1", true},
+       "numbers in place of those of the mechanism's file, by the joint's name", "1.0", true},
+      {mechanism_tendon, mechanism, "tendon", false, "none", "the same of a tendon", "1.0", true},
       {transmission, root, "transmission", true, "none", "with `[mechanism]`: motors that its file does not have"},
       {loop, root, "loop", false, needed_key, ""},
       {loop_damper, loop, "damper", false, "none", "a damper that runs in a loop of its own"},

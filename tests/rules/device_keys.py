@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 HEAD = "| key | unit | default | allowed | what it is |\n|---|---|---|---|---|\n"
-FIRST = "0.1"  # version
+FIRST = "1.0"  # version
 
 
 def table(keys):

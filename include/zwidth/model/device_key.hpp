@@ -79,7 +79,7 @@ struct DeviceKey {
   std::string_view allowed = {};          ///< beside the range
   std::string_view help = {};             ///< a sentence
   std::string_view same_as = {};          ///< the key beside it that it stands for: "mass" of "inertia"
-  std::string_view since = "0.1";         ///< version of zwidth
+  std::string_view since = "1.0";         ///< version of zwidth
 };
 
 /// A table of the device file as a key of the one that holds it.
@@ -90,7 +90,7 @@ struct DeviceTableKey {
   bool is_many = false;                    ///< [[name]] instead of [name]
   std::string_view otherwise = {};         ///< what holds where it is left out
   std::string_view allowed = {};           ///< how often, and beside what
-  std::string_view since = "0.1";          ///< version of zwidth
+  std::string_view since = "1.0";          ///< version of zwidth
   bool is_by_name = false;                 ///< [name.NAME], a table for each name, instead of [name]
 };
 
