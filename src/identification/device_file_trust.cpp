@@ -59,7 +59,8 @@ void keep_what_is_assumed(const Device& structure, std::span<const ParameterEsti
       std::erase_if(stated.findings, [](const Finding& each) { return each.code == FindingCode::assumed_numbers; });
     }
     if (!stated.reasons.empty() && std::ranges::any_of(parameter_keys(given), is_taken)) trust.inherit(stated);
-    for (const std::string& key : of_structure) {
+    for (const std::string& each : of_structure) {
+      const std::string key = full_parameter_key(given, each);
       if (std::ranges::find(assumed, key) == assumed.end()) assumed.push_back(key);
     }
   }

@@ -5,8 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "identification/model/rivals/rival.hpp"
 #include "identification/model/segment_player.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -25,25 +27,30 @@ std::optional<FurtherBody> with_further_body(const Device& structure, const Free
   constexpr double share = 0.1;  // of the held body's mass; where no line tells, a search begins here
   constexpr double damping_ratio = 0.01;
   DeviceParameters device = structure.parameters();
-  if (device.transfer_function || device.bodies.size() >= SegmentPlayer::most_bodies || response.points.empty())
+  const bool has_operator = device.user.mass > 0.0 || device.user.damping > 0.0 || device.user.stiffness > 0.0;
+  if (has_operator || device.transfer_function || device.bodies.size() >= SegmentPlayer::most_bodies ||
+      response.points.empty())
     return std::nullopt;
+  if (!moving_held_body({.device = device, .locked = free.locked})) return std::nullopt;
   const Body& held = device.bodies[device.loop.held];
-  if (std::ranges::count(free.locked, held.name) > 0) return std::nullopt;
-  const std::string name = free_name(device);
+  FreeNumbers with = free;
+  with.is_start = false;
+  with.is_known = false;
+  for (std::string& key : with.keys) {  // "link.stiffness" names a link while there is one
+    if (key != "all") key = full_parameter_key(device, key);
+  }
+  const std::string body = "body." + free_name(device);
   const std::string link = "link." + std::to_string(device.links.size());
+  if (!frees_all(free.keys)) {
+    for (const std::string& key : {body + ".mass", body + ".damping", link + ".stiffness", link + ".damping"})
+      with.keys.push_back(key);
+  }
   const double mass = share * held.mass;
   const double frequency = std::sqrt(response.points.front().frequency * response.points.back().frequency);
   device.links.push_back(
       {device.loop.held, device.bodies.size(), mass * frequency * frequency, 2.0 * damping_ratio * mass * frequency});
-  device.bodies.push_back({.name = name, .mass = mass});
+  device.bodies.push_back({.name = free_name(device), .mass = mass});
   device.uncertainty.reset();
-  FreeNumbers with = free;
-  with.is_start = false;
-  with.is_known = false;
-  if (!frees_all(free.keys)) {
-    for (const std::string& key : {"body." + name + ".mass", link + ".stiffness", link + ".damping"})
-      with.keys.push_back(key);
-  }
   return FurtherBody{Device(std::move(device)), std::move(with)};
 }
 

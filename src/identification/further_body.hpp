@@ -15,10 +15,10 @@ struct FurtherBody {
   FreeNumbers free;
 };
 
-/// The structure with a body behind the held one by a link of its own: mass, spring and dampers are free, and nothing of them is
-/// believed. Any one mode that the force drives and the sensor shows is one of such a body.
+/// The structure with a body behind the held one by a link of its own, whose mass, spring and dampers are free. Where one body is
+/// driven and sensed, any one more mode of it is that of such a body.
 ///
-/// Nothing for a transfer function, where the held body was held still, or of more bodies than can be played.
+/// Nothing for a transfer function, where the held body stood still or an operator held it, or of more bodies than can be played.
 [[nodiscard]] std::optional<FurtherBody> with_further_body(const Device& structure, const FreeNumbers& free,
                                                            const FrequencyResponse& response);
 

@@ -39,8 +39,9 @@ ParameterEstimate undetermined_estimate(const std::string& key, const Device& st
   return estimate;
 }
 
-/// What was found, in the answer and before the judge. `known`: the structure, where its numbers are the device's.
-void take_found(const FoundDevice& found, const Device* known, Identification& result, VerdictInput& fit) {
+/// What was found, in the answer and before the judge. `is_known`: the structure's numbers are the device's.
+void take_found(const FoundDevice& found, const Device& structure, bool is_known, Identification& result,
+                VerdictInput& fit) {
   result.fit = {.device = device_of(found),
                 .estimates = estimates_of(found),
                 .correlations = correlations_of(found),
@@ -50,9 +51,11 @@ void take_found(const FoundDevice& found, const Device* known, Identification& r
   result.rivals = rival_table(found.best, found.rivals);
   fit.rivals = result.rivals;
   fit.last_change = found.last_change;
-  if (auto doubt = doubt_of_masses(result.fit.device, known)) fit.doubts_of_data.push_back(*std::move(doubt));
-  std::ranges::move(implausible_device(result.fit.device, known, result.response.sampling_period),
-                    std::back_inserter(result.remarks));
+  if (auto doubt = doubt_of_masses(result.fit.device, structure, is_known))
+    fit.doubts_of_data.push_back(*std::move(doubt));
+  std::ranges::move(
+      implausible_device(result.fit.device, is_known ? &structure : nullptr, result.response.sampling_period),
+      std::back_inserter(result.remarks));
 }
 
 std::optional<LimitPlace> place_of_limit(const Identification& result) {
@@ -97,7 +100,7 @@ Identification judged_identification(const MeasuredResponse& measured, const Dev
     fit.limit = told_limit(interval);
     if (!is_explained(fit))
       interval = with_limit_of_response(interval, measured.response, structure, options.fit.locked);
-    take_found(*found, knows_structure(options) ? &structure : nullptr, result, fit);
+    take_found(*found, structure, knows_structure(options), result, fit);
   } else {
     for (const std::string& key : free_parameters(structure, options.fit.free, options.fit.locked))
       result.fit.estimates.push_back(undetermined_estimate(key, structure));

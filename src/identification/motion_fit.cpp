@@ -17,6 +17,7 @@
 #include "identification/verdict/segment_residuals.hpp"
 #include "identification/verdict/widening.hpp"
 #include "model/loop_keys.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -198,7 +199,7 @@ bool lacks_motion(const MotionFit& fit) {
 /// Whether it is a device whose limit its records tell, and leaves nothing that stands out.
 bool is_whole(const MotionFit& fit) {
   return !find_problem(fit.found.device) && told_limit(fit.found.best.interval) && !stands_out(fit.omnibus) &&
-         !(fit.delay && contradicts(*fit.delay));
+         fit.contradicted.empty() && !(fit.delay && contradicts(*fit.delay));
 }
 
 }  // namespace
@@ -211,10 +212,14 @@ std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const
   if (!further) return fit;
   MotionFitOptions with = options;
   with.free = further->free;
-  auto other = fit_of_structure(recordings, response, further->structure, with);
-  if (!other || !is_whole(*other)) return fit;
-  other->further_body = further_body_fitted(other->found.device);
-  return other;
+  try {
+    auto other = fit_of_structure(recordings, response, further->structure, with);
+    if (!other || !is_whole(*other)) return fit;
+    other->further_body = further_body_fitted(other->found.device);
+    return other;
+  } catch (const Error&) {  // no such device can be fitted
+    return fit;
+  }
 }
 
 }  // namespace zwidth::internal

@@ -315,8 +315,12 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
   if (const auto z = with_link_frictions(best->z, *whole.model)) {
     Whole next = whole_at(fine_substeps, parts.terms);
     next.search->set_noise(noise);
+    const auto same = next.search->from(best->z, 2, between);
+    const bool is_known = same && next.search->take_noise(same->z);
+    const double known = next.search->innovations();
+    next.search->set_noise(noise);
     auto other = next.search->from(next.search->with_states(z->head(linear.size())), 2, between);
-    if (other && next.search->take_noise(other->z) && next.search->innovations() < least) {
+    if (other && next.search->take_noise(other->z) && (!is_known || next.search->innovations() < known)) {
       best = std::move(other);
       whole = std::move(next);
     }

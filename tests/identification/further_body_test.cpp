@@ -41,14 +41,18 @@ TEST(FurtherBody, StandsBehindTheHeldOneUnderANameOfItsOwn) {
 }
 
 TEST(FurtherBody, IsFreeBesideWhatIsNamed) {
-  const auto further = with_further_body(Device(motor_and_handle()), {.keys = {"body.motor.mass"}}, band());
+  const auto further = with_further_body(Device(motor_and_handle()), {.keys = {"link.stiffness"}}, band());
   ASSERT_TRUE(further);
-  EXPECT_EQ(further->free.keys, (std::vector<std::string>{"body.motor.mass", "body.further_body.mass",
-                                                          "link.1.stiffness", "link.1.damping"}));
+  EXPECT_EQ(further->free.keys,
+            (std::vector<std::string>{"link.0.stiffness", "body.further_body.mass", "body.further_body.damping",
+                                      "link.1.stiffness", "link.1.damping"}));
 }
 
-TEST(FurtherBody, IsNoneWhereTheHeldBodyStandsStillOrNoneMoreCanBePlayed) {
+TEST(FurtherBody, IsNoneWhereTheHeldBodyStandsStillOrIsHeldOrNoneMoreCanBePlayed) {
   EXPECT_FALSE(with_further_body(Device(motor_and_handle()), {.locked = {"further"}}, band()));
+  DeviceParameters held = motor_and_handle();
+  held.user.damping = 1.0;
+  EXPECT_FALSE(with_further_body(Device(held), {}, band()));
   DeviceParameters many = motor_and_handle();
   while (many.bodies.size() < 20) {
     many.links.push_back({many.bodies.size() - 1, many.bodies.size(), 1e3, 0.1});

@@ -16,20 +16,20 @@ Device body_of(double mass, Motion motion) {
 
 // A force in mN taken for N: 300 kg, and 1000 times too high.
 TEST(PlausibleDevice, NoHapticDeviceIsAsHeavyAsThat) {
-  const auto heavy = doubt_of_masses(body_of(300.0, Motion::linear), nullptr);
+  const auto heavy = doubt_of_masses(body_of(300.0, Motion::linear), body_of(300.0, Motion::linear), false);
   ASSERT_TRUE(heavy);
   EXPECT_EQ(heavy->code, FindingCode::fitted_body_too_heavy);
   EXPECT_EQ(heavy->evidence[0], (Evidence{"mass", 300.0}));
   EXPECT_EQ(heavy->evidence[1], (Evidence{"threshold", 100.0}));
-  EXPECT_FALSE(doubt_of_masses(body_of(90.0, Motion::linear), nullptr));
-  EXPECT_TRUE(doubt_of_masses(body_of(11.0, Motion::rotary), nullptr));
-  EXPECT_FALSE(doubt_of_masses(body_of(9.0, Motion::rotary), nullptr));
+  EXPECT_FALSE(doubt_of_masses(body_of(90.0, Motion::linear), body_of(90.0, Motion::linear), false));
+  EXPECT_TRUE(doubt_of_masses(body_of(11.0, Motion::rotary), body_of(11.0, Motion::rotary), false));
+  EXPECT_FALSE(doubt_of_masses(body_of(9.0, Motion::rotary), body_of(9.0, Motion::rotary), false));
 }
 
 TEST(PlausibleDevice, MassesFarFromAKnownStructureAreDoubtedOrWarnedOf) {
   const Device known = body_of(0.2, Motion::linear);
   const Device thousand = body_of(200.0, Motion::linear);
-  const auto doubt = doubt_of_masses(thousand, &known);
+  const auto doubt = doubt_of_masses(thousand, known, true);
   ASSERT_TRUE(doubt);
   EXPECT_EQ(doubt->code, FindingCode::mass_far_from_structure);
   EXPECT_EQ(doubt->key, "body.body.mass");
@@ -37,7 +37,7 @@ TEST(PlausibleDevice, MassesFarFromAKnownStructureAreDoubtedOrWarnedOf) {
   EXPECT_TRUE(implausible_device(thousand, &known, 1e-3).empty());
 
   const Device ten = body_of(2.0, Motion::linear);
-  EXPECT_FALSE(doubt_of_masses(ten, &known));
+  EXPECT_FALSE(doubt_of_masses(ten, known, true));
   const auto warned = implausible_device(ten, &known, 1e-3);
   ASSERT_EQ(warned.size(), 1U);
   EXPECT_EQ(warned[0].finding.value().code, FindingCode::mass_far_from_structure);
@@ -51,10 +51,18 @@ TEST(PlausibleDevice, AHeldHandleIsNoDoubt) {
   held.links = {{0, 1, 8e4, 1.0}};
   DeviceParameters known = held;
   known.bodies[1].mass = 0.2;
-  EXPECT_FALSE(doubt_of_masses(Device(held), nullptr));
+  EXPECT_FALSE(doubt_of_masses(Device(held), Device(held), false));
   const Device structure(known);
-  EXPECT_FALSE(doubt_of_masses(Device(held), &structure));
+  EXPECT_FALSE(doubt_of_masses(Device(held), structure, true));
   EXPECT_EQ(implausible_device(Device(held), &structure, 1e-3).size(), 1U);
+}
+
+TEST(PlausibleDevice, ABodyThatTheStructureLacksSparesNoMass) {
+  DeviceParameters with_further = body_of(300.0, Motion::linear).parameters();
+  with_further.bodies.push_back({"further", 50.0});
+  with_further.links = {{0, 1, 8e4, 1.0}};
+  EXPECT_TRUE(doubt_of_masses(Device(with_further), body_of(1.0, Motion::linear), false));
+  EXPECT_TRUE(doubt_of_masses(Device(with_further), body_of(0.3, Motion::linear), true));
 }
 
 // Rows of 1 ms whose times are read as 1 s.

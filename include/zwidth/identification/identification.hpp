@@ -116,7 +116,8 @@ struct Identification {
   std::string source;                                                ///< the recording's name
   IdentifyOptions::Method method = IdentifyOptions::Method::motion;  ///< what was fitted
   FrequencyResponse response;                                        ///< as measured
-  /// fit.device holds the uncertainty, with the verdict and the reasons below: its file keeps them. fit.fitted: its response.
+  /// fit.device holds the uncertainty, with the verdict and the reasons below: its file keeps them. It is doubtful, too, where it has
+  /// a body that the structure lacks (further_body_fitted): limits with a user hang on where that is. fit.fitted: its response.
   ParameterFit fit;
   std::vector<FittedMotion> motions = {};  ///< by recording; empty for lines
   std::vector<RivalEstimate> rivals = {};  ///< first what moves the limit most
@@ -152,7 +153,7 @@ struct Identification {
 /// Throws Error (invalid_argument) where there is none.
 [[nodiscard]] Identification identify_from_limits(const Device& structure, const IdentifyOptions& options);
 
-/// What the fitted device renders with every holder: analyze() of it, judged as the fit is.
+/// What the fitted device renders with every holder: analyze() of it, trusted as the fit is, or as the device where that is less.
 ///
 /// Without an interval: Identification::analysis has the one that covers the rivals too. Throws as analyze() does.
 [[nodiscard]] Analysis analyze_fit(const Identification& identified);

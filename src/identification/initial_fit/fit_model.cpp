@@ -69,8 +69,8 @@ Coordinate::Kind Coordinate::kind_of(std::string_view key) {
 
 double Coordinate::value(double x) const {
   constexpr double least = 1e-30;  // that a device may have
-  const double value = kind == Kind::logarithmic ? unit * std::exp(x) : unit * x;
-  return value == 0.0 ? 0.0 : std::clamp(value, least, 1.0 / least);
+  if (kind == Kind::not_negative && x == 0.0) return 0.0;
+  return std::clamp(kind == Kind::logarithmic ? unit * std::exp(x) : unit * x, least, 1.0 / least);
 }
 
 double Coordinate::position(double value) const {

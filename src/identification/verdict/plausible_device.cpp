@@ -58,10 +58,10 @@ Finding odd_mass_finding(const OddMass& odd) {
 
 }  // namespace
 
-std::optional<Finding> doubt_of_masses(const Device& fitted, const Device* known) {
-  const std::size_t bodies = fitted.bodies().size();
-  if (known) {
-    const std::vector<OddMass> odd = odd_masses(fitted, *known);
+std::optional<Finding> doubt_of_masses(const Device& fitted, const Device& structure, bool is_known) {
+  const std::size_t bodies = structure.bodies().size();  // the fitted one may have a further one
+  if (is_known) {
+    const std::vector<OddMass> odd = odd_masses(fitted, structure);
     if (odd.size() < bodies || !std::ranges::all_of(odd, &OddMass::is_beyond_belief)) return std::nullopt;
     return odd_mass_finding(odd.front());
   }
@@ -95,7 +95,7 @@ std::vector<Remark> implausible_device(const Device& fitted, const Device* known
     found.code = FindingCode::fitted_late_beyond_drives;
     remarks.push_back(warning(std::move(found)));
   }
-  if (!known || doubt_of_masses(fitted, known)) return remarks;
+  if (!known || doubt_of_masses(fitted, *known, true)) return remarks;
   for (const OddMass& each : odd_masses(fitted, *known)) remarks.push_back(warning(odd_mass_finding(each)));
   return remarks;
 }
