@@ -20,6 +20,21 @@ std::string free_name(const DeviceParameters& device) {
   return name;
 }
 
+/// The further body against the held one alone.
+struct Swing {
+  double frequency = 0.0;  ///< rad/s
+  double damping_ratio = 0.0;
+};
+
+Swing swing_of(const DeviceParameters& device) {
+  const Link& link = device.links.back();
+  const double further = device.bodies.back().mass;
+  const double held = device.bodies[link.first].mass;
+  const double reduced = further * held / (further + held);
+  const double frequency = std::sqrt(link.stiffness / reduced);
+  return {frequency, link.damping / (2.0 * reduced * frequency)};
+}
+
 }  // namespace
 
 std::optional<FurtherBody> with_further_body(const Device& structure, const FreeNumbers& free,
@@ -54,15 +69,20 @@ std::optional<FurtherBody> with_further_body(const Device& structure, const Free
   return FurtherBody{Device(std::move(device)), std::move(with)};
 }
 
+bool is_mode(const DeviceParameters& device, const FrequencyResponse& response) {
+  constexpr double most_damping_ratio = 0.5;
+  const Swing swing = swing_of(device);
+  return swing.damping_ratio < most_damping_ratio && swing.frequency > response.points.front().frequency &&
+         swing.frequency < response.points.back().frequency;
+}
+
 Finding further_body_fitted(const DeviceParameters& device) {
-  const Link& link = device.links.back();
   const Body& body = device.bodies.back();
-  const Body& held = device.bodies[link.first];
-  const double reduced = body.mass * held.mass / (body.mass + held.mass);
+  const std::string& behind = device.bodies[device.links.back().first].name;
   return {.code = FindingCode::further_body_fitted,
-          .evidence = {{"mass", body.mass}, {"frequency", hertz(std::sqrt(link.stiffness / reduced)), "Hz"}},
+          .evidence = {{"mass", body.mass}, {"frequency", hertz(swing_of(device).frequency), "Hz"}},
           .subjects = {{"body", body.name},
-                       {"behind", held.name},
+                       {"behind", behind},
                        {"unit", device.motion == Motion::rotary ? "kg m^2" : "kg"}},
           .key = "body." + body.name + ".mass"};
 }

@@ -22,6 +22,10 @@ struct FurtherBody {
 [[nodiscard]] std::optional<FurtherBody> with_further_body(const Device& structure, const FreeNumbers& free,
                                                            const FrequencyResponse& response);
 
+/// Whether the body that with_further_body() added swings against the held one, within the band of the response: one that creeps
+/// stands for anything slow.
+[[nodiscard]] bool is_mode(const DeviceParameters& device, const FrequencyResponse& response);
+
 /// What was found of the body that with_further_body() added, the last one of `device`.
 [[nodiscard]] Finding further_body_fitted(const DeviceParameters& device);
 

@@ -196,10 +196,21 @@ bool lacks_motion(const MotionFit& fit) {
          !(fit.delay && contradicts(*fit.delay));
 }
 
-/// Whether it is a device whose limit its records tell, and leaves nothing that stands out.
+/// Whether no number is farther from what was believed of it than chance is.
+bool is_believed(const BestNumbers& best) {
+  constexpr double most_deviations = 4.0;
+  for (std::size_t i = 0; i < best.numbers.size(); ++i) {
+    const Number& number = best.numbers[i];
+    const double off = best.x(static_cast<Eigen::Index>(i)) - number.expected;
+    if (std::abs(off) > most_deviations * number.prior_deviation) return false;
+  }
+  return true;
+}
+
+/// Whether it is a device whose limit its records tell, of numbers that were believed, and leaves nothing that stands out.
 bool is_whole(const MotionFit& fit) {
-  return !find_problem(fit.found.device) && told_limit(fit.found.best.interval) && !stands_out(fit.omnibus) &&
-         fit.contradicted.empty() && !(fit.delay && contradicts(*fit.delay));
+  return is_believed(fit.found.best) && !find_problem(fit.found.device) && told_limit(fit.found.best.interval) &&
+         !stands_out(fit.omnibus) && fit.contradicted.empty() && !(fit.delay && contradicts(*fit.delay));
 }
 
 }  // namespace
@@ -214,7 +225,7 @@ std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const
   with.free = further->free;
   try {
     auto other = fit_of_structure(recordings, response, further->structure, with);
-    if (!other || !is_whole(*other)) return fit;
+    if (!other || !is_whole(*other) || !is_mode(other->found.device, response)) return fit;
     other->further_body = further_body_fitted(other->found.device);
     return other;
   } catch (const Error&) {  // no such device can be fitted

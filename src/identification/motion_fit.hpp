@@ -39,7 +39,7 @@ struct MotionFit {
 /// the largest critical stiffness that the records allow, nobody holding, no damper.
 ///
 /// Where what is left follows the force and nothing else, no given number being why, a device with a further body is fitted too
-/// (with_further_body()): it is the answer where it leaves nothing that stands out.
+/// (with_further_body()): it is the answer where that body swings, nothing stands out, and no number is one that nobody believes.
 ///
 /// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.
 /// Source: docs/identification_method.md; Venzon & Moolgavkar 1988.
