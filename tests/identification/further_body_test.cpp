@@ -61,6 +61,16 @@ TEST(FurtherBody, IsNoneWhereTheHeldBodyStandsStillOrIsHeldOrNoneMoreCanBePlayed
   EXPECT_FALSE(with_further_body(Device(many), {}, band()));
 }
 
+/// One that creeps, or swings where no force is, stands for anything.
+TEST(FurtherBody, IsAModeWhereItSwingsWithinTheBand) {
+  DeviceParameters device = motor_and_handle();  // 122 rad/s
+  EXPECT_TRUE(is_mode(device, band()));
+  device.links[0].damping = 10.0;
+  EXPECT_FALSE(is_mode(device, band()));
+  device.links[0] = {0, 1, 1e5, 0.1};
+  EXPECT_FALSE(is_mode(device, band()));
+}
+
 /// A body of 0.049 kg at 15.7 Hz, which the structure does not name.
 TEST(FurtherBody, OfTheMotionIsFittedNotedAndDoubtedInTheFile) {
   using namespace test::campaign;
