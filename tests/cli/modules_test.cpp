@@ -14,11 +14,14 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+/// The newest: one of another version may be left from before.
 fs::path module_of(const std::string& name) {
+  fs::path newest;
   for (const fs::directory_entry& each : fs::directory_iterator(ZWIDTH_MODULES_DIR)) {
-    if (each.path().filename().string().starts_with(name + "-")) return each.path();
+    if (!each.path().filename().string().starts_with(name + "-")) continue;
+    if (newest.empty() || each.last_write_time() > fs::last_write_time(newest)) newest = each.path();
   }
-  return {};
+  return newest;
 }
 
 class Modules : public Workspace {};

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <deque>
 #include <memory>
@@ -61,6 +62,7 @@ class PtyEmulator {
       throw std::runtime_error("no pseudo-terminal");
     }
     if (line_.baud == 0) line_.baud = firmware_->baud();
+    fcntl(master_, F_SETFL, fcntl(master_, F_GETFL) | O_NONBLOCK);
     path_ = name.data();
     slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);  // else the master hangs up between two hosts
     termios settings{};
@@ -176,7 +178,11 @@ class PtyEmulator {
   void put(const std::string& frame) {
     std::size_t sent = 0;
     while (sent < frame.size() && !is_ending_) {
+      constexpr int longest = 2;  // ms: nobody may be reading any more
+      pollfd room{master_, POLLOUT, 0};
+      if (poll(&room, 1, longest) == 0) continue;
       const ssize_t count = write(master_, frame.data() + sent, frame.size() - sent);
+      if (count < 0 && errno == EAGAIN) continue;
       if (count <= 0) return;
       sent += static_cast<std::size_t>(count);
     }
