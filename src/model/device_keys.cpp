@@ -295,7 +295,7 @@ const DeviceKey& key_of(DeviceTable table, std::string_view name) {
 const KeyRow* row_of(std::string_view key) {
   if (key.starts_with(path_of(DeviceTable::mechanism_pose) + ".")) return &pose_row;
   const std::size_t dot = key.rfind('.');
-  const std::string_view table = key.substr(0, dot == key.npos ? 0 : dot);
+  const std::string_view table = key.substr(0, dot == std::string_view::npos ? 0 : dot);
   const std::string_view name = key.substr(dot + 1);  // npos + 1 is 0
   for (const KeyRow& row : all_rows) {
     if (row.key.name != name) continue;
@@ -343,7 +343,7 @@ std::string header_of(DeviceTable table) {
 }
 
 std::optional<Measure> measure_of(std::string_view key) {
-  if (key.find('.') != key.npos) {
+  if (key.find('.') != std::string_view::npos) {
     const KeyRow* const row = row_of(key);
     return row == nullptr ? std::nullopt : row->key.measure;
   }
