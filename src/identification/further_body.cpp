@@ -8,6 +8,7 @@
 #include "identification/model/rivals/rival.hpp"
 #include "identification/model/segment_player.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/model/device_user.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -42,8 +43,7 @@ std::optional<FurtherBody> with_further_body(const Device& structure, const Free
   constexpr double share = 0.1;  // of the held body's mass; where no line tells, a search begins here
   constexpr double damping_ratio = 0.01;
   DeviceParameters device = structure.parameters();
-  const bool has_operator = device.user.mass > 0.0 || device.user.damping > 0.0 || device.user.stiffness > 0.0;
-  if (has_operator || device.transfer_function || device.bodies.size() >= SegmentPlayer::most_bodies ||
+  if (device_has_user(structure) || device.transfer_function || device.bodies.size() >= SegmentPlayer::most_bodies ||
       response.points.empty())
     return std::nullopt;
   if (!moving_held_body({.device = device, .locked = free.locked})) return std::nullopt;

@@ -187,13 +187,17 @@ std::optional<MotionFit> fit_of_structure(std::span<const Recording> recordings,
   return fit;
 }
 
+/// Whether the records ask for another value of a number that was given.
+bool contradicts_given(const MotionFit& fit) {
+  return !fit.contradicted.empty() || (fit.delay && contradicts(*fit.delay));
+}
+
 /// Whether linear motion alone is left, and no given number makes it.
 bool lacks_motion(const MotionFit& fit) {
   const auto is_linear = [](const Omnibus::Part& part) {
     return part.kind == Omnibus::Kind::follows_force || part.p >= Calibration::least_p;
   };
-  return stands_out(fit.omnibus) && std::ranges::all_of(fit.omnibus.parts, is_linear) && fit.contradicted.empty() &&
-         !(fit.delay && contradicts(*fit.delay));
+  return stands_out(fit.omnibus) && std::ranges::all_of(fit.omnibus.parts, is_linear) && !contradicts_given(fit);
 }
 
 /// Whether no number is farther from what was believed of it than chance is.
@@ -210,7 +214,7 @@ bool is_believed(const BestNumbers& best) {
 /// Whether it is a device whose limit its records tell, of numbers that were believed, and leaves nothing that stands out.
 bool is_whole(const MotionFit& fit) {
   return is_believed(fit.found.best) && !find_problem(fit.found.device) && told_limit(fit.found.best.interval) &&
-         !stands_out(fit.omnibus) && fit.contradicted.empty() && !(fit.delay && contradicts(*fit.delay));
+         !stands_out(fit.omnibus) && !contradicts_given(fit);
 }
 
 }  // namespace

@@ -172,12 +172,12 @@ Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const
   return x;
 }
 
-/// z with friction in the links that do not ring and half their damping: in these either may stand for the other, and a search from
+/// x with friction in the links that do not ring and half their damping: in these either may stand for the other, and a search from
 /// one does not reach the other. Nothing where there is no such link.
-std::optional<Eigen::VectorXd> with_link_frictions(Eigen::VectorXd z, const MotionModel& model) {
+std::optional<Eigen::VectorXd> with_link_frictions(Eigen::VectorXd x, const MotionModel& model) {
   constexpr double share = 0.2;  // of the force
   constexpr double damping_beside = 0.5;
-  const DeviceParameters device = model.family().device_at(z);
+  const DeviceParameters device = model.family().device_at(x);
   const auto rings = [&](const Link& link) {
     const double first = device.bodies[link.first].mass;
     const double second = device.bodies[link.second].mass;
@@ -186,7 +186,7 @@ std::optional<Eigen::VectorXd> with_link_frictions(Eigen::VectorXd z, const Moti
   };
   const auto element = [&](const std::string& key) {
     const auto number = std::ranges::find(model.numbers(), key, &Number::key);
-    return number == model.numbers().end() ? nullptr : &z(number - model.numbers().begin());
+    return number == model.numbers().end() ? nullptr : &x(number - model.numbers().begin());
   };
   bool has_any = false;
   for (std::size_t i = 0; i < device.links.size(); ++i) {
@@ -197,7 +197,7 @@ std::optional<Eigen::VectorXd> with_link_frictions(Eigen::VectorXd z, const Moti
     *damping *= damping_beside;
     has_any = true;
   }
-  return has_any ? std::optional(std::move(z)) : std::nullopt;
+  return has_any ? std::optional(std::move(x)) : std::nullopt;
 }
 
 /// z with forces of either sign as the linear device has them: short segments tell them badly, and over long ones a spring that
@@ -312,14 +312,14 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
   }
   if (!best) return std::nullopt;
   whole.search->set_noise(noise);
-  if (const auto z = with_link_frictions(best->z, *whole.model)) {
+  if (const auto rubbing_links = with_link_frictions(best->z.head(linear.size()), *whole.model)) {
     Whole next = whole_at(fine_substeps, parts.terms);
     next.search->set_noise(noise);
     const auto same = next.search->from(best->z, 2, between);
     const bool is_known = same && next.search->take_noise(same->z);
     const double known = next.search->innovations();
     next.search->set_noise(noise);
-    auto other = next.search->from(next.search->with_states(z->head(linear.size())), 2, between);
+    auto other = next.search->from(next.search->with_states(*rubbing_links), 2, between);
     if (other && next.search->take_noise(other->z) && (!is_known || next.search->innovations() < known)) {
       best = std::move(other);
       whole = std::move(next);
