@@ -98,12 +98,17 @@ class Search {
   /// A minimum, then others under the noise of its residuals, `rounds` at most, until that stands still, or the minimum is
   /// one that is known.
   [[nodiscard]] std::optional<Minimum> from(
-      Eigen::VectorXd z, int rounds, const MinimiseOptions& options,
+      Eigen::VectorXd z, int rounds, MinimiseOptions options,
       const std::function<bool(const Minimum&)>& is_known = [](const Minimum&) { return false; }) {
     constexpr double still = 2e-3;  // of the noise, and of its effect on the limit less
+    constexpr int later_steps = 6;  // the noise is not the last: no minimum under it is worth more
+    options.residuals = rows();
     std::optional<Minimum> found;
     for (int round = 0; round < rounds; ++round) {
-      found = minimise(*all_, std::move(z), options);
+      const bool is_between = round > 0 && round + 1 < rounds;
+      MinimiseOptions now = options;
+      if (is_between) now.most_steps = std::min(options.most_steps, later_steps);
+      found = minimise(*all_, std::move(z), now);
       if (!found) return std::nullopt;
       z = found->z;
       if (round + 1 == rounds || is_known(*found)) break;
@@ -223,9 +228,8 @@ bool rubs(const MotionModel& model, const Minimum& found) {
   return frictions.dot(solve_symmetric(covariance, frictions)) > clear;
 }
 
-/// Whether numbers of the device differ by more than a quarter of a deviation.
-bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to) {
-  constexpr double notable = 0.25;
+/// Whether numbers of the device differ by more than a part of a deviation.
+bool has_moved(const MotionModel& model, const Minimum& from, const Minimum& to, double notable = 0.25) {
   const Eigen::Index count = model.family().of_device();
   const Eigen::VectorXd deviations = covariance_of(from.picture.hessian).diagonal().cwiseMax(0.0).cwiseSqrt();
   return ((to.z - from.z).head(count).array().abs() > notable * deviations.head(count).array()).any();
@@ -241,7 +245,7 @@ MotionTerms without_link_frictions(MotionTerms terms) {
 struct Beginning {
   double innovations = 0.0;  ///< of what is near
   std::vector<Noise> noise;
-  Eigen::VectorXd z;
+  Minimum near;
 };
 
 /// The records whole, with so many substeps of a sampling period.
@@ -257,7 +261,7 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
   constexpr int most_rounds = 6;
   constexpr MinimiseOptions coarse{.most_steps = 20, .least_gain = 2.0};
   constexpr MinimiseOptions between{.most_steps = 25, .least_gain = 0.5};  // the noise is not the last
-  constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
+  constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.1};
   const ModelParts& parts = start.parts;
   const DeviceFamily family(start.device, parts.numbers, locked);
   const MotionTerms first_terms = without_link_frictions(parts.terms);
@@ -282,11 +286,18 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
     if (begins.size() == 2 && !is_rough && begins[0].innovations < begins[1].innovations) break;
     near.set_noise(first_noise(start));
     const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, coarse_model, rubbing, share) : linear;
-    const auto end = near.from(near.with_states(x), 2, coarse);
+    const Eigen::VectorXd z = near.with_states(x);
+    if (!near.take_noise(z)) continue;
+    auto end = near.from(z, 2, coarse);
     if (!end || !near.take_noise(end->z)) continue;
     if (share == 0.0) is_rough = rubs(coarse_model, *end);
-    begins.push_back(
-        {near.innovations(), near.evidence().noise(), carried_over(near, end->z, *whole.search, coarse_model)});
+    const double innovations = near.innovations();
+    const bool is_known = std::ranges::any_of(begins, [&](const Beginning& each) {
+      return std::abs(each.innovations - innovations) < coarse.least_gain &&
+             !has_moved(coarse_model, each.near, *end, 1.0);
+    });
+    if (is_known) break;  // what begins between the two ends there, too
+    begins.push_back({innovations, near.evidence().noise(), *std::move(end)});
   }
   std::ranges::sort(begins, {}, &Beginning::innovations);
   // Where a body rubs, stops and starts make side minima: then all are followed, and the most likely end counts.
@@ -298,13 +309,15 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
     bool joined = false;
     const auto followed = [&](const Eigen::VectorXd& z) {
       whole.search->set_noise(each.noise);
+      if (!whole.search->take_noise(z)) return std::optional<Minimum>();
       return whole.search->from(z, most_rounds, between, [&](const Minimum& here) {
         joined = best && !has_moved(*whole.model, *best, here);
         return joined;
       });
     };
-    auto end = followed(each.z);
-    if (!end) end = followed(without_forces(each.z, *whole.model, linear));
+    const Eigen::VectorXd z = carried_over(near, each.near.z, *whole.search, coarse_model);
+    auto end = followed(z);
+    if (!end) end = followed(without_forces(z, *whole.model, linear));
     if (!end || joined || !whole.search->take_noise(end->z) || (best && whole.search->innovations() >= least)) continue;
     least = whole.search->innovations();
     noise = whole.search->evidence().noise();
@@ -346,7 +359,7 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
 std::optional<FoundMotion> from_structure(const MotionStart& start, const std::vector<std::string>& locked,
                                           const std::vector<Segment>& segments, const MotionSearchOptions& options) {
   constexpr int most_rounds = 4;
-  constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.05};
+  constexpr MinimiseOptions fine{.most_steps = 25, .least_gain = 0.1};
   const DeviceFamily family(start.device, start.parts.numbers, locked);
   auto model = std::make_unique<MotionModel>(family, start.parts.terms, start.records, most_substeps);
   Search search(*model, segments, start, options);

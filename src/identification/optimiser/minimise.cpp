@@ -21,14 +21,20 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
   constexpr double first_growth = 2.0;
   constexpr double less = 1e-3;
   double growth = first_growth;
+  constexpr int enough = 2;  // steps in a row that kept less than the least gain
+  int poor = 0;
   std::vector<bool> held(static_cast<std::size_t>(found.z.size()), false);
   std::fill_n(held.begin(), options.held, true);
+  const auto least_gain = [&] {
+    const double excess = options.residuals > 0.0 ? 2.0 * found.picture.cost / options.residuals : 1.0;
+    return options.least_gain * std::max(1.0, excess);
+  };
   for (int step = 0; step < options.most_steps && damping < most_damping;) {
     Eigen::MatrixXd damped = found.picture.hessian;
     damped.diagonal() *= 1.0 + damping;
     const Eigen::VectorXd move = bounded_step(damped, found.picture.gradient, problem.lowest() - found.z, held);
     const double promised = -found.picture.gradient.dot(move) - 0.5 * move.dot(found.picture.hessian * move);
-    if (!(promised > options.least_gain)) {
+    if (!(promised > least_gain())) {
       const bool tried_less_damped = growth > first_growth || damping <= next_to_none;
       if (tried_less_damped) {
         found.settled = true;
@@ -44,12 +50,17 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
     if (kept > 1e-3) {
       std::optional<Picture> picture = problem.picture(there);
       if (!picture) return std::nullopt;
+      poor = found.picture.cost - picture->cost < least_gain() ? poor + 1 : 0;
       found.z = there;
       found.last_step = move;
       found.picture = *std::move(picture);
       damping = std::max(next_to_none, damping * std::max(0.1, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
       growth = first_growth;
       ++step;
+      if (poor == enough) {
+        found.settled = true;
+        break;
+      }
     } else {
       damping *= growth;
       growth *= 2.0;

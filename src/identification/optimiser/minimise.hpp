@@ -10,7 +10,8 @@ namespace zwidth::internal {
 struct MinimiseOptions {
   int most_steps = 40;
   double least_gain = 1e-3;  ///< of the log-likelihood that a step promises: below, the search is at rest
-  Eigen::Index held = 0;     ///< so many leading elements stay
+  double residuals = 0.0;  ///< so many; where they are larger than their noise, the gain is of the noise that they have
+  Eigen::Index held = 0;   ///< so many leading elements stay
 };
 
 struct Minimum {
@@ -22,7 +23,8 @@ struct Minimum {
 
 /// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.
 ///
-/// It is settled where no step, less damped or more, promises more than the least gain and keeps any of it.
+/// It is settled where no step, less damped or more, promises more than the least gain and keeps any of it, and where two in a row
+/// kept less.
 [[nodiscard]] std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start,
                                               const MinimiseOptions& options = {});
 

@@ -38,9 +38,13 @@ Eigen::VectorXd step_to_cost(const Picture& here, const Eigen::VectorXd& slope, 
 ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimum, const LogOf& number,
                        Eigen::Index varied, double direction, double rise) {
   constexpr int most_steps = 12;
+  constexpr int most_backs = 3;
   constexpr double enough = 0.05;      // of the rise
   constexpr double better = 0.15;      // of the rise
+  constexpr double spent = 0.5;        // of the rise: a step that costs less was shortened, and tells of no end
   constexpr double still = 2e-4;       // of the logarithm
+  constexpr double notable = 0.01;     // of the way
+  constexpr int most_poor = 2;         // steps in a row that lead no further
   constexpr double most_damping = 10;  // of the curvature
   constexpr double most_rises = 30;    // of a step that is shortened; one that costs more is damped
   const Eigen::VectorXd lowest = problem.lowest();
@@ -50,44 +54,49 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   Picture here = minimum.picture;
   double before = middle;
   double damping = 0.0;
+  int poor = 0;
   const double allowed = minimum.picture.cost + rise;
-  const double worst = allowed + 0.5 * rise;
+  const double most = allowed + enough * rise;
   for (int step = 0; step < most_steps;) {
     const Eigen::VectorXd slope = -direction * slope_of(number, z, varied, lowest);
-    Eigen::VectorXd move = step_to_cost(here, slope, lowest - z, damping, allowed);
-    std::optional<double> cost = problem.cost(z + move);
-    const double rises = cost ? (*cost - minimum.picture.cost) / rise : 0.0;
-    if (cost && *cost > worst && rises < most_rises) {  // along the step the cost rises by its square
-      move /= std::sqrt(rises);
-      cost = problem.cost(z + move);
+    Eigen::VectorXd there = z + step_to_cost(here, slope, lowest - z, damping, allowed);
+    std::optional<double> cost = problem.cost(there);
+    for (int back = 0; back < most_backs && cost && *cost > most; ++back) {  // from the minimum it rises by the square
+      const double rises = (*cost - minimum.picture.cost) / rise;
+      if (rises > most_rises) break;
+      there = minimum.z + (there - minimum.z) / std::sqrt(rises);
+      cost = problem.cost(there);
     }
-    const std::optional<double> value = number(z + move);
-    std::optional<Picture> picture;
-    if (cost && value && *cost <= worst) picture = problem.picture(z + move);
-    if (!picture) {  // what the data hardly tell goes too far: less of it
+    const std::optional<double> value = number(there);
+    if (!cost || !value || *cost > most) {  // what the data hardly tell goes too far: less of it
       damping = std::max(1e-6, 30.0 * damping);
       if (damping > most_damping) break;
       continue;
     }
     ++step;
-    z += move;
-    here = *std::move(picture);
-    if (here.cost < minimum.picture.cost - rise * better) {
+    z = there;
+    if (*cost < minimum.picture.cost - rise * better) {
       end.found_better = true;
       end.z = z;
       return end;
     }
-    const bool is_within = here.cost <= allowed + enough * rise;
-    if (is_within && (*value - end.value) * direction > 0.0) {
+    const double least = still + notable * std::abs(*value - middle);
+    const double gain = (*value - end.value) * direction;
+    const bool is_spent = *cost > minimum.picture.cost + spent * rise;
+    poor = is_spent && gain < least ? poor + 1 : 0;
+    if (gain > 0.0) {
       end.value = *value;
       end.z = z;
     }
     end.last_change = std::abs(*value - before);
     before = *value;
-    if (is_within && end.last_change < still + 0.01 * std::abs(*value - middle)) {
+    if (is_spent && (end.last_change < least || poor == most_poor)) {
       end.last_change = 0.0;
       break;
     }
+    std::optional<Picture> picture = problem.picture(z);
+    if (!picture) break;
+    here = *std::move(picture);
     damping *= 0.1;
     if (damping < 1e-6) damping = 0.0;
   }
