@@ -147,43 +147,56 @@ std::optional<GivenDelay> given_delay_of(const FoundMotion& found, const BestNum
                     .stiffness = then ? std::exp(*then) : best.stiffness};
 }
 
-std::optional<MotionFit> fit_of_structure(std::span<const Recording> recordings, const FrequencyResponse& response,
-                                          const Device& structure, const MotionFitOptions& options) {
-  const MotionStart start = motion_start(recordings, response, structure, options.free);
+/// A device that plays the records, before its limit is asked.
+struct PlayedRecords {
+  MotionStart start;
+  FoundMotion motion;
+};
+
+std::optional<PlayedRecords> played_records(std::span<const Recording> recordings, const FrequencyResponse& response,
+                                            const Device& structure, const MotionFitOptions& options) {
+  MotionStart start = motion_start(recordings, response, structure, options.free);
   auto motion = found_motion(start, options.free.locked, {options.segment, options.limits, options.tell});
   if (!motion) return std::nullopt;
-  LimitOfMotion limit(*motion);
+  return PlayedRecords{std::move(start), *std::move(motion)};
+}
+
+/// The range of its limit, what is left, and what contradicts it. Nothing where it has no limit.
+std::optional<MotionFit> fit_of(PlayedRecords played, std::span<const Recording> recordings,
+                                const MotionFitOptions& options) {
+  auto& [start, motion] = played;
+  LimitOfMotion limit(motion);
   const auto range = limit.range();
   if (!range) return std::nullopt;
 
-  const std::vector<Number>& numbers = motion->model->numbers();
+  const std::vector<Number>& numbers = motion.model->numbers();
   const auto count = static_cast<Eigen::Index>(numbers.size());
   const Eigen::VectorXd slope = limit.slope(range->instants);
   Eigen::VectorXd precision(count);
   for (Eigen::Index i = 0; i < count; ++i)
     precision(i) = std::pow(numbers[static_cast<std::size_t>(i)].prior_deviation, -2.0);
   MotionFit fit;
-  const auto segments = segment_residuals(*motion->evidence, motion->best.z);
+  const auto segments = segment_residuals(*motion.evidence, motion.best.z);
   const double wider = segments ? widening(*segments, {slope.head(count), precision}) : 1.0;
   if (segments) fit.omnibus = omnibus(*segments);
   FoundDevice& found = fit.found;
-  found.device = motion->model->family().device_at(motion->best.z, range->instants);
+  found.device = motion.model->family().device_at(motion.best.z, range->instants);
   found.rivals = start.rivals;
-  found.last_change = std::max(range->last_change, last_change(motion->best, slope));
+  found.last_change = std::max(range->last_change, last_change(motion.best, slope));
   found.best = {
       .numbers = numbers,
-      .x = motion->best.z.head(count),
-      .covariance = covariance_of(motion->best.picture.hessian).topLeftCorner(count, count),
+      .x = motion.best.z.head(count),
+      .covariance = covariance_of(motion.best.picture.hessian).topLeftCorner(count, count),
       .stiffness_slope = slope.head(count),
       .stiffness = std::exp(range->best),
       .interval = widened({range->best, range->low.value, range->high.value,
-                           std::sqrt(std::max(0.0, slope.dot(covariance_times(motion->best.picture.hessian, slope))))},
+                           std::sqrt(std::max(0.0, slope.dot(covariance_times(motion.best.picture.hessian, slope))))},
                           wider),
-      .motion = structure.parameters().motion};
-  fit.motions = motions_of(*motion, recordings, found);
+      .motion = found.device.motion};
+  fit.motions = motions_of(motion, recordings, found);
   fit.contradicted =
-      contradicted_numbers(*motion, start, options.free.locked, found.best.interval, recordings.front().source);
-  fit.delay = given_delay_of(*motion, found.best, limit, range->instants);
+      contradicted_numbers(motion, start, options.free.locked, found.best.interval, recordings.front().source);
+  fit.delay = given_delay_of(motion, found.best, limit, range->instants);
   return fit;
 }
 
@@ -192,49 +205,58 @@ bool contradicts_given(const MotionFit& fit) {
   return !fit.contradicted.empty() || (fit.delay && contradicts(*fit.delay));
 }
 
-/// Whether linear motion alone is left, and no given number makes it.
+/// Whether linear motion is what is left most clearly, and no given number makes it.
 bool lacks_motion(const MotionFit& fit) {
-  const auto is_linear = [](const Omnibus::Part& part) {
-    return part.kind == Omnibus::Kind::follows_force || part.p >= Calibration::least_p;
-  };
-  return stands_out(fit.omnibus) && std::ranges::all_of(fit.omnibus.parts, is_linear) && !contradicts_given(fit);
+  return stands_out(fit.omnibus) && fit.omnibus.clearest == Omnibus::Kind::follows_force && !contradicts_given(fit);
 }
 
 /// Whether no number is farther from what was believed of it than chance is.
-bool is_believed(const BestNumbers& best) {
+bool is_believed(const FoundMotion& found) {
   constexpr double most_deviations = 4.0;
-  for (std::size_t i = 0; i < best.numbers.size(); ++i) {
-    const Number& number = best.numbers[i];
-    const double off = best.x(static_cast<Eigen::Index>(i)) - number.expected;
-    if (std::abs(off) > most_deviations * number.prior_deviation) return false;
+  const std::vector<Number>& numbers = found.model->numbers();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double off = found.best.z(static_cast<Eigen::Index>(i)) - numbers[i].expected;
+    if (std::abs(off) > most_deviations * numbers[i].prior_deviation) return false;
   }
   return true;
 }
 
-/// Whether it is a device whose limit its records tell, of numbers that were believed, and leaves nothing that stands out.
+/// Whether it is a device whose limit its records tell, and leaves nothing that stands out.
 bool is_whole(const MotionFit& fit) {
-  return is_believed(fit.found.best) && !find_problem(fit.found.device) && told_limit(fit.found.best.interval) &&
-         !stands_out(fit.omnibus) && !contradicts_given(fit);
+  return !find_problem(fit.found.device) && told_limit(fit.found.best.interval) && !stands_out(fit.omnibus) &&
+         !contradicts_given(fit);
+}
+
+/// The fit with one more body, where that is a mode of believed numbers, and explains what is left.
+std::optional<MotionFit> fit_with_further_body(std::span<const Recording> recordings, const FrequencyResponse& response,
+                                               const Device& structure, MotionFitOptions options) {
+  const auto further = with_further_body(structure, options.free, response);
+  if (!further) return std::nullopt;
+  options.free = further->free;
+  try {
+    auto played = played_records(recordings, response, further->structure, options);
+    if (!played || !is_believed(played->motion)) return std::nullopt;
+    const FoundMotion& motion = played->motion;
+    if (!is_mode(motion.model->family().device_at(motion.best.z), response)) return std::nullopt;
+    auto fit = fit_of(*std::move(played), recordings, options);
+    if (!fit || !is_whole(*fit)) return std::nullopt;
+    fit->further_body = further_body_fitted(fit->found.device);
+    return fit;
+  } catch (const Error&) {  // no such device can be fitted
+    return std::nullopt;
+  }
 }
 
 }  // namespace
 
 std::optional<MotionFit> fit_motion(std::span<const Recording> recordings, const FrequencyResponse& response,
                                     const Device& structure, const MotionFitOptions& options) {
-  auto fit = fit_of_structure(recordings, response, structure, options);
+  auto played = played_records(recordings, response, structure, options);
+  if (!played) return std::nullopt;
+  auto fit = fit_of(*std::move(played), recordings, options);
   if (!fit || !lacks_motion(*fit)) return fit;
-  const auto further = with_further_body(structure, options.free, response);
-  if (!further) return fit;
-  MotionFitOptions with = options;
-  with.free = further->free;
-  try {
-    auto other = fit_of_structure(recordings, response, further->structure, with);
-    if (!other || !is_whole(*other) || !is_mode(other->found.device, response)) return fit;
-    other->further_body = further_body_fitted(other->found.device);
-    return other;
-  } catch (const Error&) {  // no such device can be fitted
-    return fit;
-  }
+  auto other = fit_with_further_body(recordings, response, structure, options);
+  return other ? std::move(other) : std::move(fit);
 }
 
 }  // namespace zwidth::internal

@@ -9,6 +9,7 @@
 #include "identification/model/number_keys.hpp"
 #include "identification/verdict/profile.hpp"
 #include "linear_systems.hpp"
+#include "model/loop_keys.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -111,6 +112,7 @@ class Search {
       found = minimise(*all_, std::move(z), now);
       if (!found) return std::nullopt;
       z = found->z;
+      if (round == 0 && found->last_step.size() == 0) ++rounds;  // under a noise that lets none be made
       if (round + 1 == rounds || is_known(*found)) break;
       const double before = innovations();
       if (!take_noise(z)) return std::nullopt;
@@ -165,14 +167,23 @@ Eigen::VectorXd carried_over(const Search& from, Eigen::VectorXd end, const Sear
   return z;
 }
 
-/// x of the linear device with so much friction, of the force, and the less damping for it.
-Eigen::VectorXd with_friction(Eigen::VectorXd x, const MotionModel& model, const std::string& body, double share) {
+/// x of the linear device with so much friction, of the force, the less damping for it, and half its lateness as lag: either alone
+/// is a side minimum where the other is.
+Eigen::VectorXd with_friction_and_lag(Eigen::VectorXd x, const MotionModel& model, const std::string& body,
+                                      double share) {
   constexpr double damping_beside = 0.3;  // of the linear fit's, which has the friction in it
+  constexpr double of_lateness = 0.5;
+  double lateness = 0.0;
   for (std::size_t i = 0; i < model.numbers().size(); ++i) {
-    const std::string& key = model.numbers()[i].key;
+    const Number& number = model.numbers()[i];
     const auto at = static_cast<Eigen::Index>(i);
-    if (key == friction_key(body)) x(at) = share;
-    if (key.starts_with("body.") && key.ends_with(".damping")) x(at) *= damping_beside;
+    if (number.key == friction_key(body)) x(at) = share;
+    if (number.key.starts_with("body.") && number.key.ends_with(".damping")) x(at) *= damping_beside;
+    if (number.key == key_of_delay) lateness = number.value(x(at));  // lag and all
+  }
+  for (std::size_t i = 0; i < model.numbers().size(); ++i) {
+    const Number& number = model.numbers()[i];
+    if (number.key == key_of_lag) x(static_cast<Eigen::Index>(i)) = number.coordinate(of_lateness * lateness);
   }
   return x;
 }
@@ -285,9 +296,9 @@ std::optional<FoundMotion> searched(const MotionStart& start, const std::vector<
     // Between the first two: not where the first is likelier, and smooth.
     if (begins.size() == 2 && !is_rough && begins[0].innovations < begins[1].innovations) break;
     near.set_noise(first_noise(start));
-    const Eigen::VectorXd x = share > 0.0 ? with_friction(linear, coarse_model, rubbing, share) : linear;
+    const Eigen::VectorXd x = share > 0.0 ? with_friction_and_lag(linear, coarse_model, rubbing, share) : linear;
     const Eigen::VectorXd z = near.with_states(x);
-    if (!near.take_noise(z)) continue;
+    if (share > 0.0 && !near.take_noise(z)) continue;
     auto end = near.from(z, 2, coarse);
     if (!end || !near.take_noise(end->z)) continue;
     if (share == 0.0) is_rough = rubs(coarse_model, *end);

@@ -26,8 +26,7 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
   std::vector<bool> held(static_cast<std::size_t>(found.z.size()), false);
   std::fill_n(held.begin(), options.held, true);
   const auto least_gain = [&] {
-    const double excess = options.residuals > 0.0 ? 2.0 * found.picture.cost / options.residuals : 1.0;
-    return options.least_gain * std::max(1.0, excess);
+    return options.least_gain * (options.residuals > 0.0 ? 2.0 * found.picture.cost / options.residuals : 1.0);
   };
   for (int step = 0; step < options.most_steps && damping < most_damping;) {
     Eigen::MatrixXd damped = found.picture.hessian;
