@@ -156,7 +156,7 @@ struct PlayedRecords {
 std::optional<PlayedRecords> played_records(std::span<const Recording> recordings, const FrequencyResponse& response,
                                             const Device& structure, const MotionFitOptions& options) {
   MotionStart start = motion_start(recordings, response, structure, options.free);
-  auto motion = found_motion(start, options.free.locked, {options.segment, options.limits, options.tell});
+  auto motion = found_motion(start, options.free.locked, {options.segment, {options.limits, options.tell}});
   if (!motion) return std::nullopt;
   return PlayedRecords{std::move(start), *std::move(motion)};
 }

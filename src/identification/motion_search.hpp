@@ -1,17 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "identification/evidence/likelihood.hpp"
-#include "identification/evidence/limit_evidence.hpp"
-#include "identification/evidence/time_evidence.hpp"
 #include "identification/motion_start.hpp"
-#include "identification/optimiser/minimise.hpp"
+#include "identification/record_search.hpp"
 
 namespace zwidth::internal {
 
@@ -24,17 +19,16 @@ struct FoundMotion {
 };
 
 struct MotionSearchOptions {
-  double segment = 10.0;                   ///< s
-  std::vector<MeasuredLimit> limits = {};  ///< observed beside the records
-  std::function<void()> tell = {};         ///< at each step
+  double segment = 10.0;  ///< s
+  BesideRecords beside = {};
 };
 
-/// From none and much friction, and from little where that may matter, segments of half a second with states of their own find
-/// what is near, by their own noise; from the most likely of these the records whole are fitted, by the noise of what is left in
-/// turn: from the others too where a body rubs beyond its noise. Terms act over whole sampling periods first, then over halves, and
-/// where a body rubs over finer substeps until they move no number of the device. A link's friction acts from the halves on: its
-/// damping stands for it before. Where the structure is a device's, the search begins at its own values too: a link above what the
-/// force excites shows in nothing but how a body that rubs stops and starts.
+/// From the linear device, from much friction and a lag, and from little where that may matter, segments of half a second with
+/// states of their own find what is near, by their own noise. From the most likely of these the records whole are fitted, by the
+/// noise of what is left in turn; from the others too where a body rubs beyond its noise. Terms act over whole sampling periods
+/// first, then over halves, and where a body rubs over finer substeps until they move no number of the device. A link's friction
+/// acts from the halves on: its damping stands for it before. Where the structure is a device's, the search begins at its own
+/// values too: a link above what the force excites shows in nothing but how a body that rubs stops and starts.
 ///
 /// Of records of more than 30 000 samples evenly spread segments are fitted. Nothing where no start can be played.
 [[nodiscard]] std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
