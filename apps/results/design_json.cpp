@@ -101,7 +101,8 @@ void to_json(Json& json, const ComparedDesign& each) {
   json = {{"value", each.value},
           {"free", critical_json(each.free)},
           {"any_user_stiffness", stiffness_of(each.any_user)},
-          {"with_operator", each.held ? critical_json(*each.held) : Json(nullptr)}};
+          {"with_operator", each.held ? critical_json(*each.held) : Json(nullptr)},
+          {"limits", each.limits}};
 }
 
 Json design_json(const Device& device, const Design& design) {

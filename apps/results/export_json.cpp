@@ -123,6 +123,7 @@ Json export_json(const DeviceModel& model) {
           {"wall", wall_json(model)},
           {"status", critical.status},
           {"critical_stiffness", critical.stiffness},
+          {"limits", model.analysis.limits},
           {"crossovers", critical.crossovers},
           {"trust", critical.trust},
           {"findings", findings_json(critical.trust, model.remarks)}};

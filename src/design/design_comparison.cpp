@@ -21,9 +21,12 @@ ComparedDesign judged(const DeviceVariant& variant, const User& user, Trust& tru
   const Device free = device_without_user(variant.device);
   Analysis analysis = analyze(free, {.any_user = true, .draws = 0});
   trust.inherit(analysis.trust);
-  ComparedDesign design{variant.value, free, std::move(analysis.critical), std::move(analysis.any_user), std::nullopt};
+  ComparedDesign design{variant.value, free,           std::move(analysis.critical), std::move(analysis.any_user),
+                        std::nullopt,  analysis.limits};
   if (is_present(user)) {
-    design.held = critical_stiffness(device_with_user(variant.device, user));
+    const Device held = device_with_user(variant.device, user);
+    design.held = critical_stiffness(held);
+    design.limits.user = holding_limits(held, {.any_user = false}).user;
     trust.inherit(design.held->trust);
   }
   return design;

@@ -19,7 +19,7 @@ DeviceModel model_of(const Device& device, DiscreteStateSpace discrete, SampledP
           modal_form(device),
           std::move(sampled),
           device.parameters().wall,
-          analyze(device, limit_and_wall_only()),
+          analyze(device, {.draws = 0}),
           {}};
 }
 

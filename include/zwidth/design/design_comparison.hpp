@@ -10,6 +10,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -21,6 +22,7 @@ struct ComparedDesign {
   CriticalStiffness free;                          ///< nobody holding
   std::optional<AbsoluteStabilityLimit> any_user;  ///< absent for a transfer function and many bodies
   std::optional<CriticalStiffness> held;           ///< with the user; absent without one
+  HoldingLimits limits = {};                       ///< of all three
 };
 
 /// Two variants of one user, by falling stiffness.

@@ -28,7 +28,7 @@ struct DeviceModel {
   ModalForm modal;                                      ///< as a sum of modes
   SampledPlant sampled;                                 ///< without the wall's filters
   Wall wall;                                            ///< what closes the loop of the discrete ones
-  Analysis analysis;                                    ///< the critical stiffness, the modes and the wall's margins
+  Analysis analysis;                                    ///< the limits with each user, the modes and the wall's margins
   std::vector<Remark> remarks = {};                     ///< what else the models are of
 };
 
