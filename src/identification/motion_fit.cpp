@@ -22,13 +22,10 @@
 namespace zwidth::internal {
 namespace {
 
-/// The limit over the fits that are as likely, before what is left is asked.
+/// The limit over the fits that are as likely, before what is left is asked; logarithms.
 struct LimitRange {
   DriftInstants instants;
-  double best = 0.0;  ///< logarithms
-  ProfileEnd low;
-  ProfileEnd high;
-  double last_change = 0.0;  ///< of ends that were stopped, and of a best that still gave way to a better one
+  ProfileRange profile;
 };
 
 /// The limit of a found motion, nobody holding, no damper.
@@ -41,27 +38,19 @@ class LimitOfMotion {
     return log_critical_stiffness(found_.model->family().device_at(z, instants));
   }
 
-  /// The least and the largest limit that are as likely, everything refitted on the way, rivals too. Where an end is more likely
-  /// than the best, that was none: the search goes on from there.
+  /// The least and the largest limit that are as likely, everything refitted on the way, rivals too.
   [[nodiscard]] std::optional<LimitRange> range() {
-    constexpr int most_begins = 4;
     constexpr MinimiseOptions fine{.most_steps = 15, .least_gain = 0.02};
-    std::optional<LimitRange> range;
-    for (int begins = 0; begins < most_begins; ++begins) {
-      const auto instants = instants_at_best();
+    std::optional<DriftInstants> instants;
+    const auto limit_at = [&](const Minimum& best) -> std::optional<LogOf> {
+      instants = instants_at(best);
       if (!instants) return std::nullopt;
-      const double best = at(found_.best.z, *instants).value_or(0.0);
-      range = LimitRange{*instants, best, end(*instants, -1.0), {best, found_.best.z}};
-      if (!range->low.found_better) range->high = end(*instants, 1.0);
-      const ProfileEnd& better = range->low.found_better ? range->low : range->high;
-      range->last_change = std::max(range->low.last_change, range->high.last_change);
-      if (!better.found_better) return range;
-      auto again = minimise(*found_.likelihood, better.z, fine);
-      if (!again) return range;
-      found_.best = *std::move(again);
-    }
-    if (const auto last = at(found_.best.z, range->instants)) range->last_change = std::abs(*last - range->best);
-    return range;
+      return LogOf([this, at_instants = *instants](const Eigen::VectorXd& z) { return at(z, at_instants); });
+    };
+    const Eigen::Index varied = found_.model->family().of_limit();
+    auto profile = profile_range(*found_.likelihood, found_.best, limit_at, varied, rise_of_95, fine);
+    if (!profile) return std::nullopt;
+    return LimitRange{*instants, *std::move(profile)};
   }
 
   /// How log K_CR hangs on the numbers.
@@ -71,15 +60,10 @@ class LimitOfMotion {
   }
 
  private:
-  [[nodiscard]] std::optional<DriftInstants> instants_at_best() const {
+  [[nodiscard]] std::optional<DriftInstants> instants_at(const Minimum& best) const {
     const DeviceFamily& family = found_.model->family();
     return limit_instants([&](const Eigen::VectorXd& z, const DriftInstants& instants) { return at(z, instants); },
-                          found_.best, family.of_device(), family.of_limit());
-  }
-  [[nodiscard]] ProfileEnd end(const DriftInstants& instants, double direction) const {
-    return profile_end(
-        *found_.likelihood, found_.best, [&](const Eigen::VectorXd& z) { return at(z, instants); },
-        found_.model->family().of_limit(), direction, rise_of_95);
+                          best, family.of_device(), family.of_limit());
   }
 
   FoundMotion& found_;
@@ -182,14 +166,15 @@ std::optional<MotionFit> fit_of(PlayedRecords played, std::span<const Recording>
   FoundDevice& found = fit.found;
   found.device = motion.model->family().device_at(motion.best.z, range->instants);
   found.rivals = start.rivals;
-  found.last_change = std::max(range->last_change, last_change(motion.best, slope));
+  const ProfileRange& profile = range->profile;
+  found.last_change = std::max({profile.low.last_change, profile.high.last_change, last_change(motion.best, slope)});
   found.best = {
       .numbers = numbers,
       .x = motion.best.z.head(count),
       .covariance = covariance_of(motion.best.picture.hessian).topLeftCorner(count, count),
       .stiffness_slope = slope.head(count),
-      .stiffness = std::exp(range->best),
-      .interval = widened({range->best, range->low.value, range->high.value,
+      .stiffness = std::exp(profile.middle),
+      .interval = widened({profile.middle, profile.low.value, profile.high.value,
                            std::sqrt(std::max(0.0, slope.dot(covariance_times(motion.best.picture.hessian, slope))))},
                           wider),
       .motion = found.device.motion};
@@ -211,11 +196,10 @@ bool lacks_motion(const MotionFit& fit) {
 }
 
 /// Whether no number is farther from what was believed of it than chance is.
-bool is_believed(const FoundMotion& found) {
+bool are_believed(const std::vector<Number>& numbers, const Eigen::VectorXd& z) {
   constexpr double most_deviations = 4.0;
-  const std::vector<Number>& numbers = found.model->numbers();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const double off = found.best.z(static_cast<Eigen::Index>(i)) - numbers[i].expected;
+    const double off = z(static_cast<Eigen::Index>(i)) - numbers[i].expected;
     if (std::abs(off) > most_deviations * numbers[i].prior_deviation) return false;
   }
   return true;
@@ -233,14 +217,21 @@ std::optional<MotionFit> fit_with_further_body(std::span<const Recording> record
   const auto further = with_further_body(structure, options.free, response);
   if (!further) return std::nullopt;
   options.free = further->free;
+  const auto is_wanted = [&](const std::vector<Number>& numbers, const Eigen::VectorXd& z, const DeviceParameters& at) {
+    return are_believed(numbers, z) && is_mode(at, response);
+  };
   try {
     auto played = played_records(recordings, response, further->structure, options);
-    if (!played || !is_believed(played->motion)) return std::nullopt;
-    const FoundMotion& motion = played->motion;
-    if (!is_mode(motion.model->family().device_at(motion.best.z), response)) return std::nullopt;
+    if (!played) return std::nullopt;
+    const auto& [start, motion] = *played;
+    // Before its limit is asked, which takes as long again.
+    if (!is_wanted(motion.model->numbers(), motion.best.z, motion.model->family().device_at(motion.best.z)))
+      return std::nullopt;
     auto fit = fit_of(*std::move(played), recordings, options);
     if (!fit || !is_whole(*fit)) return std::nullopt;
-    fit->further_body = further_body_fitted(fit->found.device);
+    const FoundDevice& found = fit->found;
+    if (!is_wanted(found.best.numbers, found.best.x, found.device)) return std::nullopt;
+    fit->further_body = further_body_fitted(found.device);
     return fit;
   } catch (const Error&) {  // no such device can be fitted
     return std::nullopt;

@@ -38,7 +38,7 @@ struct MotionFit {
 /// The most likely device of a structure, with all that may explain its records beside it (add_rivals()), and the least and
 /// the largest critical stiffness that the records allow, nobody holding, no damper.
 ///
-/// Where what is left follows the force and nothing else, no given number being why, a device with a further body is fitted too
+/// Where what is left follows the force most clearly, no given number being why, a device with a further body is fitted too
 /// (with_further_body()): it is the answer where that body swings, nothing stands out, and no number is one that nobody believes.
 ///
 /// Nothing where no start can be played or the found device has no limit. Throws Error as fit_parameters() does.

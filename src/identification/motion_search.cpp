@@ -54,7 +54,7 @@ MotionTerms without_link_frictions(MotionTerms terms) {
 /// Where the records whole may begin: an end of the search in short segments.
 struct Beginning {
   double innovations = 0.0;
-  Minimum near;
+  Minimum end;
 };
 
 /// The records whole, with so many substeps of a sampling period, and the most likely numbers so far.
@@ -63,6 +63,19 @@ struct Whole {
   std::unique_ptr<RecordSearch> search;
   std::optional<Minimum> best = {};
 };
+
+/// Its likelihood under the noise that it has now: a best that was found under another one is pictured again. Nothing without a
+/// best, or a picture of it.
+std::optional<FoundMotion> found_motion_of(Whole whole) {
+  if (!whole.best) return std::nullopt;
+  FoundMotion found{std::move(whole.model), whole.search->take_evidence(), whole.search->take_likelihood(),
+                    *std::move(whole.best)};
+  if (found.likelihood->cost(found.best.z) == found.best.picture.cost) return found;
+  auto picture = found.likelihood->picture(found.best.z);
+  if (!picture) return std::nullopt;
+  found.best.picture = *std::move(picture);
+  return found;
+}
 
 /// The search from the linear fit of the response, stage by stage.
 class StagedSearch {
@@ -78,14 +91,14 @@ class StagedSearch {
         near_model_(family_, first_terms_, start.records, coarse_substeps),
         near_(near_model_, thinned(segments_of(start.records, short_segment), most_samples_near, segments), start,
               beside) {}
+  StagedSearch(const StagedSearch&) = delete;
+  StagedSearch& operator=(const StagedSearch&) = delete;
 
   [[nodiscard]] std::optional<FoundMotion> found() {
     Whole whole = most_likely_of(beginnings());
-    if (!whole.best) return std::nullopt;
-    begin_with_link_frictions(whole);
-    make_finer(whole);
-    return FoundMotion{std::move(whole.model), whole.search->take_evidence(), whole.search->take_likelihood(),
-                       *std::move(whole.best)};
+    if (whole.best) try_link_frictions(whole);
+    if (whole.best) make_finer(whole);
+    return found_motion_of(std::move(whole));
   }
 
  private:
@@ -96,8 +109,8 @@ class StagedSearch {
     return made;
   }
 
-  /// Ends in short segments, the likeliest first. From the linear device under the noise of the encoder, for which nothing large can
-  /// pass; from friction and lag under the noise of what these leave, which lets go of them again.
+  /// Ends in short segments, the likeliest first. The linear device begins under the noise of the encoder: nothing large passes for
+  /// that, and the search goes far. Friction and lag begin under the noise of what they leave: it goes no farther than it must.
   [[nodiscard]] std::vector<Beginning> beginnings() {
     constexpr double frictions[] = {0.0, 0.2, 0.05};  // of the force
     const std::string& rubbing = start_.device.bodies[start_.device.loop.actuated].name;
@@ -115,11 +128,11 @@ class StagedSearch {
       if (!end || !near_.take_noise(end->z)) continue;
       if (is_linear) is_rough = rubs(near_model_, *end);
       const double innovations = near_.innovations();
-      const bool is_known = std::ranges::any_of(ends, [&](const Beginning& each) {
+      const bool is_one_of_them = std::ranges::any_of(ends, [&](const Beginning& each) {
         return std::abs(each.innovations - innovations) < coarse.least_gain &&
-               !has_moved(near_model_, each.near, *end, 1.0);
+               !has_moved(near_model_, each.end, *end, 1.0);
       });
-      if (is_known) break;  // what begins between the two ends there, too
+      if (is_one_of_them) break;  // what begins between the two ends there, too
       ends.push_back({innovations, *std::move(end)});
     }
     std::ranges::sort(ends, {}, &Beginning::innovations);
@@ -142,7 +155,7 @@ class StagedSearch {
           return joined;
         });
       };
-      const Eigen::VectorXd z = whole.search->carried_over(near_, each.near.z);
+      const Eigen::VectorXd z = whole.search->carried_over(near_, each.end.z);
       auto end = followed(z);
       if (!end) end = followed(without_forces(z, *whole.model, linear_));
       if (!end || joined || !whole.search->take_noise(end->z)) continue;
@@ -156,18 +169,18 @@ class StagedSearch {
   }
 
   /// The end from friction in links that do not ring, where it is likelier than that from `whole`.
-  void begin_with_link_frictions(Whole& whole) const {
+  void try_link_frictions(Whole& whole) const {
     const auto rubbing = with_link_frictions(whole.best->z.head(linear_.size()), *whole.model);
     if (!rubbing) return;
     Whole next = whole_at(fine_substeps, start_.parts.terms);
     next.search->take_noise_of(*whole.search);
     const auto same = next.search->from(whole.best->z, 2, between);
-    const bool is_known = same && next.search->take_noise(same->z);
-    const double known = next.search->innovations();
+    const bool can_stay = same && next.search->take_noise(same->z);
+    const double staying = next.search->innovations();
     next.search->take_noise_of(*whole.search);
     next.best = next.search->from(next.search->with_states(*rubbing), 2, between);
     if (!next.best || !next.search->take_noise(next.best->z)) return;
-    if (!is_known || next.search->innovations() < known) whole = std::move(next);
+    if (!can_stay || next.search->innovations() < staying) whole = std::move(next);
   }
 
   /// Terms over halves of a sampling period, and where a body rubs over finer substeps until they move no number of the device.
@@ -177,7 +190,11 @@ class StagedSearch {
       Whole next = whole_at(finer, start_.parts.terms);
       next.search->take_noise_of(*whole.search);
       next.best = next.search->from(whole.best->z, 1, fine);
-      if (!next.best) break;
+      if (!next.best) {
+        if (finer == fine_substeps)
+          whole.best.reset();  // whole sampling periods, and no friction of links, do for a start
+        break;
+      }
       const bool stands_still = !has_moved(*next.model, *whole.best, *next.best);
       if (!stands_still && next.search->take_noise(next.best->z)) next.best = next.search->from(next.best->z, 1, fine);
       if (!next.best) break;
@@ -201,12 +218,13 @@ std::optional<FoundMotion> from_structure(const MotionStart& start, const std::v
                                           const std::vector<Segment>& segments, const BesideRecords& beside) {
   constexpr int most_rounds = 4;
   const DeviceFamily family(start.device, start.parts.numbers, locked);
-  auto model = std::make_unique<MotionModel>(family, start.parts.terms, start.records, most_substeps);
-  RecordSearch search(*model, segments, start, beside);
-  search.take_first_noise();
-  auto best = search.from(search.with_states(of_known(*start.known, family)), most_rounds, fine);
-  if (!best || !search.take_noise(best->z)) return std::nullopt;
-  return FoundMotion{std::move(model), search.take_evidence(), search.take_likelihood(), *std::move(best)};
+  Whole whole;
+  whole.model = std::make_unique<MotionModel>(family, start.parts.terms, start.records, most_substeps);
+  whole.search = std::make_unique<RecordSearch>(*whole.model, segments, start, beside);
+  whole.search->take_first_noise();
+  whole.best = whole.search->from(whole.search->with_states(of_known(*start.known, family)), most_rounds, fine);
+  if (!whole.best || !whole.search->take_noise(whole.best->z)) return std::nullopt;
+  return found_motion_of(std::move(whole));
 }
 
 }  // namespace

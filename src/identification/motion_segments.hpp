@@ -11,7 +11,7 @@ namespace zwidth::internal {
 /// before the record.
 [[nodiscard]] std::vector<Segment> segments_of(const std::vector<ForceMotionRecord>& records, double length);
 
-/// So many of them, evenly, that they hold no more than that; and those that others begin with.
+/// Segments at even distances that hold no more samples than `most_samples`, and besides those that `others` begin with.
 [[nodiscard]] std::vector<Segment> thinned(const std::vector<Segment>& all, std::size_t most_samples,
                                            const std::vector<Segment>& others);
 

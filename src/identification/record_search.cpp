@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace zwidth::internal {
@@ -83,12 +84,12 @@ std::optional<Minimum> RecordSearch::from(Eigen::VectorXd z, int rounds, Minimis
     found = minimise(*all_, std::move(z), options);
     if (!found) return std::nullopt;
     z = found->z;
-    if (round == 0 && found->last_step.size() == 0) ++rounds;  // under a noise that lets none be made
+    if (round == 0 && rounds > 1 && found->last_step.size() == 0) ++rounds;  // under a noise that lets none be made
     if (round + 1 == rounds || is_known(*found)) break;
     const double before = innovations();
     if (!take_noise(z)) return std::nullopt;
     const bool is_still = std::abs(innovations() - before) < still * rows();
-    if (round > 1 && is_still && found->settled) break;
+    if (round > 1 && is_still && !found->ran_out) break;
   }
   return found;
 }

@@ -43,7 +43,6 @@ Eigen::MatrixXd moved_covariance(const LeastSquaresProblem& problem, const Minim
 }  // namespace
 
 std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
-  constexpr int most_begins = 4;
   constexpr MinimiseOptions fine{.most_steps = 60, .least_gain = 1e-4};
   if (!setting.response && setting.limits.empty()) return std::nullopt;
   if (!setting.response && !setting.known && frees_all(setting.free)) return std::nullopt;
@@ -62,19 +61,12 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
 
   const auto limit = [&](const Eigen::VectorXd& z) { return log_critical_stiffness(family.device_at(z)); };
   std::optional<Minimum> best = minimise(likelihood, likelihood.start(family.coordinates_of(start.device)), fine);
-  if (!best || !limit(best->z)) return std::nullopt;
+  if (!best) return std::nullopt;
   const double shared = setting.response ? shared_noise(*setting.response) : 1.0;
-  ProfileEnd low;
-  ProfileEnd high;
-  for (int begins = 0; begins < most_begins; ++begins) {  // an end that is more likely than the best was none
-    high = {*limit(best->z), best->z};
-    low = profile_end(likelihood, *best, limit, family.of_device(), -1.0, rise_of_95 * shared);
-    if (!low.found_better) high = profile_end(likelihood, *best, limit, family.of_device(), 1.0, rise_of_95 * shared);
-    const ProfileEnd& better = low.found_better ? low : high;
-    if (!better.found_better) break;
-    auto again = minimise(likelihood, better.z, fine);
-    if (again && limit(again->z)) best = *std::move(again);
-  }
+  const auto range = profile_range(
+      likelihood, *best, [&](const Minimum&) { return std::optional<LogOf>(limit); }, family.of_device(),
+      rise_of_95 * shared, fine);
+  if (!range) return std::nullopt;
 
   const auto count = static_cast<Eigen::Index>(start.numbers.size());
   ResponseFit found{family.device_at(best->z), family.numbers(), best->z.head(count), {}, {}};
@@ -94,12 +86,11 @@ std::optional<ResponseFit> fit_response(const ResponseFitSetting& setting) {
   found.covariance = shared * inverse(best->picture.hessian).topLeftCorner(count, count);
   // Neighbouring lines that are off together are fewer than they count.
   const double together = left.freedom > 0.0 ? std::sqrt(std::max(1.0, left.sum / left.freedom)) : 1.0;
-  const double middle = *limit(best->z);
   found.covariance *= together * together;
-  found.lower = std::exp(middle - together * (middle - low.value));
-  found.value = std::exp(middle);
-  found.upper = std::exp(middle + together * (high.value - middle));
-  found.last_change = std::max({last_change(*best, slope), low.last_change, high.last_change});
+  found.lower = std::exp(range->middle - together * (range->middle - range->low.value));
+  found.value = std::exp(range->middle);
+  found.upper = std::exp(range->middle + together * (range->high.value - range->middle));
+  found.last_change = std::max({last_change(*best, slope), range->low.last_change, range->high.last_change});
   found.omnibus = omnibus_of_lines(left);
   return found;
 }

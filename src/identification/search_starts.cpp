@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "identification/model/number_keys.hpp"
 #include "model/loop_keys.hpp"

@@ -8,8 +8,7 @@
 
 namespace zwidth::internal {
 
-/// Places beside a found or linear device where the search may begin again: what stands for another in the first order, and is not
-/// reached from it.
+// Places where a search may begin: what stands for another in the first order is not reached from that.
 
 /// x of the linear device with so much friction on a body, of the force, the less damping for it, and half its lateness as lag.
 [[nodiscard]] Eigen::VectorXd with_friction_and_lag(Eigen::VectorXd x, const MotionModel& model,

@@ -21,7 +21,7 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
   constexpr double first_growth = 2.0;
   constexpr double less = 1e-3;
   double growth = first_growth;
-  constexpr int enough = 2;  // steps in a row that kept less than the least gain
+  constexpr int most_poor = 2;  // steps in a row that keep less than the least gain
   int poor = 0;
   std::vector<bool> held(static_cast<std::size_t>(found.z.size()), false);
   std::fill_n(held.begin(), options.held, true);
@@ -56,10 +56,8 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
       damping = std::max(next_to_none, damping * std::max(0.1, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
       growth = first_growth;
       ++step;
-      if (poor == enough) {
-        found.settled = true;
-        break;
-      }
+      if (poor == most_poor) break;
+      found.ran_out = step == options.most_steps;
     } else {
       damping *= growth;
       growth *= 2.0;

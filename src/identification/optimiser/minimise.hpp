@@ -16,15 +16,15 @@ struct MinimiseOptions {
 
 struct Minimum {
   Eigen::VectorXd z;
-  Picture picture;  ///< there
-  bool settled = false;
+  Picture picture;       ///< there
+  bool settled = false;  ///< no step, less damped or more, promises more than the least gain and keeps any of it
+  bool ran_out = false;  ///< of steps
   Eigen::VectorXd last_step = {};  ///< empty where none was made
 };
 
 /// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.
 ///
-/// It is settled where no step, less damped or more, promises more than the least gain and keeps any of it, and where two in a row
-/// kept less.
+/// It ends where it is settled, where two steps in a row keep less than the least gain, or where the steps run out.
 [[nodiscard]] std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start,
                                               const MinimiseOptions& options = {});
 
