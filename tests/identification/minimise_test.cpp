@@ -51,10 +51,30 @@ TEST(Minimise, LeavesHeldElementsWhereTheyAre) {
   EXPECT_NEAR(found->z(1), 1.44, 1e-2);
 }
 
+TEST(Minimise, EndsAtTheSamePlaceWhateverTheNoiseThatResidualsAreCountedIn) {
+  const auto place = [](double scale) {
+    MinimiseOptions options{.most_steps = 40, .least_gain = 0.1};
+    options.residuals = 2.0;
+    const auto found = minimise(Valley(10.0 * scale, scale), Eigen::Vector2d(-1.2, 1.0), options);
+    return found ? found->z : Eigen::VectorXd();
+  };
+  ASSERT_EQ(place(1.0).size(), 2);
+  EXPECT_TRUE(place(1000.0).isApprox(place(1.0), 1e-6));
+}
+
+TEST(Minimise, StepsThatKeepLittleEndTheSearchUnsettled) {
+  const auto found = minimise(Valley(300.0, 1.0), Eigen::Vector2d(-1.2, 1.44), {.most_steps = 400, .least_gain = 1e-3});
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->settled);
+  EXPECT_FALSE(found->ran_out);
+  EXPECT_GT(found->last_step.norm(), 0.0);
+}
+
 TEST(Minimise, IsNotSettledWhereItsStepsAreUsedUp) {
   const auto found = minimise(Valley{}, Eigen::Vector2d(-1.2, 1.0), {.most_steps = 1, .least_gain = 1e-6});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->settled);
+  EXPECT_TRUE(found->ran_out);
 }
 
 }  // namespace

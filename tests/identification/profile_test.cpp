@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -56,6 +57,44 @@ TEST(Profile, AnEndThatWasStoppedLiesItsLastStepFurtherOut) {
     EXPECT_GT(direction * (end.z(0) - 1.0), 0.0);
     EXPECT_DOUBLE_EQ(end.value, end.z(0) + direction * end.last_change);
     EXPECT_LT(direction * (end.value - 1.0), 19.6);
+  }
+}
+
+TEST(Profile, AnEndThatRestsIsTheEnd) {
+  int resting = 0;
+  for (const double steep : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0}) {
+    for (const double direction : {-1.0, 1.0}) {
+      const ProfileEnd end = end_of(BentValley(steep, true), direction);
+      if (end.last_change > 0.0) continue;
+      ++resting;
+      EXPECT_NEAR(end.value, 1.0 + direction * 19.6, 0.05 * 19.6) << "steep " << steep;
+    }
+  }
+  EXPECT_GT(resting, 0);
+}
+
+/// 0.5 a^2, and kinks of a fiftieth: as friction that stops and starts makes them.
+class RoughBowl final : public LeastSquaresProblem {
+ public:
+  [[nodiscard]] Eigen::VectorXd lowest() const override {
+    return Eigen::VectorXd::Constant(1, -std::numeric_limits<double>::infinity());
+  }
+  [[nodiscard]] std::optional<double> cost(const Eigen::VectorXd& z) const override {
+    return 0.5 * z.squaredNorm() + 0.1 * std::abs(std::sin(20.0 * z(0)));
+  }
+  [[nodiscard]] std::optional<Picture> picture(const Eigen::VectorXd& z) const override {
+    return Picture{*cost(z), z, Eigen::MatrixXd::Identity(1, 1)};
+  }
+};
+
+TEST(Profile, ARoughCostEndsWhereItHasRisen) {
+  const RoughBowl bowl;
+  const Eigen::VectorXd floor = Eigen::VectorXd::Zero(1);
+  const Minimum minimum{floor, *bowl.picture(floor), true};
+  for (const double direction : {-1.0, 1.0}) {
+    const ProfileEnd end = profile_end(
+        bowl, minimum, [](const Eigen::VectorXd& z) { return z(0); }, 1, direction, rise);
+    EXPECT_NEAR(direction * end.value, 1.96, 0.12);
   }
 }
 

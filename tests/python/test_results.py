@@ -12,6 +12,7 @@ import numpy as np
 import pandas
 import pytest
 import zwidth
+from command_line import answers
 from conftest import PROGRAM, ROOT
 from zwidth._results import CLASSES
 
@@ -298,3 +299,13 @@ def test_the_text_of_a_doubtful_device_is_warned_of(lhifam):
         with pytest.warns(zwidth.DoubtfulResult, match="misfit of 3") as caught:
             zwidth.export(doubtful, form, **options)
         assert caught[0].filename == __file__
+
+
+def test_limits_of_an_export_and_of_designs_compared(tmp_path):
+    file = tmp_path / "knob.toml"
+    file.write_text(KNOB)
+    (exported, _), (compared, _) = answers([["export", str(file), "--format", "json"],
+                                            ["design", str(file), "--compare", "loop.delay=0,1e-3", "--json"]], tmp_path)
+    for design, delay in zip(json.loads(compared)["designs"], (0.0, 1e-3)):
+        assert design["limits"] == zwidth.analyze(zwidth.Device.from_toml(KNOB).with_(loop__delay=delay)).to_dict()["limits"]
+    assert json.loads(exported)["limits"] == zwidth.analyze(zwidth.Device.from_toml(KNOB)).to_dict()["limits"]

@@ -21,7 +21,7 @@ std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::Vecto
   constexpr double first_growth = 2.0;
   constexpr double less = 1e-3;
   double growth = first_growth;
-  constexpr int most_poor = 2;  // steps in a row that keep less than the least gain
+  constexpr int most_poor = 3;  // steps in a row that keep less than the least gain
   int poor = 0;
   std::vector<bool> held(static_cast<std::size_t>(found.z.size()), false);
   std::fill_n(held.begin(), options.held, true);

@@ -24,7 +24,7 @@ struct Minimum {
 
 /// A local minimum by Levenberg and Marquardt's method within the bounds. Nothing where the start cannot be computed.
 ///
-/// It ends where it is settled, where two steps in a row keep less than the least gain, or where the steps run out.
+/// It ends where it is settled, where three steps in a row keep less than the least gain, or where the steps run out.
 [[nodiscard]] std::optional<Minimum> minimise(const LeastSquaresProblem& problem, Eigen::VectorXd start,
                                               const MinimiseOptions& options = {});
 
