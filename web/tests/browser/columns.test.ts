@@ -11,8 +11,8 @@ afterAll(() => rmSync(folder, { recursive: true }))
 
 it('takes the unit of a column, to which the remark on counts leads', async () => {
   const file = `${folder}/counts.csv`
-  // The position of the recording's first 4 s in whole steps of 2 um.
-  const [head, ...lines] = readFileSync(`${project}/recordings/locked_chirp.csv`, 'utf8').split('\n', 4001)
+  // The position of the recording's first 6 s in whole steps of 2 um.
+  const [head, ...lines] = readFileSync(`${project}/recordings/locked_chirp.csv`, 'utf8').split('\n', 6001)
   const at = head!.split(',').indexOf('position')
   writeFileSync(
     file,
