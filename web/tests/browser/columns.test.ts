@@ -11,8 +11,8 @@ afterAll(() => rmSync(folder, { recursive: true }))
 
 it('takes the unit of a column, to which the remark on counts leads', async () => {
   const file = `${folder}/counts.csv`
-  // The position of the recording's first 6 s in whole steps of 2 um.
-  const [head, ...lines] = readFileSync(`${project}/recordings/locked_chirp.csv`, 'utf8').split('\n', 6001)
+  // The position of the recording in whole steps of 2 um.
+  const [head, ...lines] = readFileSync(`${project}/recordings/free_motion.csv`, 'utf8').trim().split('\n')
   const at = head!.split(',').indexOf('position')
   writeFileSync(
     file,
@@ -29,6 +29,7 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
   const { page, complaints } = await openPage(here, 1280)
   await runPalette(page, 'show: from a recording')
   await page.getByLabel(/choose it/).setInputFiles(file)
+  await page.getByLabel('Fit', { exact: true }).selectOption('rigid')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
   await page.getByRole('button', { name: 'say what one of them is' }).click()
   await page.waitForFunction(() => document.activeElement?.id === 'scale-position')
@@ -49,7 +50,7 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
     '--position-scale',
     '2e-6',
     '--structure',
-    'two-body',
+    'rigid',
     '--motion',
     'linear',
   )
