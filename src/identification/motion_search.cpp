@@ -91,8 +91,6 @@ class StagedSearch {
         near_model_(family_, first_terms_, start.records, coarse_substeps),
         near_(near_model_, thinned(segments_of(start.records, short_segment), most_samples_near, segments), start,
               beside) {}
-  StagedSearch(const StagedSearch&) = delete;
-  StagedSearch& operator=(const StagedSearch&) = delete;
 
   [[nodiscard]] std::optional<FoundMotion> found() {
     Whole whole = most_likely_of(beginnings());
