@@ -33,7 +33,8 @@ DeviceModel device_model(const Device& device) {
   }
   const TwoRateDevice loop(device, wall.damping);
   if (!loop.is_damper_inside()) require_one_rate(device);
-  DeviceModel model = model_of(device, loop.as_it_runs(device).seen_by_spring(), loop.seen_by_spring());
+  const SampledPlant& plant = loop.seen_by_spring();  // without the filters, which the model's wall has
+  DeviceModel model = model_of(device, loop.as_it_runs(device).seen_by_spring(), plant);
   model.wall.damping = 0.0;
   model.wall.velocity_filter_hz = 0.0;
   model.remarks.push_back(damper_closed_at_own_rate(device));
