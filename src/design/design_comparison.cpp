@@ -24,9 +24,9 @@ ComparedDesign judged(const DeviceVariant& variant, const User& user, Trust& tru
   ComparedDesign design{variant.value, free,           std::move(analysis.critical), std::move(analysis.any_user),
                         std::nullopt,  analysis.limits};
   if (is_present(user)) {
-    const Device held = device_with_user(variant.device, user);
-    design.held = critical_stiffness(held);
-    design.limits.user = holding_limits(held, {.any_user = false}).user;
+    Analysis held = analyze(device_with_user(variant.device, user), {.any_user = false, .draws = 0});
+    design.held = std::move(held.critical);
+    design.limits.user = held.limits.user;
     trust.inherit(design.held->trust);
   }
   return design;

@@ -76,8 +76,9 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
   double promised = 0.0;  // by the first step
   int in_vain = 0;
   bool rests = false;
+  const auto slope_at_end = [&] { return Eigen::VectorXd(-direction * slope_of(number, end.z, varied, lowest)); };
+  Eigen::VectorXd slope = slope_at_end();
   for (int step = 0; step < most_steps && damping < most_damping && !rests;) {
-    const Eigen::VectorXd slope = -direction * slope_of(number, end.z, varied, lowest);
     const Eigen::VectorXd move = step_to_cost(here, slope, lowest - end.z, damping, floor + rise);
     if (step == 0 && damping == 0.0) promised = std::abs(slope.dot(move));
     Place place = drawn_back(problem, minimum, end.z + move, rise, floor + (1.0 + within) * rise);
@@ -105,6 +106,7 @@ ProfileEnd profile_end(const LeastSquaresProblem& problem, const Minimum& minimu
     end.last_change = gain;
     if (rests) break;
     here = *std::move(picture);
+    slope = slope_at_end();
     damping *= 0.1;
     if (damping < 1e-6) damping = 0.0;
   }
