@@ -119,6 +119,18 @@ TEST(MeasuredStiffness, ADeviceOnASpringMayStartALittleAboveZeroDegrees) {
   EXPECT_EQ(measured_stiffness(response).status, Status::found);
 }
 
+// Its resonance, 3.5 Hz, is the sixth line: there the inverse of the response is smooth, which alone tells that lines fit.
+TEST(MeasuredStiffness, AResonanceWhereTheBandBeginsHidesNothing) {
+  DeviceParameters parameters = test::rigid_parameters();
+  Body& body = parameters.bodies.front();
+  body.stiffness = body.mass * std::pow(3.5 * radians_per_turn, 2);
+  const Device device(parameters);
+  const MeasuredStiffness measured = measured_stiffness(exact_response(device, 1.0, 60.0, 0.5));
+  EXPECT_EQ(measured.status, Status::found);
+  ASSERT_TRUE(measured.limit);
+  EXPECT_TRUE(holds(measured.limit->stiffness_interval, critical_stiffness(filtered_plant(device)).stiffness));
+}
+
 TEST(MeasuredStiffness, AMotionOfTheWrongSignIsNotCalledStable) {
   for (const DeviceParameters& parameters : {test::rigid_parameters(), test::lhifam_parameters()}) {
     FrequencyResponse response = exact_response(Device(parameters), 1.0, 450.0, 0.25);

@@ -38,6 +38,23 @@ TEST(WholeRecordResponse, IntervalsOfItsLinesHoldTheTruth) {
   EXPECT_GE(static_cast<double>(held), 0.92 * static_cast<double>(all));
 }
 
+// A sweep's lowest lines: windows as wide as their frequency were 1 to 10 degrees off, with radii of a tenth of that.
+TEST(WholeRecordResponse, TheLowestLinesOfASweepAreRight) {
+  const Device device(test::rigid_parameters());
+  const SampledPlant plant = sampled_plant(device);
+  ExcitationOptions sweep = test::chirp(1.0, 60.0, 12.0);
+  sweep.kind = ExcitationKind::logarithmic_chirp;
+  const auto record = test::synthetic_record(device, sweep, test::Noise{1e-6, 0.0, 0.0}, 1);
+  const FrequencyResponse found = response_of_whole_record(record.force, record.position, 1e-3, 0.5 * turn, {});
+  ASSERT_GE(found.points.size(), 4U);
+  constexpr double nearly = 0.001;  // rad
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ResponsePoint& point = found.points[i];
+    const double off = std::arg(point.value / response(plant, point.frequency));
+    EXPECT_LT(std::abs(off), nearly) << point.frequency / turn << " Hz";
+  }
+}
+
 TEST(StiffnessCurve, ItsProfileHoldsTheCriticalStiffness) {
   const Device device(test::rigid_parameters());
   const CriticalStiffness truth = critical_stiffness(filtered_plant(device));

@@ -36,9 +36,12 @@ std::array<double, 4> cubic_weights(const std::array<double, 4>& nodes, double a
   return weights;
 }
 
+/// What lines are compared with their neighbours by: a response bends at its resonances, its inverse where it is nearly 0.
+using Compared = Complex (*)(Complex ratio);
+
 /// Square of how far line i stands off the cubic through its four neighbours, relative to its magnitude, per component
 /// and as it would be for independent errors. Nothing at the ends.
-std::optional<double> squared_step(std::span<const ResponsePoint> points, std::size_t i) {
+std::optional<double> squared_step(std::span<const ResponsePoint> points, std::size_t i, Compared compared) {
   if (i < 2 || i + 2 >= points.size()) return std::nullopt;
   const std::array<std::size_t, 4> neighbours{i - 2, i - 1, i + 1, i + 2};
   std::array<double, 4> nodes{};
@@ -49,7 +52,7 @@ std::optional<double> squared_step(std::span<const ResponsePoint> points, std::s
   for (std::size_t j = 0; j < 4; ++j) {
     const Complex ratio = points[neighbours[j]].value / points[i].value;
     if (ratio == 0.0 || !std::isfinite(std::abs(ratio))) return std::nullopt;
-    step += weights[j] * std::log(ratio);
+    step += weights[j] * compared(ratio);
     gain += weights[j] * weights[j];
   }
   return 0.5 * std::norm(step) / gain;
@@ -70,11 +73,11 @@ std::optional<double> median_step(std::span<const std::optional<double>> steps) 
 
 /// Relative standard deviation per component by the scatter among neighbours: the median over seven lines to one side,
 /// the calmer one, since the other may hold a resonance, where a response bends more sharply than a cubic.
-std::vector<double> neighbour_scatter(std::span<const ResponsePoint> points) {
+std::vector<double> neighbour_scatter(std::span<const ResponsePoint> points, Compared compared) {
   constexpr std::size_t reach = 6;
   constexpr double lesser_of_two = 1.15;  // as much lower the calmer one of two equal sides is by chance
   std::vector<std::optional<double>> steps(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) steps[i] = squared_step(points, i);
+  for (std::size_t i = 0; i < points.size(); ++i) steps[i] = squared_step(points, i, compared);
   const std::span<const std::optional<double>> all(steps);
   std::vector<double> scatter(points.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -88,7 +91,13 @@ std::vector<double> neighbour_scatter(std::span<const ResponsePoint> points) {
   return scatter;
 }
 
-PhaseLine phase_line(const ResponsePoint& point, double averages, double scatter) {
+/// The scatter of its logarithm and of its inverse among its neighbours.
+struct Scatter {
+  double of_logarithm = 0.0;
+  double of_inverse = 0.0;
+};
+
+PhaseLine phase_line(const ResponsePoint& point, double averages, const Scatter& scatter) {
   PhaseLine line;
   line.frequency = point.frequency;
   line.value = point.value;
@@ -97,9 +106,14 @@ PhaseLine phase_line(const ResponsePoint& point, double averages, double scatter
   const double radius = confidence_radius(point, averages);
   // Where the noise is not known, the neighbours tell; where not even they do, nothing is.
   const bool unknown = !std::isfinite(radius);
-  line.sigma = std::max(unknown ? 0.0 : radius / radius_per_sigma, scatter * magnitude);
-  if (averages > 0.0 && unknown) line.sigma = std::numeric_limits<double>::infinity();
-  line.measured = magnitude > 0.0 && radius_per_sigma * line.sigma < most_relative_radius * magnitude;
+  const auto sigma_with = [&](double relative) {
+    if (averages > 0.0 && unknown) return std::numeric_limits<double>::infinity();
+    return std::max(unknown ? 0.0 : radius / radius_per_sigma, relative * magnitude);
+  };
+  line.sigma = sigma_with(scatter.of_logarithm);
+  // Where the logarithm bends beside a resonance, the inverse tells whether the line is one of a curve.
+  const double least = sigma_with(std::min(scatter.of_logarithm, scatter.of_inverse));
+  line.measured = magnitude > 0.0 && radius_per_sigma * least < most_relative_radius * magnitude;
   if (line.measured) {
     const double imaginary = -point.value.imag();
     line.evidence = line.sigma > 0.0 ? std::clamp(imaginary / line.sigma, -most_evidence, most_evidence)
@@ -113,10 +127,11 @@ PhaseLine phase_line(const ResponsePoint& point, double averages, double scatter
 std::vector<PhaseLine> phase_lines(const FrequencyResponse& response) {
   std::vector<ResponsePoint> points = response.points;
   std::erase_if(points, [&](const ResponsePoint& point) { return is_nyquist(response, point); });
-  const std::vector<double> scatter = neighbour_scatter(points);
+  const std::vector<double> of_logarithm = neighbour_scatter(points, [](Complex ratio) { return std::log(ratio); });
+  const std::vector<double> of_inverse = neighbour_scatter(points, [](Complex ratio) { return 1.0 / ratio - 1.0; });
   std::vector<PhaseLine> lines;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    lines.push_back(phase_line(points[i], response.averages, scatter[i]));
+    lines.push_back(phase_line(points[i], response.averages, {of_logarithm[i], of_inverse[i]}));
   }
   return lines;
 }

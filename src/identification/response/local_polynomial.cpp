@@ -110,13 +110,14 @@ FrequencyResponse local_polynomial_response(std::span<const double> force, std::
                                             const FrequencyResponseOptions& options) {
   // The share of the strongest window's power below which the force excites nothing (-50 dB).
   constexpr double excited_power_share = 1e-5;
+  constexpr double least_middle =
+      4.0;  // half widths: lower, a rigid body's own pole bends a window more than a parabola
   const WholeRecord record(force, output, power_of_falling(options.output));
   const double line = 2.0 * std::numbers::pi / (static_cast<double>(force.size()) * sampling_period);
   const double reach = spacing / line;  // lines
   std::vector<LocalWindow> windows;
   double strongest = 0.0;
-  for (double middle = reach * (1.0 + std::ceil(1.0 / reach)); middle + reach < static_cast<double>(record.lines());
-       middle += reach) {
+  for (double middle = least_middle * reach; middle + reach < static_cast<double>(record.lines()); middle += reach) {
     const auto first = static_cast<std::size_t>(std::ceil(middle - reach - 1e-6));
     const auto last = static_cast<std::size_t>(std::floor(middle + reach + 1e-6));
     windows.push_back({std::max<std::size_t>(first, 1), last + 1 - std::max<std::size_t>(first, 1), middle});
