@@ -407,8 +407,10 @@ enum class FindingCode : std::uint16_t {
   response_depends_as_by_friction,  ///< the response depends on the force as by dry friction
   recordings_disagree_on_limit,     ///< recordings whose critical stiffness lies outside the interval of all
   motion_shows_friction,            ///< the motion shows dry friction that the response takes for damping
+  motion_shows_drag,                ///< the motion shows drag that the response takes for damping
   friction_would_pass_unseen,       ///< dry friction of a size that matters would not show
   friction_unknown,                 ///< the recordings do not show dry friction, nor exclude it
+  one_amplitude,                    ///< forces of one amplitude do not show what is not linear
   table_hides_friction,             ///< a table does not show dry friction
   table_gives_no_reason,            ///< a table doubts its critical stiffness and gives no reason
   motion_against_force,             ///< the position falls as the force rises
@@ -431,6 +433,7 @@ enum class FindingCode : std::uint16_t {
   operator_taken_to_hold,           ///< the structure's operator is taken to hold the device
   nobody_taken_to_hold,             ///< nobody is taken to have held the device
   force_taken_for_command,          ///< the force is taken for the commanded one
+  force_of_one_size,                ///< a drive that loses of its force passes for another gain
   further_body_fitted,              ///< a body that the structure lacks and the motion shows
   dry_friction_fitted,              ///< dry friction beside the linear device
   constant_force,                   ///< a constant force beside the recorded one

@@ -90,6 +90,7 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
   fit.omnibus = fitted->omnibus;
   fit.delay = fitted->delay;
   fit.further_body = fitted->further_body;
+  fit.force_has_one_size = fitted->force_has_one_size;
   fit.doubts_of_data.insert(fit.doubts_of_data.end(), fitted->contradicted.begin(), fitted->contradicted.end());
   for (const Recording& each : recordings) fit.records.push_back({each.source, each.sampling_period});
   Identification result = judged_identification(measured, structure, options, fitted->found, std::move(fit),

@@ -25,6 +25,7 @@ std::vector<Remark> remarks_of_fit(const MeasuredResponse& measured) {
   std::erase_if(remarks, [&](const Remark& remark) {
     const auto is_it = [&](const Remark& other) { return other.finding && other.finding == remark.finding; };
     const bool is_of_response = remark.finding && (remark.finding->code == FindingCode::friction_unknown ||
+                                                   remark.finding->code == FindingCode::one_amplitude ||
                                                    remark.finding->code == FindingCode::table_hides_friction);
     return is_of_response || (measured.stiffness && std::ranges::any_of(measured.stiffness->remarks, is_it));
   });

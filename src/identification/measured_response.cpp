@@ -120,10 +120,11 @@ RecordChecks checked(const Recording& recording, OutputQuantity output) {
   return found;
 }
 
+constexpr double other_force = 1.2;  // times another: more tells what hangs on it
+
 /// Says that recordings disagree, and whether that moves the critical stiffness.
 void judge_dependence(MeasuredResponse& measured, std::span<const Recording> recordings,
                       std::span<const FrequencyResponse> each) {
-  constexpr double other_force = 1.2;
   const AmplitudeDependence& found = *measured.dependence;
   const bool by_force = found.force_ratio > other_force;
   Finding shown{.code = FindingCode::recordings_differ,
@@ -195,7 +196,7 @@ void judge_width(MeasuredResponse& measured) {
 }
 
 /// The interval reaches down to the critical stiffness without as much friction as the recordings leave open: a response takes
-/// friction for damping. Friction that shows, and makes the interval too wide, is the doubt's reason.
+/// friction for damping. What shows of it is a lower bound alone, and a doubt.
 void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recording> recordings,
                                std::span<const FrequencyResponse> each, const FrequencyResponseOptions& options) {
   if (!measured.stiffness || measured.trust.refused() || !stiffness_interval(*measured.stiffness)) return;
@@ -205,9 +206,7 @@ void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recor
     return judge_width(measured);
   }
   const auto& [friction, drag] = *forces;
-  constexpr double clear = 3.5;  // deviations
-  const bool shows = friction.size > clear * friction.deviation;
-  if (measured.dependence && measured.dependence->grows_with_force && shows) {
+  if (measured.dependence && measured.dependence->grows_with_force && friction.shows()) {
     measured.dependence->friction = friction.size;
     measured.dependence->friction_deviation = friction.deviation;
   }
@@ -231,16 +230,35 @@ void judge_width_with_friction(MeasuredResponse& measured, std::span<const Recor
     if (crossover.frequency == limit.frequency) crossover.stiffness_interval.lower = least;
   }
   limit.stiffness_interval.lower = std::min(limit.stiffness_interval.lower, least);
-  if (!is_narrow(*before) || is_narrow({least, before->upper})) return judge_width(measured);
-  const double size = shows ? friction.size : friction.most();
-  Finding found{.code = shows ? FindingCode::motion_shows_friction : FindingCode::friction_would_pass_unseen,
-                .evidence = {{"friction", size}},
-                .subjects = {{"force", force_in_words(size, measured.force_unit)}}};
-  if (remaining > 0.0) {
-    found.subjects.push_back({"stiffness", stiffness_in_words(remaining, measured.force_unit, measured.length_unit)});
-    found.effect.push_back({"critical_stiffness", remaining});
+  const auto doubt_by = [&](FindingCode code, double size) {
+    Finding found{.code = code,
+                  .evidence = {{"friction", size}},
+                  .subjects = {{"force", force_in_words(size, measured.force_unit)}}};
+    if (remaining > 0.0) {
+      found.subjects.push_back({"stiffness", stiffness_in_words(remaining, measured.force_unit, measured.length_unit)});
+      found.effect.push_back({"critical_stiffness", remaining});
+    }
+    measured.trust.doubt(std::move(found));
+  };
+  if (friction.shows()) doubt_by(FindingCode::motion_shows_friction, friction.size);
+  if (drag.shows()) measured.trust.doubt({.code = FindingCode::motion_shows_drag, .evidence = {{"drag", drag.size}}});
+  const bool friction_alone_widens = is_narrow(*before) && !is_narrow({least, before->upper});
+  if (!friction_alone_widens) return judge_width(measured);
+  if (!friction.shows()) doubt_by(FindingCode::friction_would_pass_unseen, friction.most());
+}
+
+/// Whether one of the forces is notably larger than another.
+bool has_several_amplitudes(std::span<const Recording> recordings) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const Recording& each : recordings) {
+    double squares = 0.0;
+    for (const double force : each.channels[0].samples) squares += force * force;
+    const double rms = std::sqrt(squares / static_cast<double>(each.channels[0].samples.size()));
+    least = std::min(least, rms);
+    most = std::max(most, rms);
   }
-  measured.trust.doubt(std::move(found));
+  return most > other_force * least;
 }
 
 /// The response and what it shows of the critical stiffness.
@@ -363,6 +381,8 @@ MeasuredResponse judged(std::span<const Recording> recordings, std::span<const F
   state_units(measured, recordings);
   judge_width_with_friction(measured, recordings, each, decided);
   if (measured.dependence) judge_dependence(measured, recordings, each);
+  if (measured.trust.sound() && !has_several_amplitudes(recordings))
+    measured.remarks.push_back(note({.code = FindingCode::one_amplitude}));
   for (const Finding& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
 }

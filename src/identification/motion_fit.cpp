@@ -182,6 +182,7 @@ std::optional<MotionFit> fit_of(PlayedRecords played, std::span<const Recording>
   fit.contradicted =
       contradicted_numbers(motion, start, options.free.locked, found.best.interval, recordings.front().source);
   fit.delay = given_delay_of(motion, found.best, limit, range->instants);
+  fit.force_has_one_size = has_one_size(start.records);
   return fit;
 }
 

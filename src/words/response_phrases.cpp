@@ -183,6 +183,10 @@ std::span<const Phrase> response_phrases() {
              "larger motions have less of it, and a lower critical stiffness",
              "repeat it with several times the force and give both recordings, or identify the device, which fits "
              "friction"},
+      Phrase{motion_shows_drag, "motion_shows_drag", doubt,
+             "the motion shows drag that grows with the square of the speed, which the response takes for damping",
+             "smaller motions have less of it, and a lower critical stiffness",
+             "repeat it with a third of the force and give both recordings, or identify the device, which fits drag"},
       Phrase{friction_would_pass_unseen, "friction_would_pass_unseen", doubt,
              "dry friction of {force} would pass unseen, and the critical stiffness without it {?stiffness|would be "
              "{stiffness}}{!stiffness|is not known}",
@@ -195,6 +199,11 @@ std::span<const Phrase> response_phrases() {
              "",
              "repeat it with several times the force and give both recordings, or identify the device, which fits "
              "friction"},
+      Phrase{one_amplitude, "one_amplitude", note,
+             "forces of one amplitude: dry friction and whatever else is not linear pass for damping, and make the "
+             "critical stiffness too high",
+             "",
+             "give a recording with several times the force beside it, or identify the device, which fits friction"},
       Phrase{table_hides_friction, "table_hides_friction", note,
              "a table does not show dry friction, which makes a small motion look more damped and the critical "
              "stiffness too high",

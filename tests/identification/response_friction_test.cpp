@@ -139,6 +139,39 @@ TEST(ResponseFriction, ALinearDeviceIsSoundWhereTheNoiseIsLow) {
   EXPECT_GE(10 * sound, 8 * all) << sound << " of " << all;
 }
 
+// What shows of friction and drag is less than there is: a doubt, however narrow the interval.
+TEST(ResponseFriction, WhatShowsIsADoubt) {
+  const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
+  const auto doubts = [](const MeasuredResponse& found, FindingCode code) {
+    return std::ranges::any_of(found.trust.findings, [&](const Finding& each) { return each.code == code; });
+  };
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto of = [&](double coulomb) {
+      return frequency_response(noisy(rubbed(coulomb, ExcitationKind::multisine, seed, 5.0, damped), seed));
+    };
+    EXPECT_TRUE(doubts(of(0.5), FindingCode::motion_shows_friction)) << seed;
+    const MeasuredResponse linear = of(0.0);
+    EXPECT_FALSE(doubts(linear, FindingCode::motion_shows_friction)) << seed;
+    EXPECT_FALSE(doubts(linear, FindingCode::motion_shows_drag)) << seed;
+  }
+}
+
+// A second amplitude would tell what passes for damping.
+TEST(ResponseFriction, OneAmplitudeIsNoted) {
+  const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
+  std::vector<Recording> two{noisy(rubbed(0.0, ExcitationKind::noise, 1, 8.0, damped), 1),
+                             noisy(rubbed(0.0, ExcitationKind::noise, 11, 20.0, damped), 11)};
+  two[1].source = "harder";
+  const auto is_noted = [](const MeasuredResponse& found) {
+    EXPECT_TRUE(found.trust.sound());
+    return std::ranges::any_of(found.remarks, [](const Remark& remark) {
+      return remark.finding && remark.finding->code == FindingCode::one_amplitude;
+    });
+  };
+  EXPECT_TRUE(is_noted(frequency_response(two[1])));
+  EXPECT_FALSE(is_noted(frequency_response(two)));
+}
+
 TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
   const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
   const Recording recording = noisy(rubbed(0.0, ExcitationKind::noise, 1, 20.0, damped), 1);

@@ -176,6 +176,28 @@ TEST(Rivals, PriorsAreOfTheRecord) {
   EXPECT_DOUBLE_EQ(sigma("dead_band"), 0.05 * setting.rms_force);
 }
 
+/// Saturation and dead band of a drive that is given one size of force act as another gain: no number of the fit.
+TEST(Rivals, AForceOfOneSizeTellsNothingOfTheDrive) {
+  const DeviceParameters device = motor_and_handle();
+  const RivalsRecord smooth(1000);
+  RivalsRecord square = smooth;
+  for (double& force : square.force) force = std::copysign(2.0, force);
+  square.force.front() = 0.0;
+  for (const auto& [record, is_of_one_size] : {std::pair<const RivalsRecord*, bool>{&smooth, false}, {&square, true}}) {
+    const std::vector<ForceMotionRecord> records = {record->record()};
+    EXPECT_EQ(has_one_size(records), is_of_one_size);
+    ModelParts parts = numbers_of(device, false);
+    add_rivals(rival_setting(device, {}, records), parts);
+    EXPECT_EQ(parts.has("saturation"), !is_of_one_size);
+    EXPECT_EQ(parts.has("dead_band"), !is_of_one_size);
+  }
+  // A second record of another size tells.
+  RivalsRecord half = square;
+  for (double& force : half.force) force *= 0.5;
+  const std::vector<ForceMotionRecord> both = {square.record(), half.record()};
+  EXPECT_FALSE(has_one_size(both));
+}
+
 /// Of a link that is a damper: of its static stretch it would be 2e5 m.
 TEST(Rivals, PreslidingOfALinkIsOfItsStretchFromTurnToTurn) {
   constexpr double pulse = 60.0;  // rad/s

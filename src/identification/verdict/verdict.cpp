@@ -28,6 +28,7 @@ Verdict verdict_of(const VerdictInput& fit) {
     else
       verdict.remarks.push_back(warning(contradicted(*fit.delay)));
   }
+  if (fit.force_has_one_size) verdict.remarks.push_back(note({.code = FindingCode::force_of_one_size}));
   if (fit.further_body) verdict.remarks.push_back(note(*fit.further_body));
   for (const RivalEstimate& each : fit.rivals) {
     if (auto found = shown_rival(each, fit)) verdict.remarks.push_back(note(*std::move(found)));

@@ -46,6 +46,7 @@ struct VerdictInput {
   std::optional<LimitPlace> place = {};      ///< of the limit of the most likely device
   std::optional<GivenDelay> delay = {};      ///< where one was given
   std::optional<Finding> further_body = {};  ///< one that the structure lacks, and the fitted device has
+  bool force_has_one_size = false;           ///< has_one_size()
   std::vector<Finding> contradictions = {};  ///< refusals: data or given numbers that contradict each other
   std::vector<Finding> doubts_of_data = {};  ///< a clipped signal
   bool motion_tells_none = false;            ///< the lines of the response answer in its place

@@ -7,6 +7,7 @@ constexpr double dead_band_deviation = 0.05;  // of the rms force (docs/identifi
 
 /// The drive gives nothing below this command, and less by it above.
 void add_drive_dead_band(const RivalSetting& setting, ModelParts& parts) {
+  if (setting.has_one_size) return;
   parts.terms.drive.dead_band =
       parts.add({"dead_band", Number::Scale::not_negative, setting.rms_force, 0.0, dead_band_deviation});
 }

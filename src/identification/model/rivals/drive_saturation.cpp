@@ -9,6 +9,7 @@ constexpr double saturation_start = 0.02;
 
 /// The drive gives no more than the largest command less this.
 void add_drive_saturation(const RivalSetting& setting, ModelParts& parts) {
+  if (setting.has_one_size) return;
   parts.terms.drive.saturation = parts.add(
       {"saturation", Number::Scale::not_negative, setting.rms_force, 0.0, saturation_deviation, saturation_start});
 }

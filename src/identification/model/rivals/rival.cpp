@@ -69,7 +69,8 @@ std::vector<double> link_strokes(const DeviceParameters& device, const Device& m
 RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std::string>& locked,
                            std::span<const ForceMotionRecord> records) {
   constexpr std::size_t reach = 5;
-  RivalSetting setting{.device = device, .locked = locked, .records = records.size()};
+  RivalSetting setting{
+      .device = device, .locked = locked, .records = records.size(), .has_one_size = has_one_size(records)};
   const auto rms = [](double squares, std::size_t count) { return std::sqrt(squares / static_cast<double>(count)); };
   for (const ForceMotionRecord& record : records) {
     double force_squares = 0.0;
@@ -94,6 +95,25 @@ RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std
   }
   if (!device.links.empty()) setting.link_strokes = link_strokes(device, recorded_device(device, locked), records);
   return setting;
+}
+
+bool has_one_size(std::span<const ForceMotionRecord> records) {
+  constexpr double near = 0.05;  // of the largest
+  constexpr double few = 0.01;   // of all samples
+  double largest = 0.0;
+  for (const ForceMotionRecord& record : records) {
+    for (const double force : record.force) largest = std::max(largest, std::abs(force));
+  }
+  double others = 0.0;
+  double samples = 0.0;
+  for (const ForceMotionRecord& record : records) {
+    for (const double force : record.force) {
+      const double size = std::abs(force) / largest;
+      if (size > near && size < 1.0 - near) others += 1.0;
+    }
+    samples += static_cast<double>(record.force.size());
+  }
+  return others <= few * samples;
 }
 
 double typical_damping(const RivalSetting& setting) {

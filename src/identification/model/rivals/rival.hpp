@@ -27,7 +27,8 @@ struct RivalSetting {
   double duration = 0.0;            ///< s, of the longest record
   double sampling_period = 0.0;     ///< s
   std::size_t records = 1;
-  bool frees_lag = false;  ///< a lag may hide beside the delay
+  bool frees_lag = false;     ///< a lag may hide beside the delay
+  bool has_one_size = false;  ///< has_one_size()
   /// m or rad, of each link whose bodies move, else 0: how far it stretches from one turn to the next, v^2/a of its rms speed and
   /// acceleration, in the linear device under the recorded force.
   std::vector<double> link_strokes = {};
@@ -37,6 +38,10 @@ struct RivalSetting {
 /// Requires a force and a motion in each.
 [[nodiscard]] RivalSetting rival_setting(const DeviceParameters& device, const std::vector<std::string>& locked,
                                          std::span<const ForceMotionRecord> records);
+
+/// Whether the force is 0 or of one size, but for a few samples: what a drive loses of it passes for another gain, which no record
+/// shows.
+[[nodiscard]] bool has_one_size(std::span<const ForceMotionRecord> records);
 
 /// N s/m or N m s/rad: what all bodies' dampings come to, at least 2 % of the rms force over the rms speed.
 [[nodiscard]] double typical_damping(const RivalSetting& setting);
