@@ -59,11 +59,11 @@ RecordingFormat format_of(const std::string& text) {
   return RecordingFormat::detect;  // CLI11 has checked the word
 }
 
-/// Whether a column is called so, alone, with an SI unit behind "_" or with a unit in brackets, which the reader scales by:
-/// "force", "torque_N_m", "position [mm]". "position_in" may be anything.
-bool is_called(std::string_view column, std::string_view name, Measure measure) {
-  if (!column.starts_with(name)) return false;
-  std::string unit(column.substr(name.size()));
+/// Whether a column is called so, alone or with a unit that the reader scales by: "force", "torque_N_m", "torque_mNm",
+/// "position [mm]". "position_in" may be anything.
+bool is_called(const RecordingColumn& column, std::string_view name, Measure measure) {
+  if (!column.name.starts_with(name)) return false;
+  std::string unit = column.name.substr(name.size());
   if (unit.empty()) return true;
   const bool is_bare = unit.front() == '_';
   if (!is_bare && unit.front() != '[' && unit.front() != '(' && unit.front() != ' ') return false;
@@ -71,7 +71,7 @@ bool is_called(std::string_view column, std::string_view name, Measure measure) 
       unit, [](char c) { return std::string_view("_[]()").find(c) != std::string_view::npos; }, ' ');
   return std::ranges::any_of(std::array{Motion::linear, Motion::rotary}, [&](Motion motion) {
     const auto size = measured_number("1 " + unit, measure, motion);
-    return size && (!is_bare || *size == 1.0);
+    return size && (!is_bare || *size == 1.0 || column.name.substr(name.size() + 1) == column.unit);
   });
 }
 
@@ -86,7 +86,7 @@ std::string column_called(const RecordingArguments& arguments, std::initializer_
   const std::string first(*names.begin());
   if (std::ranges::count(contents->columns, first, &RecordingColumn::name) == 1) return first;
   for (const RecordingColumn& column : contents->columns) {
-    const bool is_one = std::ranges::any_of(names, [&](auto name) { return is_called(column.name, name, measure); });
+    const bool is_one = std::ranges::any_of(names, [&](auto name) { return is_called(column, name, measure); });
     if (is_one && !found.empty()) return "";
     if (is_one) found = column.name;
   }

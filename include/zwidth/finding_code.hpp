@@ -433,6 +433,7 @@ enum class FindingCode : std::uint16_t {
   operator_taken_to_hold,           ///< the structure's operator is taken to hold the device
   nobody_taken_to_hold,             ///< nobody is taken to have held the device
   force_taken_for_command,          ///< the force is taken for the commanded one
+  rows_fitted_in_part,              ///< of long recordings evenly spread parts are fitted
   force_of_one_size,                ///< a drive that loses of its force passes for another gain
   further_body_fitted,              ///< a body that the structure lacks and the motion shows
   dry_friction_fitted,              ///< dry friction beside the linear device

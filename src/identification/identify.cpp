@@ -96,6 +96,11 @@ Identification identified_by_motion(std::span<const Recording> recordings, const
   Identification result = judged_identification(measured, structure, options, fitted->found, std::move(fit),
                                                 IdentifyOptions::Method::motion);
   result.motions = fitted->motions;
+  constexpr double all_but_ends = 0.9;  // rows that no segment begins or ends with are few
+  if (fitted->fitted_share < all_but_ends) {
+    result.remarks.push_back(
+        note({.code = FindingCode::rows_fitted_in_part, .evidence = {{"share", fitted->fitted_share}}}));
+  }
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "identification/further_body.hpp"
 #include "identification/model/number_keys.hpp"
 #include "identification/motion_search.hpp"
+#include "identification/motion_segments.hpp"
 #include "identification/verdict/calibration.hpp"
 #include "identification/verdict/confidence.hpp"
 #include "identification/verdict/finding_of_fit.hpp"
@@ -182,6 +183,7 @@ std::optional<MotionFit> fit_of(PlayedRecords played, std::span<const Recording>
   fit.contradicted =
       contradicted_numbers(motion, start, options.free.locked, found.best.interval, recordings.front().source);
   fit.delay = given_delay_of(motion, found.best, limit, range->instants);
+  fit.fitted_share = fitted_share(motion.evidence->segments(), start.records);
   fit.force_has_one_size = has_one_size(start.records);
   return fit;
 }

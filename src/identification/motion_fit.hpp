@@ -32,6 +32,7 @@ struct MotionFit {
   std::vector<FittedMotion> motions;         ///< by recording
   std::optional<GivenDelay> delay;           ///< where the structure's was taken
   std::vector<Finding> contradicted;         ///< contradicted_numbers()
+  double fitted_share = 1.0;                 ///< of all rows
   bool force_has_one_size = false;           ///< has_one_size()
   std::optional<Finding> further_body = {};  ///< fitted because the structure leaves motion that follows the force
 };

@@ -89,8 +89,9 @@ class StagedSearch {
         linear_(family_.coordinates_of(start.device)),
         first_terms_(without_link_frictions(start.parts.terms)),
         near_model_(family_, first_terms_, start.records, coarse_substeps),
-        near_(near_model_, thinned(segments_of(start.records, short_segment), most_samples_near, segments), start,
-              beside) {}
+        near_(near_model_,
+              thinned(segments_of(start.records, short_segment), thinning(start.records, most_samples_near), segments),
+              start, beside) {}
 
   [[nodiscard]] std::optional<FoundMotion> found() {
     Whole whole = most_likely_of(beginnings());
@@ -229,7 +230,8 @@ std::optional<FoundMotion> from_structure(const MotionStart& start, const std::v
 
 std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
                                         const MotionSearchOptions& options) {
-  const std::vector<Segment> segments = thinned(segments_of(start.records, options.segment), most_samples_whole, {});
+  const std::size_t every = thinning(start.records, most_samples_whole);
+  const std::vector<Segment> segments = thinned(segments_of(start.records, options.segment, every), every, {});
   auto found = StagedSearch(start, locked, segments, options.beside).found();
   if (!start.known || start.known->links.empty() || (found && !rubs(*found->model, found->best))) return found;
   auto known = from_structure(start, locked, segments, options.beside);

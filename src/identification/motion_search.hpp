@@ -30,7 +30,7 @@ struct MotionSearchOptions {
 /// acts from the halves on: its damping stands for it before. Where the structure is a device's, the search begins at its own
 /// values too: a link above what the force excites shows in nothing but how a body that rubs stops and starts.
 ///
-/// Of records of more than 30 000 samples evenly spread segments are fitted. Nothing where no start can be played.
+/// Of records of more than 30 000 samples in all, evenly spread segments of each are fitted. Nothing where no start can be played.
 [[nodiscard]] std::optional<FoundMotion> found_motion(const MotionStart& start, const std::vector<std::string>& locked,
                                                       const MotionSearchOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "counted.hpp"
 #include "io/column_names.hpp"
+#include "io/column_unit.hpp"
 #include "io/exported_columns.hpp"
 #include "io/prose.hpp"
 #include "io/raw_column.hpp"
@@ -137,7 +138,8 @@ tl::expected<Recording, InputError> read_recording(const RecordedColumns& record
 RecordingContents list_recording(const RecordedColumns& recorded) {
   RecordingContents contents;
   for (const RecordedColumn& each : recorded.columns) {
-    contents.columns.push_back({each.name, each.samples.size(), "in memory"});
+    contents.columns.push_back(
+        {each.name, each.samples.size(), "in memory", std::string(unit_of_column(each.name).text)});
   }
   return contents;
 }

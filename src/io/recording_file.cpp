@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/column_unit.hpp"
 #include "io/input_file.hpp"
 #include "io/mat_recording.hpp"
 #include "io/prose.hpp"
@@ -102,7 +103,10 @@ tl::expected<Recording, InputError> read_recording(const std::string& path, cons
 
 tl::expected<RecordingContents, InputError> list_recording(const std::string& path, const RecordingOptions& options,
                                                            const Progress& progress) {
-  return by_format(path, options, progress, list_mat_recording, list_uff_recording, list_text_recording);
+  auto contents = by_format(path, options, progress, list_mat_recording, list_uff_recording, list_text_recording);
+  if (!contents) return contents;
+  for (RecordingColumn& each : contents->columns) each.unit = unit_of_column(each.name).text;
+  return contents;
 }
 
 }  // namespace zwidth

@@ -158,7 +158,8 @@ std::span<const Phrase> design_phrases() {
              "{rate_hz}, its force {delay:time} later, allows {gain} times the stiffness of the best damper in the "
              "spring's loop: "
              "{stiffness} rather than {one_rate_stiffness}{?any_user_stiffness|; any passive user then leaves "
-             "{any_user_stiffness:limit}}",
+             "{any_user_stiffness:limit}}{?force_per_count|; one step of the encoder then moves the force by "
+             "{force_per_count}}",
              "", "set [loop.damper] to the rate and delay of the drive, and ask again"},
       Phrase{
           damper_alone_on_drive, "damper_alone_on_drive", note,

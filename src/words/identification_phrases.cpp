@@ -114,6 +114,8 @@ std::span<const Phrase> identification_phrases() {
              "of a load cell's, or beside a later position, what delays the command (a bus, a drive) is not in the "
              "record, and the critical stiffness comes out up to several times too high",
              "record the command beside the position read before it, or add that delay as loop.delay"},
+      Phrase{rows_fitted_in_part, "rows_fitted_in_part", note,
+             "the recordings are long: {share:percent} of their rows, spread evenly over each, are fitted"},
       Phrase{force_of_one_size, "force_of_one_size", note,
              "the force has one size: a drive that saturates or has a dead band passes for one of another gain",
              "the critical stiffness is wrong by as much", "record a force of several sizes: a multisine, a sweep"},

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -296,6 +297,11 @@ TEST_F(Frf, SoDoColumnsCalledSoWithAUnit) {
   EXPECT_EQ(rotary["units"]["stiffness"], "N m/rad");
   // Without a unit the names alone say that it turns.
   EXPECT_EQ(document(renamed("time,torque,angle") + " --json")["units"]["stiffness"], "N m/rad");
+  // The reader scales by what such a name ends with.
+  const json small = document(renamed("time,torque_mNm,angle_deg") + " --json");
+  const double milli_per_degree = 1e-3 * 180.0 / std::numbers::pi;
+  const double stiffness = plain["critical_stiffness"].get<double>();
+  EXPECT_NEAR(small["critical_stiffness"].get<double>(), milli_per_degree * stiffness, 1e-6 * stiffness);
   expect_refusal(renamed("time,force_error,position"), "--force: missing");
   // What the reader would not scale by: feet, or what comes in.
   for (const char* name : {"position_ft", "position_in", "position_km"}) {

@@ -133,6 +133,20 @@ TEST(DriveDamper, AOneRateRecommendationSaysWhatItWouldGive) {
   EXPECT_FALSE(recommend_wall(held_by_cable(), {.alternatives = false}).drive_damper);  // unless asked
 }
 
+// Of a device whose encoder is known the finding says what one count then does.
+TEST(DriveDamper, ItsFindingHasTheForcePerCount) {
+  DeviceParameters parameters = held_by_cable().parameters();
+  parameters.sensor.resolution = 3.14e-6;
+  const Device device(parameters);
+  const auto found = recommend_wall(device, {.alternatives = false, .drive_damper = true}).drive_damper;
+  ASSERT_TRUE(found);
+  const auto per_count = std::ranges::find(found->why.evidence, "force_per_count", &Evidence::name);
+  ASSERT_NE(per_count, found->why.evidence.end());
+  const Device walled =
+      walled_with(*with_damper_on_drive(device), found->stiffness, found->damping, found->velocity_filter_hz);
+  EXPECT_EQ(per_count->value, force_per_count(walled)->largest);
+}
+
 TEST(DriveDamper, TheEncodersStepsBoundItsWall) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.sensor.resolution = 3.14e-6;

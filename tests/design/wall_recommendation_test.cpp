@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "lhifam.hpp"
+#include "zwidth/design/drive_damper.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/absolute_stability.hpp"
@@ -44,6 +46,25 @@ TEST(WallRecommendation, RippleBoundsStiffnessAndDampingTogether) {
     EXPECT_GE(*answer.wall->wall.stiffness, softer);
     softer = *answer.wall->wall.stiffness;
   }
+}
+
+// One count that takes the force from end to end makes a relay of any wall: no ripple need be asked for that.
+TEST(WallRecommendation, OneCountTakesNoMoreThanTheForceLimit) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.sensor.resolution = 1e-3;
+  const WallRecommendation unlimited = recommend_wall(Device(parameters), {.alternatives = false});
+  parameters.actuator.force_limit = 5.0;
+  const Device device(parameters);
+  const WallRecommendation limited = recommend_wall(device, {.alternatives = false});
+  ASSERT_TRUE(unlimited.wall && limited.wall);
+  EXPECT_GT(unlimited.wall->force_per_count->largest, 5.0);
+  EXPECT_LE(limited.wall->force_per_count->largest, 5.0 * (1.0 + 1e-12));
+  EXPECT_TRUE(std::ranges::any_of(limited.remarks, [](const Remark& remark) {
+    return remark.finding && remark.finding->code == FindingCode::no_ripple_asked;
+  }));
+  const WallRecommendation on_drive = recommend_wall(*with_damper_on_drive(device), {.alternatives = false});
+  ASSERT_TRUE(on_drive.wall);
+  EXPECT_LE(on_drive.wall->force_per_count->largest, 5.0 * (1.0 + 1e-9));
 }
 
 TEST(WallRecommendation, CriticalDampingMeansRealPolesOfTheContact) {

@@ -34,7 +34,8 @@ struct RecommendationOptions {
   /// destabilises the loop; from 1 to 1e5.
   double gain_margin = 2.0;                      // 6 dB
   double phase_margin = std::numbers::pi / 6.0;  ///< least, with nobody and with the file's user; 0 to pi/2 rad
-  /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: not bounded.
+  /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: the actuator's force limit, where that
+  /// and the resolution are known: a wall whose force one count takes from end to end is a relay.
   std::optional<double> quantisation_force = {};
   /// The vibration modes may lie anywhere from (1 - uncertainty) to (1 + uncertainty) times their frequency, see with_modal_shift(); from 0
   /// to 0.9; above 0 the device needs a link.

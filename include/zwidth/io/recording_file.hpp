@@ -88,6 +88,8 @@ struct RecordingColumn {
   std::string name;      ///< as the file has it, or its number from 1
   std::size_t size = 0;  ///< samples
   std::string detail;    ///< "double 50000x1", "time record, 0.0004 s", "frequency response"; may be empty
+  std::string unit =
+      {};  ///< as its name states it, "mNm" of "torque_mNm": the reader scales by it; empty: nothing for sure
 };
 
 /// What a recording file holds, before columns are chosen.

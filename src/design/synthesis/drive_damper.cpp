@@ -18,6 +18,7 @@
 #include "zwidth/model/damper_timing.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/critical_damping.hpp"
+#include "zwidth/stability/force_per_count.hpp"
 
 namespace zwidth {
 
@@ -147,6 +148,9 @@ void complete(DriveDamper& found, const Device& on_drive) {
                             {"gain", found.gain}},
                .key = "loop.damper.sampling_period"};
   std::vector<Evidence>& evidence = found.why.evidence;
+  const Device walled = with_wall(on_drive, found.stiffness, {found.damping, found.velocity_filter_hz});
+  if (const auto per_count = force_per_count(walled))
+    evidence.push_back({"force_per_count", per_count->largest, units.force});
   if (found.velocity_filter_hz > 0.0) evidence.push_back({"velocity_filter_hz", found.velocity_filter_hz, "Hz"});
   if (found.absolute_stability_limit) {
     evidence.push_back({"any_user_stiffness", *found.absolute_stability_limit, units.stiffness});

@@ -94,11 +94,6 @@ class Recommendation {
     if (options_.alternatives) wall.bounded_by = bounds_of(*best);
     result.status = WallRecommendation::Status::found;
     result.wall = std::move(wall);
-    if (!options_.quantisation_force && result.wall->force_per_count) {
-      result.remarks.push_back(note({.code = FindingCode::no_ripple_asked,
-                                     .evidence = {{"force_per_count", result.wall->force_per_count->largest,
-                                                   units_of(device_.parameters().motion).force}}}));
-    }
     stages_.next(1.0);
     if (options_.alternatives) add_alternatives(*best, plain, result);
     stages_.done();
@@ -347,6 +342,21 @@ WallRecommendation recommended(const Device& device, const RecommendationOptions
   return result;
 }
 
+/// Bounds the force per count as RecommendationOptions::quantisation_force says where none is asked.
+RecommendationOptions bounded(RecommendationOptions options, const Device& device) {
+  const DeviceParameters& parameters = device.parameters();
+  if (!options.quantisation_force && parameters.sensor.resolution > 0.0)
+    options.quantisation_force = parameters.actuator.force_limit;
+  return options;
+}
+
+void note_force_per_count(const Device& device, WallRecommendation& result) {
+  if (!result.wall || !result.wall->force_per_count) return;
+  result.remarks.push_back(note({.code = FindingCode::no_ripple_asked,
+                                 .evidence = {{"force_per_count", result.wall->force_per_count->largest,
+                                               units_of(device.parameters().motion).force}}}));
+}
+
 WallRecommendation refused(Trust trust) {
   WallRecommendation result;
   result.status = WallRecommendation::Status::refused;
@@ -365,7 +375,8 @@ WallRecommendation internal::recommended_wall(const Device& device, const Recomm
   try {
     trust.inherit(critical_stiffness(without_wall(device)).trust);
     if (trust.refused()) return refused(std::move(trust));
-    WallRecommendation result = recommended(device, options);
+    WallRecommendation result = recommended(device, bounded(options, device));
+    if (!options.quantisation_force) note_force_per_count(device, result);
     trust.inherit(result.trust);
     result.trust = trust;
     return result;
