@@ -19,15 +19,19 @@
 namespace zwidth::internal {
 namespace {
 
-/// The remarks, less those of the limit that the response alone shows, which a fit does not ask.
-std::vector<Remark> remarks_of_fit(const MeasuredResponse& measured) {
+/// The remarks, less those of the limit that the response alone shows, which a fit does not ask; a fit of the motion has the
+/// friction too that makes responses differ.
+std::vector<Remark> remarks_of_fit(const MeasuredResponse& measured, IdentifyOptions::Method method) {
   std::vector<Remark> remarks = measured.remarks;
   std::erase_if(remarks, [&](const Remark& remark) {
     const auto is_it = [&](const Remark& other) { return other.finding && other.finding == remark.finding; };
     const bool is_of_response = remark.finding && (remark.finding->code == FindingCode::friction_unknown ||
                                                    remark.finding->code == FindingCode::one_amplitude ||
                                                    remark.finding->code == FindingCode::table_hides_friction);
-    return is_of_response || (measured.stiffness && std::ranges::any_of(measured.stiffness->remarks, is_it));
+    const bool is_fitted = remark.finding && method == IdentifyOptions::Method::motion &&
+                           remark.finding->code == FindingCode::response_depends_as_by_friction;
+    return is_of_response || is_fitted ||
+           (measured.stiffness && std::ranges::any_of(measured.stiffness->remarks, is_it));
   });
   return remarks;
 }
@@ -95,7 +99,7 @@ Identification judged_identification(const MeasuredResponse& measured, const Dev
                         .method = method,
                         .response = measured.response,
                         .fit = {.device = structure, .misfit = {}}};
-  result.remarks = remarks_of_fit(measured);
+  result.remarks = remarks_of_fit(measured, method);
   if (found) {
     Interval& interval = found->best.interval;
     fit.limit = told_limit(interval);

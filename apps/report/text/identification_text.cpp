@@ -26,11 +26,15 @@ std::size_t shown_of(std::size_t count, std::size_t most, ShownFindings shown) {
   return shown == ShownFindings::all ? count : std::min(count, most);
 }
 
-std::string fit_quality(const ParameterFit& fit) {
+/// `is_of_motion`: the response is where the fit began, and has in it what is not linear.
+std::string fit_quality(const ParameterFit& fit, bool is_of_motion) {
   if (fit.frequencies.empty()) return "";
   std::string text = fmt::format("Response: {} points from {:.4g} to {:.4g} Hz", fit.frequencies.size(),
                                  hertz(fit.frequencies.front()), hertz(fit.frequencies.back()));
-  if (fit.misfit) text += fmt::format("; residuals {:.3g} times the noise (1: the noise explains them)", *fit.misfit);
+  if (fit.misfit) {
+    text += is_of_motion ? fmt::format("; the linear device alone leaves {:.3g} times its noise", *fit.misfit)
+                         : fmt::format("; residuals {:.3g} times the noise (1: the noise explains them)", *fit.misfit);
+  }
   if (fit.model_error > 1e-4) {
     text += fmt::format("; {:.3g} % of the response unexplained beyond it", 100.0 * std::min(fit.model_error, 10.0));
   }
@@ -174,7 +178,7 @@ TextTable rival_table(const Identification& identified, ShownFindings shown) {
 std::string quality_of_fit(const Identification& identified) {
   const Motion motion = identified.fit.device.parameters().motion;
   std::vector<std::string> sentences = motion_quality(identified.motions, motion, ShownFindings::all);
-  sentences.push_back(fit_quality(identified.fit));
+  sentences.push_back(fit_quality(identified.fit, !identified.motions.empty()));
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
@@ -190,7 +194,8 @@ std::string identification_text(const Identification& identified, ShownFindings 
   text += rivals_text(identified, shown) + "\n";
   if (const auto limit = limited_by(identified)) text += wrap(*limit, line_width, 0);
   text += paragraphs(motion_quality(identified.motions, motion, shown), 0);
-  if (const std::string quality = fit_quality(fit); !quality.empty()) text += wrap(quality, line_width, 0);
+  if (const std::string quality = fit_quality(fit, !identified.motions.empty()); !quality.empty())
+    text += wrap(quality, line_width, 0);
   return text + findings.remarks;
 }
 
