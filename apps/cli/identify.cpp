@@ -279,9 +279,8 @@ void add_identify(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_flag("--from-structure", arguments->from_structure,
                     "Start from the structure's values instead of what the data suggest");
-  command
-      ->add_flag("--no-hold", arguments->no_hold, "Without effect: no fit is held to the measured critical stiffness")
-      ->group("");
+  command->add_flag("--no-hold", arguments->no_hold,
+                    "Without effect: no fit is held to the measured critical stiffness");
   command->add_option("--output-device", arguments->output_device, "Write the fitted device; - is standard output")
       ->type_name("FILE.toml");
   add_output_options(*command, arguments->output,
