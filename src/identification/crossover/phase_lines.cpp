@@ -36,7 +36,8 @@ std::array<double, 4> cubic_weights(const std::array<double, 4>& nodes, double a
   return weights;
 }
 
-/// What lines are compared with their neighbours by: a response bends at its resonances, its inverse where it is nearly 0.
+/// What lines are compared with their neighbours by. The logarithm of a response bends beside its resonances, where its inverse is
+/// smooth.
 using Compared = Complex (*)(Complex ratio);
 
 /// Square of how far line i stands off the cubic through its four neighbours, relative to its magnitude, per component

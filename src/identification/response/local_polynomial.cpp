@@ -110,8 +110,7 @@ FrequencyResponse local_polynomial_response(std::span<const double> force, std::
                                             const FrequencyResponseOptions& options) {
   // The share of the strongest window's power below which the force excites nothing (-50 dB).
   constexpr double excited_power_share = 1e-5;
-  constexpr double least_middle =
-      4.0;  // half widths: lower, a rigid body's own pole bends a window more than a parabola
+  constexpr double least_middle = 4.0;  // half widths: lower, a rigid body's own pole bends a window
   const WholeRecord record(force, output, power_of_falling(options.output));
   const double line = 2.0 * std::numbers::pi / (static_cast<double>(force.size()) * sampling_period);
   const double reach = spacing / line;  // lines
