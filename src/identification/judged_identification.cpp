@@ -1,6 +1,7 @@
 #include "identification/judged_identification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -22,16 +23,16 @@ namespace {
 /// The remarks, less those of the limit that the response alone shows, which a fit does not ask; a fit of the motion has the
 /// friction too that makes responses differ.
 std::vector<Remark> remarks_of_fit(const MeasuredResponse& measured, IdentifyOptions::Method method) {
+  constexpr std::array of_response_alone{FindingCode::friction_unknown, FindingCode::one_amplitude,
+                                         FindingCode::table_hides_friction};
   std::vector<Remark> remarks = measured.remarks;
   std::erase_if(remarks, [&](const Remark& remark) {
-    const auto is_it = [&](const Remark& other) { return other.finding && other.finding == remark.finding; };
-    const bool is_of_response = remark.finding && (remark.finding->code == FindingCode::friction_unknown ||
-                                                   remark.finding->code == FindingCode::one_amplitude ||
-                                                   remark.finding->code == FindingCode::table_hides_friction);
-    const bool is_fitted = remark.finding && method == IdentifyOptions::Method::motion &&
-                           remark.finding->code == FindingCode::response_depends_as_by_friction;
-    return is_of_response || is_fitted ||
-           (measured.stiffness && std::ranges::any_of(measured.stiffness->remarks, is_it));
+    if (!remark.finding) return false;
+    const FindingCode code = remark.finding->code;
+    if (std::ranges::find(of_response_alone, code) != of_response_alone.end()) return true;
+    if (method == IdentifyOptions::Method::motion && code == FindingCode::response_depends_as_by_friction) return true;
+    const auto is_it = [&](const Remark& other) { return other.finding == remark.finding; };
+    return measured.stiffness && std::ranges::any_of(measured.stiffness->remarks, is_it);
   });
   return remarks;
 }
